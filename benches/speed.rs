@@ -63,7 +63,7 @@ fn jointed_tests(bencher: Bencher) {
     });
 }
 
-/// Simulated seconds of `grid-traffic`: a car under test on its way among a hundred cars.
+/// Simulated seconds of `grid-traffic`: an ego vehicle on its way among a hundred cars.
 #[divan::bench(sample_count = 20)]
 fn grid_traffic(bencher: Bencher) {
     let study = study("grid-traffic");

@@ -81,7 +81,7 @@ impl Gallery {
         at: f64,
         air: Option<Atmosphere>,
     ) -> Result<(), Box<dyn Error>> {
-        let program = paracosm::scenarios::find(name).ok_or("no such scenario")?;
+        let program = paracosm::scenarios::find(name).ok_or("the catalogue has no scenario of this name")?;
         let test: Values = program.declare()?.nominal();
         let mut run = Run::new(program, &test, Setup::asking_every(0.1))?;
         let stage = stages.of(run.network());
@@ -92,7 +92,7 @@ impl Gallery {
                 seen = Some((stage.scene(run), run.bodies()[0].pose));
             }
         });
-        let (mut scene, pose) = seen.ok_or("it was over before it began")?;
+        let (mut scene, pose) = seen.ok_or("the run was over before it began")?;
         scene.instances.retain(|instance| instance.id != 1);
         scene.air = air.unwrap_or(scene.air);
         let camera = Camera::new(800, 400, WIDE, SENSOR)?.mounted(Point3::new(0.3, 0.0, 1.35), 0.0, 0.03, 0.0)?;
@@ -116,7 +116,7 @@ fn write(path: &Path, frame: &Frame) -> Result<(), Box<dyn Error>> {
     let mut encoder = png::Encoder::new(File::create(path)?, frame.width(), frame.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header()?.write_image_data(frame.rgb.as_deref().ok_or("it has no colours")?)?;
+    encoder.write_header()?.write_image_data(frame.rgb.as_deref().ok_or("the frame has no colours")?)?;
     Ok(())
 }
 

@@ -1,10 +1,10 @@
 //! PARACOSM: coverage-driven testing and falsification of autonomous driving systems.
 //!
-//! A [`Study`] says what is tested how: a scenario, a driver, the open parameters, a strategy and a budget. [`run_into`] runs it,
-//! test by test on all cores, and writes into a folder every [`Trial`], how well the tests cover the space, where they fail
-//! and in which ways. The crates below each do one thing: [`space`] has parameters and constraints, [`coverage`] measures,
-//! [`generators`] propose, [`engine`] simulates, [`oracles`] judge, [`scenarios`] are the worlds, [`campaign`] runs,
-//! [`analysis`] learns, [`report`] shows.
+//! A [`Study`] describes a campaign: a scenario, a driver, the open parameters, a strategy and a budget. [`run_into`]
+//! runs the study on all cores. It writes a folder with every [`Trial`], the coverage of the space, the failure map and
+//! the failure modes. Each crate below does one thing: [`space`] has parameters and constraints, [`coverage`] measures
+//! sets of tests, [`generators`] propose tests, [`engine`] simulates a test, [`oracles`] judge a trace, [`scenarios`]
+//! has the worlds, [`campaign`] runs a study, [`analysis`] reads its log, [`report`] draws figures and writes tables.
 //!
 //! ```
 //! use paracosm::{Campaign, Study, Trial, catalogue};
@@ -40,17 +40,17 @@ pub use paracosm_rpc as rpc;
 pub use paracosm_scenarios as scenarios;
 pub use paracosm_space as space;
 
-/// Every scenario that can be named: those that come with the software.
+/// Returns the catalogue of all scenarios that come with the software.
 pub fn catalogue() -> Catalogue {
     Catalogue::of(scenarios::ALL)
 }
 
-/// The examples of the README, as tests.
+/// Runs the examples of the README as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The examples of the page on extending the software, as tests.
+/// Runs the examples of the page on extending the software as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/extending.md")]
 struct Extending;

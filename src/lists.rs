@@ -1,5 +1,5 @@
-//! Everything that can be chosen by name, read from the descriptors: behind `paracosm-fuzz list`, and behind the tables that
-//! documents have.
+//! The lists of everything that has a name, read from the descriptors. `paracosm-fuzz list` and the tables of documents
+//! show these lists.
 
 use crate::campaign::study::ListedDriver;
 use crate::coverage::Measure;
@@ -7,26 +7,26 @@ use crate::engine::{Program, sensor};
 use crate::generators::Strategy;
 use crate::scenarios;
 
-/// Everything that can be chosen by name.
+/// The lists of everything that has a name.
 #[derive(Debug, Clone)]
 pub struct Lists {
     /// The scenarios of the catalogue.
     pub scenarios: Vec<Program>,
-    /// How tests are chosen.
+    /// The strategies, which choose tests.
     pub strategies: Vec<Strategy>,
-    /// The systems under test that can be driven with.
+    /// The drivers, which are systems under test.
     pub drivers: Vec<ListedDriver>,
-    /// How well tests cover a space.
+    /// The measures of how well tests cover a space.
     pub measures: Vec<Measure>,
-    /// What a driver can perceive with.
+    /// The sensors of drivers.
     pub sensors: Vec<sensor::Descriptor>,
-    /// The numbers that describe a camera.
+    /// The settings of cameras.
     #[cfg(feature = "camera")]
     pub cameras: Vec<sensor::CameraSetting>,
 }
 
 impl Lists {
-    /// All that comes with the software.
+    /// Returns the lists of everything that comes with the software.
     pub fn of_this_software() -> Self {
         Self {
             scenarios: scenarios::ALL.iter().copied().cloned().collect(),

@@ -1,4 +1,4 @@
-//! The whole job in one call: a study is run, and all that is known of its tests is written into a folder.
+//! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
 use crate::analysis::{Coverage, Explanation, LocatedReport, Modes, Promise, Summary, SuspectReport};
 use crate::campaign::{
@@ -15,16 +15,16 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use thiserror::Error;
 
-/// The time that `coverage.json` may take.
+/// The time limit for computing `coverage.json`.
 const COVERAGE_LIMIT: Duration = Duration::from_secs(5);
 
-/// Runs the tests of a study, and writes into a folder all that is known of them: the study, the log, the trials as a table,
-/// the coverage, the failure map, the failure modes and the explanation. `paracosm-fuzz run` writes the same files, byte for
-/// byte. [`Runner`] has options.
+/// Runs the tests of a study and writes the results into a folder. The folder gets the study, the log, the table of
+/// trials, the coverage, the failure map, the failure modes and the explanation. `paracosm-fuzz run` writes the same
+/// files, byte for byte. [`Runner`] has options.
 ///
 /// # Errors
-/// The study cannot be run, the folder cannot be written or holds a campaign already, or an observer fails. The trials that
-/// were run until then are in the folder.
+/// The study cannot be run, the folder cannot be written or already holds a campaign, or an observer fails. The folder
+/// keeps the trials that were run before the error.
 ///
 /// ```
 /// use paracosm::{Study, catalogue, run_into};
@@ -41,7 +41,7 @@ pub fn run_into(study: &Study, folder: &Path, observers: &mut [&mut dyn Observer
     Runner::new(study).run_into(folder, observers)
 }
 
-/// How a study is run into a folder.
+/// The options for running a study into a folder.
 #[derive(Debug, Clone)]
 #[must_use = "a study is run by `run_into`"]
 pub struct Runner<'a> {
@@ -55,45 +55,51 @@ pub struct Runner<'a> {
     stop: Arc<AtomicBool>,
 }
 
-/// All that is known of a campaign that was run to its end.
+/// The results of a campaign that was run to its end.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// The study with its trials.
+    /// The log: the study with its trials.
     pub log: Log,
-    /// How the campaign came to its end.
+    /// The reason why the campaign ended.
     pub finish: Finish,
-    /// Counts of verdicts, and what became of each requirement.
+    /// The counts of verdicts, and the result of each requirement.
     pub summary: Summary,
-    /// How well the tests cover their space.
+    /// The coverage of the space by the tests.
     pub coverage: Coverage,
-    /// Where tests fail; `None` where less than two continuous parameters are open.
+    /// The failure map, or `None` if fewer than two continuous parameters are open.
     pub map: Option<FailureMap>,
-    /// The combinations of discrete values that only failing tests have; `None` where there is nothing to tell apart.
+    /// The combinations of discrete values that only failing tests have, or `None` if no discrete parameter is open, or
+    /// if no test failed or no test passed.
     pub suspects: Option<SuspectReport>,
-    /// The combinations that further tests found guilty; `None` where nobody asked, or there is nothing to tell apart.
+    /// The combinations that further tests found guilty, or `None` if the user did not ask, or if no test failed or no
+    /// test passed.
     pub located: Option<LocatedReport>,
-    /// The ways in which tests fail.
+    /// The failure modes of the tests.
     pub modes: Modes,
-    /// Which tests fail, in words; `None` where too few failed or passed.
+    /// The explanation in words which tests fail, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
-    /// What random rows promise; `None` where rows are not random, or the campaign was ended before all of them were run.
+    /// The guarantee of random rows, or `None` if rows are not random, or if the campaign ended before all rows were
+    /// run.
     pub promise: Option<Promise>,
-    /// The tests as CI systems read them, if anybody asked.
+    /// The JUnit report, if the user asked for it.
     pub junit: Option<Junit>,
 }
 
-/// A search for guilty combinations where there are none.
+/// The error of a search for guilty combinations in a space without discrete parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one")]
+#[error(
+    "there are no combinations of discrete values to locate: no discrete parameter is open; open one with --open NAME=A,B,C"
+)]
 pub struct NothingToLocate;
 
 impl Reason for NothingToLocate {}
 
 impl Report {
-    /// Hands over everything that is written beside the log, in this order: the one list of artefacts.
+    /// Calls `put` for each artefact that is written beside the log, in the order of writing. This is the one list of
+    /// artefacts.
     ///
     /// # Errors
-    /// The first error of `put`, after which nothing more is handed over.
+    /// Returns the first error of `put`, without handing over further artefacts.
     pub fn artefacts(&self, mut put: impl FnMut(&dyn Artefact) -> Result<(), Error>) -> Result<(), Error> {
         put(&TrialTable(&self.log))?;
         put(&self.coverage)?;
@@ -130,7 +136,7 @@ impl Report {
 }
 
 impl<'a> Runner<'a> {
-    /// A runner of a study on all cores, into a new folder.
+    /// Makes a runner that runs a study on all cores, into a new folder.
     pub fn new(study: &'a Study) -> Self {
         Self {
             study,
@@ -150,13 +156,13 @@ impl<'a> Runner<'a> {
         self
     }
 
-    /// Runs this many tests at a time. Results do not depend on it.
+    /// Runs this many tests at a time. Results do not depend on this number.
     pub fn jobs(mut self, tests: NonZeroUsize) -> Self {
         self.jobs = Some(tests);
         self
     }
 
-    /// Continues the campaign in the folder, or begins it if there is none.
+    /// Continues the campaign in the folder, or begins a campaign if the folder has none.
     pub fn resuming(mut self) -> Self {
         self.resume = true;
         self
@@ -168,13 +174,13 @@ impl<'a> Runner<'a> {
         self
     }
 
-    /// Writes the tests as CI systems read them, too.
+    /// Also writes a JUnit report, which CI systems read.
     pub fn with_junit(mut self) -> Self {
         self.junit = true;
         self
     }
 
-    /// Names this program in commands that repeat a test; without it, `paracosm-fuzz`.
+    /// Sets the name of the program in commands that repeat a test. The usual name is `paracosm-fuzz`.
     pub fn program(mut self, name: &str) -> Self {
         name.clone_into(&mut self.program);
         self
@@ -186,10 +192,10 @@ impl<'a> Runner<'a> {
         self
     }
 
-    /// Runs the study into a folder, as [`run_into`].
+    /// Runs the study into a folder, like [`run_into`].
     ///
     /// # Errors
-    /// As [`run_into`]; or nothing is discrete where combinations are to be located.
+    /// The errors of [`run_into`]; or combinations should be located, and no discrete parameter is open.
     pub fn run_into(&self, folder: &Path, observers: &mut [&mut dyn Observer]) -> Result<Report, Error> {
         if self.locate.is_some() && self.study.space().levels().is_empty() {
             return Err(NothingToLocate.into());
@@ -247,7 +253,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Keeps the trials of a campaign, in its folder and in memory.
+/// The observer that keeps the trials of a campaign, in its folder and in memory.
 struct Record<'r, 'a> {
     runner: &'r Runner<'a>,
     folder: Folder,

@@ -19,7 +19,7 @@ pub enum ListFlaw {
         of: &'static str,
     },
     /// A list names the same thing twice.
-    #[error("{name} is twice among the {of}")]
+    #[error("{name} is twice in the list of {of}, expected once")]
     Twice {
         /// The kind of things that the list names, in the plural.
         of: &'static str,
@@ -33,7 +33,10 @@ pub enum ListFlaw {
         seeds: usize,
     },
     /// The last seed would be above 2^64 - 1.
-    #[error("{seeds} seeds from {first} on go beyond {}", u64::MAX)]
+    #[error(
+        "{seeds} seeds from the first seed {first} on exceed the greatest seed, {}: choose a smaller first seed",
+        u64::MAX
+    )]
     LargeSeeds {
         /// The number of seeds.
         seeds: usize,
@@ -46,7 +49,7 @@ pub enum ListFlaw {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PlaceFlaw {
     /// The folder is not empty.
-    #[error("{} is not empty: write elsewhere", path.display())]
+    #[error("{} is not empty, expected an empty or a new folder: choose another folder", path.display())]
     NotEmpty {
         /// The folder.
         path: PathBuf,
@@ -92,7 +95,8 @@ pub fn check_seeds(seeds: usize, first: u64) -> Result<(), ListFlaw> {
 
 /// Returns a remark for the reader if there are fewer seeds than [`ENOUGH_SEEDS`].
 pub fn few_seeds(seeds: usize) -> Option<String> {
-    (seeds < ENOUGH_SEEDS).then(|| format!("{seeds} seeds are few; from {ENOUGH_SEEDS} on the tests have enough power"))
+    (seeds < ENOUGH_SEEDS)
+        .then(|| format!("{seeds} seeds are few: the statistical tests have enough power from {ENOUGH_SEEDS} seeds on"))
 }
 
 /// Makes a folder for a study if it does not exist, and checks that it is empty.

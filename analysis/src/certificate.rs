@@ -116,12 +116,12 @@ pub struct Witness {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CertificateFlaw {
     /// A parameter has negative values (`~`).
-    #[error("a certificate knows no negative values (`~`): it counts every test for all it contains")]
+    #[error("a certificate does not support negative values (`~`): it counts every combination in a test as covered")]
     Negatives,
     /// Neither `dispersion` nor `k-wise-dispersion` was measured.
     #[error(
-        "a certificate is of the measures `dispersion`, which needs a continuous parameter, and `k-wise-dispersion`; \
-         neither was measured"
+        "a certificate proves the measures `dispersion`, which needs a continuous parameter, and `k-wise-dispersion`; \
+         neither of the two was measured: add one of them"
     )]
     NoMeasure,
 }
@@ -229,7 +229,7 @@ fn claim(tests: &TestSet, measured: Measured, rules: &Rules, deadline: Deadline)
     let weaker = proved.upper > volume.upper * (1.0 + ROUNDING) || (proved.upper >= 1.0 && volume.lower < 1.0);
     let note = weaker.then(|| {
         format!(
-            "the volume was found to be at most {}; no proof of that was found within {MOST_PIVOTS} boxes and the time \
+            "the volume was found to be at most {}; no proof of this bound was found within {MOST_PIVOTS} boxes and the time \
              limit",
             volume.upper
         )

@@ -51,7 +51,7 @@ pub type Axes = [usize; 2];
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum AxesFlaw {
     /// A name is that of a discrete parameter.
-    #[error("`{name}` takes single values, expected an interval: axes can be {}", can.join(", "))]
+    #[error("`{name}` is a discrete parameter, expected a continuous one: axes can be {}", can.join(", "))]
     Discrete {
         /// The name of the parameter.
         name: String,
@@ -59,7 +59,7 @@ pub enum AxesFlaw {
         can: Vec<String>,
     },
     /// The tests do not vary a continuous coordinate of this name.
-    #[error("the tests vary no `{name}`{}; axes can be {}", did_you_mean(.nearest), can.join(", "))]
+    #[error("the tests do not vary a parameter `{name}`{}; axes can be {}", did_you_mean(.nearest), can.join(", "))]
     Unknown {
         /// The name that was not found.
         name: String,
@@ -69,7 +69,7 @@ pub enum AxesFlaw {
         can: Vec<String>,
     },
     /// Both axes have the same name.
-    #[error("both axes are `{name}`, expected two of {}", can.join(", "))]
+    #[error("both axes are `{name}`, expected two different parameters of {}", can.join(", "))]
     Same {
         /// The name of both axes.
         name: String,

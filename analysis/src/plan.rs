@@ -100,7 +100,7 @@ pub enum PlanFlaw {
     #[error("the space has no parameters, so there is nothing to plan")]
     Empty,
     /// `k` is given, but the space has no discrete parameters.
-    #[error("--k is for discrete parameters, of which there are none")]
+    #[error("--k is a number of discrete parameters, and the space has no discrete parameters: leave it out")]
     NoDiscrete,
 }
 

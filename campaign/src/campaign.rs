@@ -56,7 +56,7 @@ pub enum Finish {
 
 /// A trial of the log does not belong to the campaign that is to be resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("trial {index} of the log is not the test that this study proposes there; was the log edited?")]
+#[error("the test of trial {index} of the log differs from the test that this study proposes; was the log edited?")]
 pub struct ForeignTrial {
     /// The index of the trial.
     pub index: usize,

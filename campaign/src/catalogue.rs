@@ -40,7 +40,7 @@ pub struct Reader {
 
 /// The error that no scenario has this name.
 #[derive(Debug, Error, PartialEq)]
-#[error("no scenario is called `{name}`{}; `paracosm-fuzz list` shows them all", did_you_mean(.nearest))]
+#[error("no scenario is called `{name}`{}; `paracosm-fuzz list` shows all scenarios", did_you_mean(.nearest))]
 pub struct UnknownScenario {
     /// The name that was asked for.
     pub name: String,

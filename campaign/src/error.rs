@@ -22,7 +22,8 @@ pub enum Error {
     /// A file has wrong contents. Correct the file.
     #[error(transparent)]
     File(#[from] BadFile),
-    /// Something other than the study failed: the disk, a process, a graphics adapter. Repair it, and try again.
+    /// Something other than the study failed, for example the disk, a process, or a graphics adapter. Repair it, and
+    /// try again.
     #[error(transparent)]
     Environment(#[from] Failure),
     /// The work was told to stop.
@@ -51,7 +52,7 @@ pub struct BadFile {
     pub path: PathBuf,
     /// The line, from 1, if the error is in one line.
     pub line: Option<usize>,
-    /// The error in the file: what was found and what was expected.
+    /// The error in the file, with the found and the expected content.
     pub reason: Box<dyn Reason>,
 }
 
@@ -59,7 +60,7 @@ pub struct BadFile {
 #[derive(Debug, Error)]
 pub enum CsvFlaw {
     /// A line has more or fewer fields than the header.
-    #[error("found {found} fields, expected {expected}")]
+    #[error("the number of fields is {found}, expected {expected}")]
     Fields {
         /// The number of fields in the line.
         found: u64,
@@ -67,7 +68,7 @@ pub enum CsvFlaw {
         expected: u64,
     },
     /// The file is not UTF-8 text.
-    #[error("found bytes that are no UTF-8")]
+    #[error("found bytes that are not UTF-8")]
     NoText,
     /// The file cannot be read for another reason.
     #[error(transparent)]
@@ -82,7 +83,7 @@ pub enum Failure {
     /// A file or a folder cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// The operation that failed: `read`, `write`, `create`, `lock`.
+        /// The operation that failed, which is `read`, `write`, `create` or `lock`.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
@@ -104,7 +105,7 @@ pub enum Failure {
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Threads cannot be started.
-    #[error("cannot start {threads} threads: {source}")]
+    #[error("cannot start the worker threads (number: {threads}): {source}")]
     Threads {
         /// The number of threads.
         threads: usize,

@@ -49,7 +49,7 @@ impl Expected {
         match &self.first {
             Some((first, names)) if trial.covers() && found != *names => {
                 let message = format!(
-                    "found the robustness of {}, expected that of {} as in test {first}",
+                    "found the robustness of {}, expected the robustness of {}, as in test {first}",
                     found.join(", "),
                     names.join(", ")
                 );

@@ -37,7 +37,7 @@ pub struct ExtensionRecord {
     pub name: String,
     /// The number of tests.
     pub tests: usize,
-    /// The hash of the tests: XXH3, 128 bits, of `extended.csv`.
+    /// The hash of the tests, which is the 128-bit XXH3 of `extended.csv`.
     pub hash: String,
 }
 
@@ -60,8 +60,8 @@ impl Extension {
     /// Reads tests of a study's space. A column with the name of a fixed parameter must not differ from its value.
     ///
     /// # Errors
-    /// The file cannot be read, does not hold tests of the open parameters, or has other values for fixed ones: the error
-    /// says in which line and why.
+    /// The file cannot be read, does not hold tests of the open parameters, or has other values for fixed parameters.
+    /// The error says in which line and why.
     pub fn read(path: &Path, study: &Study) -> Result<Self, Error> {
         Ok(Self::of_values(path, study.space(), read_values(path, study.space(), study.fixed())?))
     }

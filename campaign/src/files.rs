@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// A file that must not be replaced.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{} exists; {what} does not replace a file", path.display())]
+#[error("{} exists, and {what} does not replace a file: choose another name", path.display())]
 pub struct Exists {
     /// The file.
     pub path: PathBuf,

@@ -66,7 +66,7 @@ pub enum FolderFlaw {
         name: &'static str,
     },
     /// The folder holds files of a campaign, but no study.
-    #[error("{} has {name} but no {STUDY}, so it cannot be continued", path.display())]
+    #[error("{} has {name} but no {STUDY}, so the campaign cannot be continued", path.display())]
     NoStudy {
         /// The folder.
         path: PathBuf,
@@ -74,7 +74,7 @@ pub enum FolderFlaw {
         name: &'static str,
     },
     /// The folder holds another campaign.
-    #[error("{} holds a different campaign: its `{key}` is {there}, this command's is {here}", path.display())]
+    #[error("{} holds a different campaign: its `{key}` is {there}, that of this command is {here}", path.display())]
     OtherStudy {
         /// The folder.
         path: PathBuf,
@@ -86,7 +86,7 @@ pub enum FolderFlaw {
         here: String,
     },
     /// Another process writes to the folder.
-    #[error("another process is writing to {}", path.display())]
+    #[error("another process is writing to {}; wait until it ends", path.display())]
     InUse {
         /// The log.
         path: PathBuf,
@@ -203,7 +203,8 @@ impl Folder {
     }
 }
 
-/// Returns the name of a file of a campaign that exists: one of `first`, the log, or a file derived from the log.
+/// Returns the name of a campaign's file that exists. It is one of `first`, the log, the tests that count as done, or
+/// an artefact.
 fn present(path: &Path, first: &[&'static str]) -> Option<&'static str> {
     let mut ours = first.iter().copied().chain([TRIALS, EXTENDED]).chain(DERIVED);
     ours.find(|name| path.join(name).exists())
@@ -239,6 +240,10 @@ fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Resu
         }
         if let Some(entries) = study.as_object_mut() {
             entries.remove("learned_scales");
+        }
+        // A text explains a requirement and decides nothing, so another version may word it differently.
+        for requirement in study["requirements"].as_array_mut().into_iter().flatten() {
+            requirement.as_object_mut().map(|entries| entries.remove("text"));
         }
         study
     });

@@ -55,9 +55,7 @@ fn unasked(id: &str, error: &EvaluationError) -> Problem {
             };
             Problem::new(ProblemKind::Misfit { requirement, period }, format!("{id} does not fit the trace: {error}"))
         }
-        error => {
-            Problem::new(ProblemKind::Unasked { requirement }, format!("{id} cannot be asked of this trace: {error}"))
-        }
+        error => Problem::new(ProblemKind::Unasked { requirement }, format!("{id} cannot judge this trace: {error}")),
     }
 }
 

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A campaign that was run, completely or in part: the input of all analyses.
+/// A campaign that was run, completely or in part. All analyses take a log.
 #[derive(Debug, Clone)]
 pub struct Log {
     study: Study,
@@ -39,7 +39,7 @@ impl Log {
         Self { study, scales, extension, trials }
     }
 
-    /// Reads the folder of a campaign: its study and its trials.
+    /// Reads the study and the trials in the folder of a campaign.
     ///
     /// # Errors
     /// The folder holds no campaign, or one of its files is broken. If the catalogue does not have the scenario, the
@@ -88,8 +88,8 @@ impl Log {
         self.extension.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(self.study.space()))
     }
 
-    /// Returns the tests that cover a place of the space: all except those with the verdict `error` or `invalid`. Tests
-    /// that count as done come first.
+    /// Returns the tests that cover a place of the space, which are all except those with the verdict `error` or
+    /// `invalid`. Tests that count as done come first.
     ///
     /// # Errors
     /// A test does not belong to the space, or the tests that count as done cannot be read.

@@ -135,7 +135,7 @@ pub enum CommandFlaw {
     #[error("a quote is not closed")]
     OpenQuote,
     /// The command has no word, or an empty first word.
-    #[error("found no program, expected the command that starts it")]
+    #[error("found no program, expected a command that starts a program")]
     NoProgram,
 }
 

@@ -59,7 +59,7 @@ pub struct Replayed {
 #[derive(Debug, Error)]
 pub enum RegressionFlaw {
     /// The file is not a regression file.
-    #[error("no regression test: {0}")]
+    #[error("the file is not a regression test: {0}")]
     Json(serde_json::Error),
     /// The test does not belong to the study of the file.
     #[error("`test`: {0}")]
@@ -74,7 +74,7 @@ pub enum RegressionFlaw {
 
 /// The name cannot be that of a regression file.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}: expected the name of a regression file, as regressions/NAME.json", path.display())]
+#[error("{} cannot be a regression file, expected a name like regressions/NAME.json", path.display())]
 pub struct NoRegressionName {
     /// The file.
     pub path: PathBuf,

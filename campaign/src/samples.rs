@@ -15,7 +15,7 @@ pub enum TraceFlaw {
         signals: Vec<String>,
     },
     /// There is nothing but times.
-    #[error("found no signal beside `time`, expected one at least")]
+    #[error("found no signal beside `time`, expected at least one signal")]
     NoSignal,
     /// Two signals have one name.
     #[error("two signals are called `{signal}`")]

@@ -67,14 +67,14 @@ impl Scales {
         Some(self.normalised(id, robustness).clamp(-MOST, MOST))
     }
 
-    /// Returns the objective of a single search: the robustness of the worst of all requirements, in multiples of its
-    /// scale and clipped to [-10, 10]; `None` if the trial has no result or decided nothing.
+    /// Returns the objective of a single search, which is the robustness of the worst of all requirements, in multiples
+    /// of its scale and clipped to [-10, 10]; `None` if the trial has no result or decided nothing.
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
         trial.requirements().filter_map(|id| self.clipped(trial, id)).min_by(f64::total_cmp)
     }
 
-    /// Returns the requirement that a trial comes nearest to violating, or violates most: its id, and its robustness in
-    /// multiples of its scale; `None` if the trial has no result or decided nothing.
+    /// Returns the requirement that a trial comes nearest to violating, or violates most. It comes with its robustness
+    /// in multiples of its scale; `None` if the trial has no result or decided nothing.
     pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
         let worth = |id: &'t str| Some((id, self.normalised(id, trial.robustness(id)?)));
         trial.requirements().filter(|_| trial.covers()).filter_map(worth).min_by(|a, b| a.1.total_cmp(&b.1))

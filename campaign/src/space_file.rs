@@ -27,7 +27,7 @@ pub struct SpaceFile {
 #[derive(Debug, Error)]
 pub enum SpaceFileFlaw {
     /// The file is not UTF-8 text.
-    #[error("found bytes that are no UTF-8, expected a text in UTF-8")]
+    #[error("found bytes that are not UTF-8, expected a text in UTF-8")]
     NoText,
     /// The file is not a valid PICT model.
     #[error("column {}: {}", .0.column, .0.flaw)]

@@ -117,8 +117,8 @@ mod tests {
         study.budget(400).seed(seed).build().unwrap()
     }
 
-    /// What becomes of a test: of two requirements the second is violated within a small ball, and the first never, though
-    /// it is the worse nearly everywhere.
+    /// Returns the result of a test with two requirements. The second is violated within a small ball. The first is
+    /// never violated, although its robustness is lower nearly everywhere.
     fn judgements(test: &Point, is_one: bool) -> (Verdict, Vec<Judgement>) {
         let away = test.continuous.iter().map(|u| (u - 0.7) * (u - 0.7)).sum::<f64>().sqrt();
         let both = [0.05 + 0.02 * test.continuous[0], away - 0.18];
@@ -129,7 +129,7 @@ mod tests {
         (if both[1] < 0.0 { Verdict::Fail } else { Verdict::Pass }, judgements)
     }
 
-    /// All tests up to the first failure, cut into portions told by this many; the first comes to nothing.
+    /// Returns all tests up to the first failure, asked for in portions of 16. The first test has no result.
     fn tests(study: &Study, is_one: bool) -> Vec<Point> {
         let mut steering = Steering::new(study, Vec::new()).unwrap();
         let mut all: Vec<Point> = Vec::new();

@@ -60,7 +60,7 @@ struct Entries {
 #[derive(Debug, Error)]
 pub enum FormatFlaw {
     /// The file has the format of another version.
-    #[error("found format {found}, expected {FORMAT}: the campaign is of another version, {version}")]
+    #[error("found format {found}, expected {FORMAT}: version {version} of the software wrote the campaign")]
     Format {
         /// The number of the format.
         found: u32,

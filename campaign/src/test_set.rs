@@ -64,7 +64,7 @@ pub enum CellFlaw {
     /// The cell is empty.
     #[error(
         "found an empty cell, expected a value{}",
-        if *is_mixed { "; tests to complete may be begun only where no parameter is continuous" } else { "" }
+        if *is_mixed { "; tests to complete may have empty cells only if no parameter is continuous" } else { "" }
     )]
     Open {
         /// True if some parameters are continuous and others discrete.
@@ -158,7 +158,7 @@ impl TestSet {
         Ok(Self::new(file.space, points))
     }
 
-    /// Reads tests of a space without continuous parameters, in which some levels may be open: an empty cell is `None`.
+    /// Reads tests of a space without continuous parameters, in which some levels may be open. An empty cell is `None`.
     /// Each test comes with its line.
     ///
     /// # Errors
@@ -188,15 +188,15 @@ impl TestSet {
 /// A test of discrete parameters that may leave some levels open.
 pub type PartialRow = Vec<Option<usize>>;
 
-/// Returns `true` if a cell leaves a parameter open: the cell is empty, and the empty word is not a level of the
+/// Returns `true` if a cell leaves a parameter open. The cell is empty then, and the empty word is not a level of the
 /// parameter.
 fn is_open(text: &str, parameter: &Parameter) -> bool {
     let takes_it = || parameter.levels().is_some_and(|levels| levels.contains(&Value::Word(String::new())));
     text.trim().is_empty() && !takes_it()
 }
 
-/// Returns the value of a cell for a parameter: the level with exactly this text, with or without its spaces; if there
-/// is none, the value that the text has by itself.
+/// Returns the value of a cell for a parameter. It is the level with exactly this text, with or without its spaces; if
+/// there is none, it is the value that the text has by itself.
 fn value(text: &str, parameter: &Parameter) -> Value {
     let levels = parameter.levels().unwrap_or_default();
     let written = |text: &str| levels.iter().find(|level| level.to_string() == text);

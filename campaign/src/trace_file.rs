@@ -11,7 +11,7 @@ use std::path::Path;
 /// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 0.01;
 
-/// Writes a trace as CSV: a column `time` in seconds, then one for each signal.
+/// Writes a trace as CSV, with a column `time` in seconds, then one for each signal.
 ///
 /// # Errors
 /// The file cannot be written, or has the name of a file that belongs to a campaign.
@@ -29,9 +29,9 @@ pub fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
 }
 
-/// Reads a trace from CSV, in the format of [`write_trace`]: a column `time` in seconds, evenly spaced from 0 on, and a
-/// column for each signal, with numbers, `true` and `false`. After each sample from the second on, `goes_on` gets the
-/// trace so far. If it returns `false`, the trace is returned as one that was cut short; otherwise it is complete.
+/// Reads a trace from CSV, in the format of [`write_trace`]. The columns are `time` in seconds, evenly spaced from 0
+/// on, and one for each signal, with numbers, `true` and `false`. After each sample from the second on, `goes_on` gets
+/// the trace so far. If it returns `false`, the trace is returned as one that was cut short; otherwise it is complete.
 ///
 /// # Errors
 /// `goes_on` returns an error; or the source, called `path`, is not a valid table: the error says in which line and

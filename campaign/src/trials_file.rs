@@ -8,13 +8,13 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum LogFlaw {
     /// The file is not UTF-8 text.
-    #[error("found bytes that are no UTF-8, expected a trial as JSON")]
+    #[error("found bytes that are not UTF-8, expected a trial as JSON")]
     NoText,
     /// The line ends with a carriage return, as on another operating system.
     #[error("found a carriage return at the end of the line, expected none")]
     CarriageReturn,
     /// The line is not a trial.
-    #[error("no trial: {0}")]
+    #[error("the line is not a trial: {0}")]
     NoTrial(serde_json::Error),
     /// The index of the trial is not the number of its line.
     #[error("found trial {found}, expected trial {expected}")]

@@ -177,9 +177,9 @@ fn asked(connection: &mut Connection, study: &Study, index: usize, test: &Values
             judge(&mut trial, study.given(), &trace);
             Ok((trial, Some(trace)))
         }
-        Answer::Trace(_) => wrong("the system answers with a trace, which says nothing without a --spec to ask of it"),
+        Answer::Trace(_) => wrong("the system answers with a trace, but no formula judges it: add a --spec"),
         Answer::Robustness(_) if has_specs => {
-            wrong("the system answers with robustness, expected a trace of which to ask the --spec")
+            wrong("the system answers with robustness, expected a trace for the --spec to judge")
         }
         Answer::Robustness(worths) => {
             let is_violated = worths.iter().any(|(_, worth)| *worth < 0.0);

@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 /// computation: a product of differences for a volume, a distance for a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
-    /// The lower bound: the largest value that was found.
+    /// The lower bound, which is the largest value that was found.
     pub lower: f64,
-    /// The upper bound: the smallest value of which the measure proved that the exact value does not exceed it.
+    /// The upper bound, which is the smallest value that the exact value is proved not to exceed.
     pub upper: f64,
 }
 
@@ -36,7 +36,7 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// Makes a deadline without a limit: the search runs to the end.
+    /// Makes a deadline without a limit, so that the search runs to the end.
     pub const fn never() -> Self {
         Self { at: None, called: None }
     }
@@ -46,7 +46,7 @@ impl Deadline {
         Self { at: Instant::now().checked_add(limit), called: None }
     }
 
-    /// Adds a flag to the deadline: it passes at the same moment as before, or as soon as `called` is set.
+    /// Adds a flag to the deadline. The deadline passes at the same moment as before, or as soon as `called` is set.
     pub const fn or_when(self, called: &'static AtomicBool) -> Self {
         Self { called: Some(called), ..self }
     }

@@ -23,7 +23,7 @@
 //!
 //! `n` random points have `O(n (log n)^(d-1))` maximal boxes, with a factor that grows with `d` (in the worst case
 //! `O(n^d)`: Backer, Keil, The mono- and bichromatic empty rectangle and square problems in all dimensions, LATIN
-//! 2010). The first `n` points of the Halton sequence have so many:
+//! 2010). The first `n` points of the Halton sequence have this number of maximal boxes:
 //!
 //! | n   | d = 2 | d = 3   | d = 4     | d = 5   |
 //! | --- | ----- | ------- | --------- | ------- |
@@ -99,7 +99,7 @@ impl EmptyBox<'_> {
 }
 
 impl EmptyBoxes {
-    /// Makes the boxes of a set without points: the whole cube.
+    /// Makes the boxes of a set without points, which are a single box, the whole cube.
     ///
     /// # Errors
     /// `dims` is 0.
@@ -107,7 +107,8 @@ impl EmptyBoxes {
         Self::at_most(dims, usize::MAX)
     }
 
-    /// Makes the boxes of a set without points, and keeps at most `most` boxes: the smaller boxes are forgotten.
+    /// Makes the boxes of a set without points, and keeps at most `most` boxes. If there are more, the smaller boxes
+    /// are forgotten.
     ///
     /// The largest box is known for certain as long as it is larger than any box that was forgotten, because boxes
     /// only shrink.

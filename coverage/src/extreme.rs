@@ -12,7 +12,7 @@ impl Measure {
         key: "extreme_discrepancy",
         label: "extreme discrepancy",
         title: "extreme discrepancy",
-        about: "the largest difference of volume and share of tests over all boxes",
+        about: "the largest difference between the volume of any box and its share of the tests",
         pace: 7,
         compare: Compare::WhereQuick(|dims, points| libm::pow(points as f64, dims as f64) <= QUICK),
         method: Computation::Bracket(extreme_discrepancy),

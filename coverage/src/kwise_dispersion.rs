@@ -27,7 +27,7 @@ impl Measure {
         key: "k_wise_dispersion",
         label: "k-wise dispersion",
         title: "k-wise dispersion",
-        about: "the largest hole that any k parameters show, discrete and continuous ones together",
+        about: "the largest hole in the space of any k parameters, discrete and continuous parameters together",
         pace: 9,
         compare: Compare::BeyondK,
         method: Computation::KwiseHole,
@@ -42,7 +42,7 @@ const BLOCK: usize = 64;
 pub struct KwiseDispersion {
     /// The largest dispersion.
     pub volume: Bracket,
-    /// The discrete parameters among the k with their values: positions among the discrete parameters, and levels.
+    /// The discrete parameters among the k with their values, as positions among the discrete parameters and levels.
     pub fixed: Vec<(usize, usize)>,
     /// The continuous parameters among the k, by their positions among the continuous parameters.
     pub axes: Vec<usize>,
@@ -51,7 +51,7 @@ pub struct KwiseDispersion {
 }
 
 impl KwiseDispersion {
-    /// Makes the k-wise dispersion of tests without continuous parameters: 0 if they cover all combinations,
+    /// Makes the k-wise dispersion of tests without continuous parameters. It is 0 if they cover all combinations,
     /// otherwise 1.
     pub fn of_coverage(counted: KwiseCoverage) -> Self {
         let (volume, fixed) = match counted.missing.into_iter().next() {
@@ -66,7 +66,7 @@ impl KwiseDispersion {
 /// them along the chosen continuous parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Projection {
-    /// The discrete parameters with their values: positions among the discrete parameters, and levels.
+    /// The discrete parameters with their values, as positions among the discrete parameters and levels.
     pub fixed: Vec<(usize, usize)>,
     /// The continuous parameters, by their positions among the continuous parameters.
     pub axes: Vec<usize>,
@@ -164,7 +164,7 @@ pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Brack
 struct Worst {
     /// The projection with the largest hole; `None` if there was no time to look at any.
     worst: Option<KwiseDispersion>,
-    /// The upper bound: no hole is larger.
+    /// An upper bound on the volume of the holes.
     upper: f64,
 }
 

@@ -24,7 +24,7 @@ impl Measure {
         key: "l2_star",
         label: "L2-star",
         title: "L2-star discrepancy",
-        about: "the root mean square difference of volume and share of tests over boxes at the origin",
+        about: "the root mean square difference between the volume of a box at the origin and its share of the tests",
         pace: 0,
         compare: Compare::Always,
         method: Computation::Number(l2_star),
@@ -38,7 +38,7 @@ impl Measure {
         key: "centered",
         label: "centered, squared",
         title: "centered discrepancy, squared",
-        about: "the mean square difference over boxes from a test to its nearest corner",
+        about: "the mean square difference of volume and share of tests, over boxes from a test to its nearest corner",
         pace: 1,
         compare: Compare::Always,
         method: Computation::Number(centered),
@@ -52,7 +52,7 @@ impl Measure {
         key: "wraparound",
         label: "wraparound, squared",
         title: "wraparound discrepancy, squared",
-        about: "the mean square difference over boxes that may cross the border",
+        about: "the mean square difference of volume and share of tests, over boxes that may cross the border",
         pace: 2,
         compare: Compare::Always,
         method: Computation::Number(wraparound),
@@ -66,7 +66,7 @@ impl Measure {
         key: "mixture",
         label: "mixture, squared",
         title: "mixture discrepancy, squared",
-        about: "the mean square difference over boxes of both kinds",
+        about: "the mean square difference of volume and share of tests, over the boxes of centered and wraparound",
         pace: 3,
         compare: Compare::Always,
         method: Computation::Number(mixture),
@@ -114,9 +114,9 @@ pub fn mixture(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 19.0 / 12.0, single, prepare, pair)
 }
 
-/// Computes the L2-star discrepancy (the root, not the square): the root mean square, over all boxes anchored at 0,
-/// of the difference between volume and share of points, as `scipy.stats.qmc.discrepancy(method="L2-star")`. Source:
-/// Warnock, Computational investigations of low-discrepancy point sets, 1972.
+/// Computes the L2-star discrepancy (the root, not the square). It is the root mean square, over all boxes anchored
+/// at 0, of the difference between volume and share of points, as `scipy.stats.qmc.discrepancy(method="L2-star")`.
+/// Source: Warnock, Computational investigations of low-discrepancy point sets, 1972.
 pub fn l2_star(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let (single, prepare) = (|x: f64| 0.5 * (1.0 - x * x), |x: f64| (1.0 - x, 0.0));
     let squared = squared(points, deadline, 1.0 / 3.0, single, prepare, |x, y| least(x.0, y.0));
@@ -173,8 +173,8 @@ impl Groups {
     }
 }
 
-/// The squared worst-case error for a kernel with its integrals: `single` over one argument, `whole` over both. The
-/// kernel is `pair`, applied to the prepared arguments.
+/// The squared worst-case error for a kernel with its integrals, `single` over one argument and `whole` over both.
+/// The kernel is `pair`, applied to the prepared arguments.
 ///
 /// Sums are taken in fixed groups and in their order: the result does not depend on the number of threads.
 fn squared(

@@ -18,8 +18,8 @@
 //! # Ok::<(), paracosm_coverage::PointSetError>(())
 //! ```
 //!
-//! The crate opens no file and runs no simulation. Numbers called exact are exact. A measure that a time limit cuts short
-//! comes back as a certified [`Bracket`].
+//! The crate opens no file and runs no simulation. Numbers called exact are exact. A measure that a time limit cuts
+//! short comes back as a certified [`Bracket`].
 
 mod bracket;
 pub mod dispersion;

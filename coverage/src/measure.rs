@@ -10,12 +10,12 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A measure of how well tests cover their space: a handle to its [`Descriptor`]. Two measures with the same name are
-/// equal.
+/// A measure of how well tests cover their space, as a handle to its [`Descriptor`]. Two measures with the same name
+/// are equal.
 #[derive(Clone, Copy)]
 pub struct Measure(&'static Descriptor);
 
-/// The description of a measure: its names, its meaning, when it is taken, and how it is computed.
+/// The description of a measure with its names, its meaning, when it is taken, and how it is computed.
 #[derive(Debug)]
 pub struct Descriptor {
     /// The name by which users ask for the measure. No two measures have the same name.
@@ -28,7 +28,7 @@ pub struct Descriptor {
     pub title: &'static str,
     /// The meaning of the measure, in one line.
     pub about: &'static str,
-    /// The rank of the measure when several are taken: a measure with a lower pace is taken first, and leaves the
+    /// The rank of the measure when several are taken. A measure with a lower pace is taken first, and leaves the
     /// rest of its time to the others.
     pub pace: u8,
     /// The condition under which a comparison of strategies takes the measure.
@@ -142,9 +142,9 @@ impl fmt::Display for Measure {
     }
 }
 
-/// An error: no measure has the given name.
+/// The error for a name that no measure has.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no measure is called `{name}`{}; there are {}", did_you_mean(.nearest), names().join(", "))]
+#[error("no measure is called `{name}`{}; the measures are {}", did_you_mean(.nearest), names().join(", "))]
 pub struct UnknownMeasure {
     /// The name that no measure has.
     pub name: String,

@@ -13,10 +13,10 @@ pub struct PointSet {
 #[derive(Debug, Error, PartialEq)]
 pub enum PointSetError {
     /// The number of coordinates is 0.
-    #[error("points need at least one coordinate, found none")]
+    #[error("points need at least one coordinate, found 0")]
     NoDimension,
     /// A point has too many or too few coordinates.
-    #[error("point {index} has {found} coordinates, expected {expected}")]
+    #[error("point {index} has a wrong number of coordinates: found {found}, expected {expected}")]
     Ragged {
         /// The position of the point, from 0.
         index: usize,

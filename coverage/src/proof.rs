@@ -41,10 +41,10 @@ const ENOUGH: f64 = 1e-3;
 /// The projections of the space that a claim is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// All continuous parameters at once, for all values of the discrete parameters: the claim of
+    /// All continuous parameters at once, for all values of the discrete parameters. It is the claim of
     /// [`dispersion`](crate::dispersion::dispersion).
     Continuous,
-    /// Every choice of the given number of parameters, with all values of the discrete ones: the claim of
+    /// Every choice of the given number of parameters, with all values of the discrete ones. It is the claim of
     /// [`kwise_dispersion`](crate::kwise_dispersion::kwise_dispersion).
     Every(usize),
 }
@@ -61,7 +61,7 @@ pub struct Budget {
 /// The proof of a bound for one projection.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Proof {
-    /// The discrete parameters of the projection with their values: positions among the discrete parameters, and
+    /// The discrete parameters of the projection with their values, as positions among the discrete parameters and
     /// levels.
     pub fixed: Vec<(usize, usize)>,
     /// The continuous parameters of the projection, by their positions among the continuous parameters.
@@ -73,7 +73,7 @@ pub struct Proof {
 /// An upper bound with its proofs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proved {
-    /// The upper bound: no empty box of any projection has a larger volume.
+    /// The upper bound on the volume of the empty boxes of all projections.
     pub upper: f64,
     /// A proof for each projection, in lexicographic order with the continuous parameters first. The list is empty if
     /// the bound is 1, because no volume exceeds 1.

@@ -23,7 +23,7 @@ impl Measure {
         key: "star_discrepancy",
         label: "star discrepancy",
         title: "star discrepancy",
-        about: "the largest difference of volume and share of tests over boxes at the origin",
+        about: "the largest difference between the volume of a box at the origin and its share of the tests",
         pace: 6,
         compare: Compare::Always,
         method: Computation::Bracket(star_discrepancy),

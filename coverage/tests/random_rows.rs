@@ -74,7 +74,8 @@ fn constrained() -> (Vec<usize>, Vec<Vec<Clause>>) {
     (vec![3, 3, 2, 2, 2, 3], constraints)
 }
 
-/// Three parameters of which each is at most the next, the last of them joined with a fourth, of which levels are alike.
+/// Three parameters of which each is at most the next, the last of them joined with a fourth, of which levels are
+/// alike.
 fn ascending() -> (Vec<usize>, Vec<Vec<Clause>>) {
     let literal = |parameter, levels: Vec<usize>| Literal { parameter, levels };
     let at_most = |first: usize, v: usize| Clause {

@@ -37,7 +37,7 @@ pub enum WorldFlaw {
         stream: String,
     },
     /// A parameter has a value of a wrong type.
-    #[error("parameter `{parameter}` has the value {value}, which is of another type")]
+    #[error("parameter `{parameter}` has the value {value}, expected a value of the parameter's type")]
     OtherType {
         /// The name of the parameter.
         parameter: String,
@@ -48,13 +48,13 @@ pub enum WorldFlaw {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// A parameter varies over time, but the world needs a single value of it.
-    #[error("parameter `{parameter}` varies over time, but the world is built with one value of it")]
+    #[error("parameter `{parameter}` varies over time, but the scenario needs a single value of it for the whole run")]
     Varies {
         /// The name of the parameter.
         parameter: String,
     },
     /// A parameter that does not vary over time has several values.
-    #[error("parameter `{parameter}` has the values {value}, but does not vary over time")]
+    #[error("parameter `{parameter}` has several values, {value}, but does not vary over time: give it a single value")]
     DoesNotVary {
         /// The name of the parameter.
         parameter: String,
@@ -62,7 +62,7 @@ pub enum WorldFlaw {
         value: Value,
     },
     /// A parameter that varies over time has too many or too few values.
-    #[error("parameter `{parameter}` has {found} values, expected {expected} of a {shape}")]
+    #[error("the number of values of parameter `{parameter}` is {found}, expected {expected} for a {shape}")]
     Coordinates {
         /// The name of the parameter.
         parameter: String,
@@ -74,16 +74,16 @@ pub enum WorldFlaw {
         shape: Shape,
     },
     /// The share of the roadside that is filled with objects is not a number from 0 to 1.
-    #[error("the roadside is {fullness} full, expected 0 to 1")]
+    #[error("the share of the roadside that is filled is {fullness}, expected a number from 0 to 1")]
     Roadside {
         /// The share that was given.
         fullness: f64,
     },
     /// The program sets the friction of the roads twice.
-    #[error("the friction of the roads is said twice")]
+    #[error("the scenario sets the friction of the roads twice: set it only once")]
     FrictionTwice,
     /// The program places two environments.
-    #[error("there are two environments, expected one at most")]
+    #[error("the scenario places two environments, expected at most one")]
     EnvironmentTwice,
     /// The program refuses the test by [`Scenario::refuse`](crate::Scenario::refuse).
     #[error("{why}")]
@@ -92,7 +92,7 @@ pub enum WorldFlaw {
         why: String,
     },
     /// The duration of a lane change of a traffic car is not a finite number above 0.
-    #[error("{traffic}: car {car} changes lanes within {seconds} s, expected a finite number above 0")]
+    #[error("{traffic}: the lane change of car {car} takes {seconds} s, expected a finite number above 0")]
     LaneChange {
         /// The name of the traffic in the world.
         traffic: String,
@@ -102,7 +102,7 @@ pub enum WorldFlaw {
         seconds: f64,
     },
     /// The traffic has no car with this index.
-    #[error("{traffic}: there is no car {car}, cars are counted from 0 and there are {count}")]
+    #[error("{traffic}: car {car} does not exist: the number of cars is {count}, and they are counted from 0")]
     NoCar {
         /// The name of the traffic in the world.
         traffic: String,
@@ -112,7 +112,7 @@ pub enum WorldFlaw {
         count: usize,
     },
     /// The world does not have exactly one ego vehicle and exactly one road network.
-    #[error("{cars} cars under test on {roads} roads, expected one on one")]
+    #[error("the number of ego vehicles is {cars} and the number of road networks is {roads}, expected one of each")]
     Cars {
         /// The number of ego vehicles.
         cars: usize,
@@ -120,13 +120,13 @@ pub enum WorldFlaw {
         roads: usize,
     },
     /// The duration of a run is not a positive number.
-    #[error("a run takes {seconds} s, expected a positive number")]
+    #[error("the duration of a run is {seconds} s, expected a positive number")]
     Duration {
         /// The duration of the run, in seconds.
         seconds: f64,
     },
     /// The duration of a tick is not a positive number, or a tick is longer than the run.
-    #[error("a tick takes {tick} s, expected a positive number up to the run's {run}")]
+    #[error("the duration of a tick is {tick} s, expected a positive number up to the duration of the run, {run} s")]
     Tick {
         /// The duration of a tick, in seconds.
         tick: f64,
@@ -134,7 +134,7 @@ pub enum WorldFlaw {
         run: f64,
     },
     /// A run has too many ticks.
-    #[error("a run has {ticks:.0} ticks, expected at most {most:.0}")]
+    #[error("a run has {ticks:.0} ticks, expected at most {most:.0}: make the run shorter or its ticks longer")]
     Ticks {
         /// The number of ticks of the run.
         ticks: f64,
@@ -142,19 +142,19 @@ pub enum WorldFlaw {
         most: f64,
     },
     /// Two requirements have the same name.
-    #[error("requirement `{id}` is stated twice")]
+    #[error("requirement `{id}` is stated twice: give each requirement an id of its own")]
     RequirementTwice {
         /// The name of the requirements.
         id: String,
     },
     /// Two streams that requirements refer to have the same name.
-    #[error("two streams that requirements speak of are called `{stream}`: tell them apart by `named`")]
+    #[error("two streams of requirements are called `{stream}`: give them different names by `named`")]
     SameName {
         /// The name of the streams.
         stream: String,
     },
     /// A stream of a requirement has the name of an output of an object.
-    #[error("a stream is called `{stream}`, which is the name of an object's output")]
+    #[error("a stream of a requirement is called `{stream}`, the name of an object's output: rename it by `named`")]
     NameOfOutput {
         /// The name of the stream.
         stream: String,
@@ -176,7 +176,7 @@ pub enum ObjectFlaw {
         height: f64,
     },
     /// The pose at which a body starts is not finite.
-    #[error("stands at ({x}, {y}) and faces {heading}, expected numbers")]
+    #[error("stands at ({x}, {y}) with the heading {heading}, expected finite numbers")]
     Pose {
         /// The x coordinate, in metres.
         x: f64,
@@ -186,7 +186,7 @@ pub enum ObjectFlaw {
         heading: f64,
     },
     /// An object that the physics moves has no body or several bodies.
-    #[error("is physical and has {found} bodies, expected 1")]
+    #[error("is a physical object with {found} bodies, expected exactly 1 body")]
     Bodies {
         /// The number of bodies of the object.
         found: usize,
@@ -198,7 +198,7 @@ pub enum ObjectFlaw {
         mass: f64,
     },
     /// A piece of the object's path has a length that is not a number from 0 on.
-    #[error("has a {line} that has a piece {piece} m long, expected a number from 0 on")]
+    #[error("has a {line} with a piece of {piece} m, expected a finite length from 0 on")]
     Piece {
         /// The word for the path: `path` or `way`.
         line: &'static str,
@@ -206,7 +206,7 @@ pub enum ObjectFlaw {
         piece: f64,
     },
     /// The object starts before the beginning or beyond the end of its path.
-    #[error("starts {start} m along a {line} of {length} m")]
+    #[error("starts {start} m along a {line} of {length} m, expected a start from 0 to this length")]
     Start {
         /// The word for the path: `path` or `way`.
         line: &'static str,
@@ -216,7 +216,7 @@ pub enum ObjectFlaw {
         length: f64,
     },
     /// The speed at which the object starts is out of range.
-    #[error("has the speed {speed} m/s, expected 0 to {most}")]
+    #[error("has the speed {speed} m/s, expected 0 to {most} m/s")]
     Speed {
         /// The speed, in m/s.
         speed: f64,

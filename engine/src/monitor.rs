@@ -45,13 +45,14 @@ impl Monitor {
     /// Requires that the car touches nothing. The robustness is the least clearance in metres, or minus the missing
     /// braking distance: [`Car::clearance`].
     pub fn no_collision(car: &Car) -> Self {
-        let text = "The car touches nobody: metres of clearance, or minus the braking distance that was missing.";
+        let text = "The car touches nobody. The robustness is the least clearance in metres, or minus the missing braking distance.";
         Self::new("no-collision", never(car.collides()), "m", 5.0).text(text.to_owned())
     }
 
     /// Requires that the car travels at least so many metres. A car that stands still for ever does not pass.
     pub fn progress(car: &Car, metres: f64) -> Self {
-        let text = format!("The car comes at least {metres} m far, so that standing still for ever is no pass.");
+        let text =
+            format!("The car travels at least {metres} m, so that a car that stands still for ever does not pass.");
         Self::new("progress", eventually(car.travelled().at_least(metres)), "m", 0.5 * metres).text(text)
     }
 
@@ -94,7 +95,7 @@ impl Monitor {
 
     /// Requires that the whole car stays in a lane of its way. The robustness is the least room beside it, in metres.
     pub fn lane_keeping(car: &Car) -> Self {
-        let text = "The whole car stays in its lane: metres that are left beside it.";
+        let text = "The whole car stays in its lane. The robustness is the least room beside the car in metres.";
         Self::new("lane-keeping", always(car.lane_margin().at_least(0.0)), "m", 1.0).text(text.to_owned())
     }
 
@@ -113,7 +114,9 @@ impl Monitor {
     /// Requires that no road user with the right of way is, or within so many seconds will be, at the car's place in an
     /// intersection.
     pub fn right_of_way(car: &Car, seconds: f64) -> Self {
-        let text = format!("The car is in nobody's way who has the right of way and is there within {seconds} s.");
+        let text = format!(
+            "The car is never in an intersection at a place that somebody with the right of way reaches within {seconds} s."
+        );
         Self::new("right-of-way", always(car.right_of_way().at_least(seconds)), "s", 2.0).text(text)
     }
 }

@@ -93,7 +93,7 @@ pub enum Invalid {
     #[error(transparent)]
     World(ProgramError),
     /// Two bodies are in the same place.
-    #[error("{first} and {second} overlap at the start")]
+    #[error("{first} and {second} overlap at the start; place them apart")]
     Overlap {
         /// The name of the first body.
         first: String,
@@ -149,7 +149,7 @@ impl Judgement {
 pub struct Violation {
     /// The critical time in seconds, at which the robustness depends on `part`.
     pub time: f64,
-    /// The distance that the car under test had covered by then, in metres; `None` if there is no car.
+    /// The distance that the ego vehicle had covered by then, in metres; `None` if there is no car.
     pub travelled: Option<f64>,
     /// The speed of the car at that time, in m/s; `None` if there is no car.
     pub speed: Option<f64>,
@@ -182,7 +182,7 @@ impl Violation {
 /// The measurements of a run in addition to its requirements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
-    /// The distance that the car under test covered, in metres.
+    /// The distance that the ego vehicle covered, in metres.
     pub travelled: f64,
     /// The contact that ended the run, if there was a contact.
     pub contact: Option<Contact>,

@@ -84,7 +84,7 @@ pub enum ProgramError {
         flaws: Vec<WorldFlaw>,
     },
     /// With a test, the program asks for other parameters than the test gives.
-    #[error("scenario `{program}` asked for other parameters than it was given: {}", names.join(", "))]
+    #[error("scenario `{program}` asked for other parameters than the test has; these are on one side only: {}", names.join(", "))]
     OtherParameters {
         /// The name of the scenario.
         program: String,

@@ -9,8 +9,8 @@ use thiserror::Error;
 /// The reason why a world cannot go on at some moment.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Upset {
-    /// A signal is NaN. No comparison with NaN holds, so it would satisfy every `never`.
-    #[error("the signal `{signal}` has no value")]
+    /// A signal is NaN or absent. No comparison with NaN holds, so it would satisfy every `never`.
+    #[error("the signal `{signal}` is absent or NaN")]
     NoValue {
         /// The name of the signal.
         signal: String,
@@ -36,11 +36,11 @@ pub enum Upset {
     /// An object cannot go on with the values of its inputs.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The state of the car under test is not finite.
-    #[error("the state of the car is no number: {0:?}")]
+    /// The state of the ego vehicle is not finite.
+    #[error("the state of the car has a number that is not finite: {0:?}")]
     Car(Box<VehicleState>),
     /// The pose of an object is not finite.
-    #[error("the place of {object} is no number: {pose:?}")]
+    #[error("the pose of {object} has a number that is not finite: {pose:?}")]
     Place {
         /// The name of the object.
         object: String,
@@ -48,7 +48,7 @@ pub enum Upset {
         pose: Pose,
     },
     /// The velocity of an object is not finite.
-    #[error("the velocity of {object} is no number: {velocity:?}")]
+    #[error("the velocity of {object} has a number that is not finite: {velocity:?}")]
     Velocity {
         /// The name of the object.
         object: String,

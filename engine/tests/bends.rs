@@ -8,15 +8,15 @@ use paracosm_engine::{Ahead, Briefing, Observation, Other, Pose, Way};
 
 /// All drivers that brake for others.
 const NAMES: [&str; 6] = ["aeb", "cc", "rss", "fsm", "reg157", "ideal"];
-/// Speed in m/s of the car under test.
+/// Speed in m/s of the ego vehicle.
 const SPEED: f64 = 10.0;
 /// Radius of the bend in metres, so wide that nobody brakes for the bend itself.
 const RADIUS: f64 = 60.0;
 
-/// A car on the circular way of the car under test or beside it.
+/// A car on the circular way of the ego vehicle or beside it.
 #[derive(Clone, Copy)]
 struct OnCircle {
-    /// Metres along the way ahead of the car under test at the beginning.
+    /// Metres along the way ahead of the ego vehicle at the beginning.
     ahead: f64,
     /// Metres to the left of the way.
     left: f64,

@@ -12,7 +12,7 @@ use paracosm_engine::{
 use paracosm_oracles::Verdict;
 use paracosm_space::Values;
 
-/// Runs a program in which the car under test only rolls: the bodies of the others tick by tick, and how it ended.
+/// Runs a program in which the ego vehicle only rolls: the bodies of the others tick by tick, and how it ended.
 fn run(build: fn(&mut Scenario)) -> (Vec<Vec<BodyState>>, Outcome) {
     let program = Program::new("environment-cars", "environment cars", build);
     let setup = Setup { model: VehicleModel::SingleTrack, ..Setup::asking_every(0.01) };
@@ -41,7 +41,7 @@ fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
     trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
 
-/// A road of 300 m with two lanes for each direction, on which the car under test stands far away, the other way.
+/// A road of 300 m with two lanes for each direction, on which the ego vehicle stands far away, the other way.
 fn road(s: &mut Scenario) -> Road {
     let road = s.place(RoadSegment::new(300.0).lanes(4).named("road"));
     s.place(AutonomousVehicle::at(road.on_lane(-2, 290.0)));

@@ -1,5 +1,5 @@
-//! Runs with cameras in them, which nobody draws here: when moments arrive, and that none of them depends on what else the
-//! car carries.
+//! Runs with cameras in them, which nobody draws here: when moments arrive, and that none of them depends on what else
+//! the car carries.
 
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{CameraSpec, Cameras, Delivery, Image, Imu, ImuSettings, Moment, Rig, Sample, Shutters};

@@ -237,8 +237,8 @@ fn mistakes_are_named() {
         s.place(Environment::new().friction(0.3));
         s.place(RoadSegment::new(10.0).friction(0.5));
     });
-    assert!(twice.contains("the friction of the roads is said twice"), "{twice}");
-    assert!(twice.contains("1 cars under test on 2 roads"), "{twice}");
+    assert!(twice.contains("the scenario sets the friction of the roads twice: set it only once"), "{twice}");
+    assert!(twice.contains("1 ego vehicles on 2 roads"), "{twice}");
     let beyond = refusal(|s| {
         let (road, _) = rolling(s);
         s.place(Mover::car(road.path(1)).starting(400.0));

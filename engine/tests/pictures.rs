@@ -120,7 +120,7 @@ fn texts(drawing: &Drawing) -> Vec<String> {
 fn a_world_shows_every_class_of_body_and_names_it() {
     let drawing = world(&begun(busy), "busy <&>");
     let texts = texts(&drawing);
-    let names = ["car under test", "car", "truck", "bicycle", "pedestrian", "building", "tree", "sign", "prop"];
+    let names = ["ego vehicle", "car", "truck", "bicycle", "pedestrian", "building", "tree", "sign", "prop"];
     for name in names.into_iter().chain(["planned path", "busy <&>"]) {
         assert!(texts.iter().any(|text| text == name), "{name} is missing in {texts:?}");
     }
@@ -304,7 +304,7 @@ fn a_story_that_is_too_long_for_one_view_has_several_of_one_size() {
     assert_eq!(insets(round).len(), 2);
 }
 
-/// Where the car under test is on each frame.
+/// Where the ego vehicle is on each frame.
 fn cars(film: &Animation) -> Vec<[f64; 4]> {
     let car = |frame: &paracosm_engine::picture::Frame| boxes(&frame.drawing, VERMILION).last().copied();
     film.frames.iter().filter_map(car).collect()

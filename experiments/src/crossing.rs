@@ -22,7 +22,7 @@ const SPEED: f64 = 30.0 / 3.6;
 const PAST: f64 = 13.0;
 const CROSSED: f64 = 8.5;
 const LONGEST: f64 = 25.0;
-/// A car that does not come nearer than this to the crossing, in metres, has not met the walker and makes no progress.
+/// A car that does not come nearer than this to the crossing, in metres, has not met the walker: it fails `progress`.
 const MET: f64 = 30.0;
 
 fn build(s: &mut Scenario) {

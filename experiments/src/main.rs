@@ -85,7 +85,7 @@ const STUDIES: &[Study] = &[
     },
     Study {
         name: "samplers",
-        about: "which strategy covers a space most evenly: ten of them by eight measures in 2, 3 and 5 dimensions",
+        about: "which strategy covers a space most evenly: ten strategies by eight measures in 2, 3 and 5 dimensions",
         time: "4 min",
         run: samplers::run,
     },
@@ -113,7 +113,7 @@ const STUDIES: &[Study] = &[
     #[cfg(feature = "neural")]
     Study {
         name: "exams",
-        about: "each network in 100 tests of what it was trained in, beside the expert who taught it and one who never brakes",
+        about: "each network in 100 tests of its training conditions, compared with the expert who taught it and a driver that never brakes",
         time: "4 min",
         run: cloning::exam::run,
     },
@@ -148,14 +148,14 @@ const STUDIES: &[Study] = &[
     #[cfg(feature = "neural")]
     Study {
         name: "fig10c",
-        about: "the paper's Figure 10c: what a cloned driver follows: a red leader, a red car that comes, a white leader",
+        about: "the paper's Figure 10c: what a cloned driver follows behind a red leader, with an oncoming red car, and behind a white leader",
         time: "6 s",
         run: fig10c::run,
     },
     #[cfg(feature = "neural")]
     Study {
         name: "saliency",
-        about: "which pixels a cloned driver goes by: what covering each changes, and whether red ones make it brake",
+        about: "which pixels decide what a cloned driver does: the effect of covering each pixel, and whether red pixels make it brake",
         time: "1 min",
         run: saliency::run,
     },
@@ -200,8 +200,14 @@ fn run(arguments: &Arguments) -> Done {
         ("system", Some(other)) => {
             return Err(format!("no system is called `{other}`, expected `{}`", system::NAME).into());
         }
-        ("system", None) => return Err(format!("found no name of a system, expected `{}`", system::NAME).into()),
-        (_, Some(more)) => return Err(format!("found `{more}` after the study, expected nothing").into()),
+        ("system", None) => {
+            return Err(format!("`system` needs the name of a system, expected `{}`", system::NAME).into());
+        }
+        (_, Some(more)) => {
+            return Err(
+                format!("found the argument `{more}` after the name of the study, expected no more arguments").into()
+            );
+        }
         (_, None) => {}
     }
     if arguments.name == "list" {
@@ -211,9 +217,12 @@ fn run(arguments: &Arguments) -> Done {
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {
         let names = STUDIES.iter().map(|study| study.name);
         let hint = did_you_mean(&nearest(&arguments.name, names));
-        let without =
-            if cfg!(feature = "neural") { "" } else { ", and this program was built without those of networks" };
-        return Err(format!("no study is called `{}`{hint}; `list` shows them all{without}", arguments.name).into());
+        let without = if cfg!(feature = "neural") {
+            ""
+        } else {
+            ", and this program was built without the studies of networks (feature `neural`)"
+        };
+        return Err(format!("no study is called `{}`{hint}; `list` shows all studies{without}", arguments.name).into());
     };
     let default = || Path::new("experiments/out").join(study.name);
     let out = arguments.out.clone().unwrap_or_else(default);

@@ -42,7 +42,7 @@ enum Outcome {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InputFlaw {
     /// The test lacks an input.
-    #[error("the test has no `{name}`")]
+    #[error("the test has no value for the input `{name}`")]
     Missing { name: &'static str },
     /// An input is neither a number nor a list of numbers.
     #[error("`{name}` is {value}, expected a number or a list of numbers")]

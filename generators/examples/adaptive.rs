@@ -1,10 +1,10 @@
 //! How many tests it takes to the first failure: the table of adaptive strategies in BENCHMARKS.md.
-//! `cargo run --release -p paracosm-generators --example adaptive [BATCH [SEEDS [DIMS..]]]`, a minute; with SEEDS 0 the time that
-//! proposals take in so many dimensions, 5 where nothing is said. That is the processor's time of the thread where the
-//! system tells it (Linux), so that a busy machine does not matter.
+//! `cargo run --release -p paracosm-generators --example adaptive [BATCH [SEEDS [DIMS..]]]`, a minute; with SEEDS 0 the
+//! time that proposals take in so many dimensions, 5 where nothing is said. That is the processor's time of the thread
+//! where the system tells it (Linux), so that a busy machine does not matter.
 //!
-//! Functions with a known set of failures (values below 0), which another seed puts elsewhere; a run ends after 300 tests
-//! and then counts as 300. Medians, and how many of the runs found a failure.
+//! Functions with a known set of failures (values below 0), which another seed puts elsewhere; a run ends after 300
+//! tests and then counts as 300. Medians, and how many of the runs found a failure.
 
 use paracosm_generators::functions::Function;
 use paracosm_generators::{Request, Strategy};

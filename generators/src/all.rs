@@ -11,7 +11,7 @@ pub enum Purpose {
     Cover,
     /// The tests cover the space together with tests that exist.
     Complete,
-    /// The tests find a failure with few tests.
+    /// The tests find a first failure, as few of them as possible.
     FirstFailure,
 }
 

@@ -92,7 +92,7 @@ mod tests {
     use crate::{Request, Strategy};
     use paracosm_space::Space;
 
-    /// Proposes its own number for ever, and remembers what it was told.
+    /// Proposes its own number again and again, and remembers its results.
     struct Fixed(f64);
 
     impl Generator for Fixed {
@@ -101,7 +101,8 @@ mod tests {
         }
     }
 
-    /// Whose turns it is, where each search finds these in turn and then its last again; all in this unit.
+    /// The order of the turns, if each search finds these values in order and then repeats its last; all in this
+    /// unit.
     fn turns(finds: [&[f64]; 2], unit: f64) -> Vec<usize> {
         let searches: [Box<dyn Generator>; 2] = [Box::new(Fixed(0.0)), Box::new(Fixed(1.0))];
         let mut bandit = Bandit::new(searches.into());

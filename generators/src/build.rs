@@ -16,8 +16,9 @@ impl Strategy {
     ///
     /// In a space with discrete parameters the generator ends after the budget, or without continuous parameters
     /// after all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every
-    /// space; without continuous parameters it ends when every row that the constraints allow has been tested. It
-    /// begins with the rows of the family.
+    /// space; without continuous parameters it ends when every row that the constraints allow has been tested. (With
+    /// more than 100,000 rows it ends when 1,000 random rows in turn had all been tested before.) It begins with the
+    /// rows of the family.
     ///
     /// # Errors
     /// The space is empty, the budget is 0, `k` or `delta` is out of range, the family is too large, or an existing

@@ -7,7 +7,8 @@ use std::str::FromStr;
 /// The method that covers the discrete parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DiscreteFamily {
-    /// A covering array by IPOG: a small set of rows with all valid combinations of values of any k parameters.
+    /// A covering array by IPOG, which is a small set of rows with all valid combinations of values of any k
+    /// parameters.
     #[default]
     Ipog,
     /// Uniformly random rows, as many as Proposition 3.2 of the paper asks for. With probability at least `1 - delta`

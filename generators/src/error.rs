@@ -17,7 +17,7 @@ pub enum GeneratorError {
         nearest: Option<&'static str>,
     },
     /// No discrete family has the given name.
-    #[error("no discrete family is called `{name}`{}; there are ipog, random and cross", did_you_mean(.nearest))]
+    #[error("no discrete family is called `{name}`{}; the families are ipog, random and cross", did_you_mean(.nearest))]
     UnknownFamily {
         /// The name that no family has.
         name: String,
@@ -31,7 +31,7 @@ pub enum GeneratorError {
     #[error("the budget is 0 tests; a budget must be at least 1")]
     NoBudget,
     /// A start index was given for a strategy that has no order.
-    #[error("`{strategy}` is no sequence and cannot skip; the sequences are {sequences}")]
+    #[error("`{strategy}` is not a sequence and cannot skip points; use one of {sequences}, or do not skip")]
     NoSequence {
         /// The name of the strategy.
         strategy: &'static str,
@@ -51,7 +51,7 @@ pub enum GeneratorError {
         instead: &'static str,
     },
     /// An index is so large that a double cannot tell it from others.
-    #[error("`{strategy}` has indices below {len}; asked for index {last}; ask for fewer or skip fewer")]
+    #[error("`{strategy}` has {len} points, but the request needs index {last}; lower the budget or the skip")]
     IndexLimit {
         /// The name of the strategy.
         strategy: &'static str,
@@ -75,16 +75,14 @@ pub enum GeneratorError {
     #[error("epsilon is {0}; the volume of an empty box must be above 0 and below 1")]
     Epsilon(f64),
     /// An epsilon leaves the number of tests open, but the strategy makes a set for a given number.
-    #[error(
-        "`{strategy}` makes its set for a number of tests, but epsilon asks for as many as it takes; use halton or greedy"
-    )]
+    #[error("`{strategy}` must know the number of tests beforehand, but epsilon leaves it open; use halton or greedy")]
     Sized {
         /// The name of the strategy.
         strategy: &'static str,
     },
     /// An epsilon asks for rows without large holes, but the strategy goes where tests fail.
     #[error(
-        "`{strategy}` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy"
+        "`{strategy}` goes where tests fail and leaves holes elsewhere; epsilon forbids holes: use halton or greedy"
     )]
     NoEpsilon {
         /// The name of the strategy.
@@ -97,13 +95,13 @@ pub enum GeneratorError {
         strategy: &'static str,
     },
     /// An aim was given for a strategy that does not aim at a measure.
-    #[error("`{strategy}` aims at no measure; greedy does")]
+    #[error("`{strategy}` cannot aim at a measure; use greedy, or give no measure to aim at")]
     NoAim {
         /// The name of the strategy.
         strategy: &'static str,
     },
     /// No measure that `greedy` can aim at has the given name.
-    #[error("greedy cannot aim at `{name}`{}; it can at dispersion and k-wise-dispersion", did_you_mean(.nearest))]
+    #[error("greedy cannot aim at `{name}`{}; it can aim at dispersion and k-wise-dispersion", did_you_mean(.nearest))]
     UnknownAim {
         /// The name that no such measure has.
         name: String,
@@ -111,7 +109,7 @@ pub enum GeneratorError {
         nearest: Option<&'static str>,
     },
     /// An existing test does not belong to the space.
-    #[error("existing test {index} is none of the space")]
+    #[error("existing test {index} does not belong to the space; give each parameter of the space a valid value")]
     Foreign {
         /// The position of the test, from 0.
         index: usize,
@@ -133,7 +131,7 @@ pub enum GeneratorError {
         parameters: usize,
     },
     /// The strength is out of range for the discrete parameters.
-    #[error("k is {k}, but the space has {parameters} discrete parameters; k must be from 1 to their number")]
+    #[error("k is {k}, expected a number from 1 to the number of discrete parameters, which is {parameters}")]
     Strength {
         /// The strength k.
         k: usize,
@@ -142,8 +140,8 @@ pub enum GeneratorError {
     },
     /// Constraints make it impossible to compute the probability of a combination in random rows.
     #[error(
-        "the constraints join too many parameters to tell how probable a combination is, and a random family would \
-         promise nothing; use ipog"
+        "the constraints join too many parameters to compute a combination's probability, so a random family would \
+         guarantee nothing; use ipog"
     )]
     RandomUnderConstraints,
     /// A covering array cannot be constructed.
@@ -153,10 +151,10 @@ pub enum GeneratorError {
     #[error(transparent)]
     Space(#[from] SpaceError),
     /// The delta is not a probability above 0 and below 1.
-    #[error("delta is {0}; a probability of failure must be above 0 and below 1")]
+    #[error("delta is {0}; the probability of missing a combination must be above 0 and below 1")]
     Delta(f64),
     /// A delta was given for a family that misses no combination.
-    #[error("delta is the probability that random rows miss a combination; `{family}` misses none, use random")]
+    #[error("only the family random has a delta, because it may miss combinations; `{family}` needs no delta")]
     NoDelta {
         /// The name of the family.
         family: &'static str,

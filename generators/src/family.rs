@@ -19,7 +19,8 @@ const MOST_ROWS: u64 = 10_000_000;
 const MOST_BITS: u64 = 1 << 28;
 
 impl Request<'_> {
-    /// Returns the number of discrete parameters that the rows cover together: `k`, or all if fewer are discrete.
+    /// Returns the number of discrete parameters that the rows cover together. It is `k`, or less if fewer are
+    /// discrete.
     ///
     /// # Errors
     /// `k` is 0 or more than the number of all parameters, or it is given for a space without discrete parameters.

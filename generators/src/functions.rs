@@ -49,17 +49,17 @@ impl Function {
         function("valley2", "the end of Rosenbrock's valley", 2, &[], valley),
         function("ring2", "a circle 0.0016 wide", 2, &[], |x, hidden| Some((distance(x, hidden) - 0.2).abs() - 0.0008)),
         function("rough3", "a ball among waves", 3, &[], rough),
-        function("few20", "20 parameters of which three matter", 20, &[], few),
+        function("few20", "20 parameters, only three of which matter", 20, &[], few),
         function(
             "words2",
-            "one of 64 combinations of words, each of which helps, and a disc",
+            "a disc in one of 64 combinations of words, where each right word helps",
             2,
             &[4, 4, 4],
             |x, hidden| Some(0.2 * wrong(x, hidden) as f64 + distance(x, hidden) - 0.15),
         ),
         function(
             "needle2",
-            "one of 16 combinations of words, which only helps as a whole, and a disc",
+            "a disc in one of 16 combinations of words, where only the whole combination helps",
             2,
             &[4, 4],
             |x, hidden| Some(if wrong(x, hidden) > 0 { 0.5 } else { 0.0 } + distance(x, hidden) - 0.15),
@@ -95,7 +95,7 @@ impl Function {
 }
 
 impl Placed {
-    /// Returns the robustness of a test: below 0 if it fails, `None` if it ends in an error.
+    /// Returns the robustness of a test, which is below 0 if it fails, and `None` if it ends in an error.
     pub fn robustness(&self, test: &Point) -> Option<f64> {
         (self.function.robustness)(test, &self.hidden)
     }

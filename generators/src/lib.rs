@@ -7,8 +7,9 @@
 //!
 //! The same request always gives the same tests, on every machine: all chance comes from the seed. The tests of
 //! adaptive strategies also depend on the results, their order, and the number of tests in each request. Strategies
-//! with a model (`bayes boundary auto`) repeat their tests to the last bit only on the same kind of processor.
-//! Strategies that use argmin (`anneal`) repeat them only if the mathematical library of the system is the same.
+//! with a model (`gp-cmaes bayes boundary auto`) repeat their tests to the last bit only on the same kind of
+//! processor. `anneal` repeats them only if the mathematical library of the system is the same, because argmin uses
+//! it.
 //!
 //! ```
 //! use paracosm_space::Space;

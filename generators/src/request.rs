@@ -42,8 +42,8 @@ pub struct Request<'a> {
     pub aim: Option<Aim>,
     /// Existing tests, which the new tests complete.
     pub existing: &'a [Point],
-    /// Groups of discrete parameters of which the family `ipog` covers more than k together: the positions among the
-    /// discrete parameters, and the strength.
+    /// The groups of discrete parameters that the family `ipog` covers with a strength above k, as positions among
+    /// the discrete parameters and the strength.
     pub groups: &'a [(Vec<usize>, usize)],
     /// The rows to use instead of the family's rows.
     pub rows: Option<&'a [Vec<usize>]>,

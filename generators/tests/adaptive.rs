@@ -1,5 +1,5 @@
-//! What adaptive strategies are for: failures found with far fewer tests than at random, on functions whose failures are
-//! known. The margins are wide; the figures are in BENCHMARKS.md.
+//! What adaptive strategies are for: failures found with far fewer tests than at random, on functions whose failures
+//! are known. The margins are wide; the figures are in BENCHMARKS.md.
 
 use paracosm_generators::{Generator, Request, Strategy};
 use paracosm_space::{Domain, Parameter, Point, Space, Value};

@@ -1,7 +1,7 @@
 //! What every strategy promises, in every kind of space and for every discrete family.
 //!
-//! The suite runs over `Strategy::all()` and over a strategy that only the suite knows. A new strategy is tested by being
-//! listed there.
+//! The suite runs over `Strategy::all()` and over a strategy that only the suite knows. A new strategy is tested by
+//! being listed there.
 
 use paracosm_generators::{Descriptor, DiscreteFamily, Generator, Look, MarkShape as Mark, Method, Request, Strategy};
 use paracosm_space::{Domain, Parameter, Point, Shape, Space, Value};

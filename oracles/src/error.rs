@@ -24,9 +24,7 @@ pub enum EvaluationError {
         time: f64,
     },
     /// A time bound lies between two samples, and the formula does not allow rounding.
-    #[error(
-        "a time bound of {bound} s is no multiple of the sample period of {dt} s; {widened} would round it outward"
-    )]
+    #[error("the time bound {bound} s is not a multiple of the sample period {dt} s; write {widened} to round outward")]
     TimeBound {
         /// The bound in seconds.
         bound: f64,
@@ -37,13 +35,13 @@ pub enum EvaluationError {
     },
     /// A comparison is not piecewise linear in time, or a signal is used as a truth, which has no distance to the
     /// other truth. Dense time cannot follow either of them between samples.
-    #[error("`{formula}` is no piecewise linear function of its signals, as dense time asks for")]
+    #[error("`{formula}` is not a piecewise linear function of its signals, which dense time needs")]
     NotLinear {
         /// The part of the formula, as text.
         formula: String,
     },
     /// The time bounds are not a valid interval. Only formulas built in Rust can have such bounds.
-    #[error("the time bounds [{},{}] are no interval, expected 0 <= start <= end in seconds", .0.start, .0.end)]
+    #[error("the time bounds [{},{}] are not an interval, expected 0 <= start <= end in seconds", .0.start, .0.end)]
     Interval(Interval),
 }
 

@@ -1,8 +1,8 @@
-//! Dense time against the definition of formulas, by brute force: every operator at every instant looks at all that is in
-//! its window. It shares nothing with the crate but the data, and is quadratic and worse.
+//! Dense time against the definition of formulas, by brute force: every operator at every instant looks at all that is
+//! in its window. It shares nothing with the crate but the data, and is quadratic and worse.
 //!
-//! Numbers are those of `f64` here as there. Both round, so that they agree to within [`TOLERANCE`]; signals, time bounds
-//! and so the instants at which anything jumps are multiples of an eighth, and exact.
+//! Numbers are those of `f64` here as there. Both round, so that they agree to within [`TOLERANCE`]; signals, time
+//! bounds and so the instants at which anything jumps are multiples of an eighth, and exact.
 
 mod common;
 
@@ -106,8 +106,8 @@ struct Sight {
 }
 
 impl Sight {
-    /// Instants between which the operator rises or falls throughout: those at which an operand bends here or at an edge
-    /// of the window, and those at which two of these values pass each other.
+    /// Instants between which the operator rises or falls throughout: those at which an operand bends here or at an
+    /// edge of the window, and those at which two of these values pass each other.
     fn bends(&self, operands: &[&Curve]) -> Vec<f64> {
         let sign = if self.past { -1.0 } else { 1.0 };
         let Interval { start, end, .. } = self.interval;

@@ -77,10 +77,10 @@ fn what_is_no_formula_is_refused_with_its_place_and_what_belongs_there() {
             "column 11: found `until`, expected an operator or the end (`until`, `release` and `since` do not chain: use \
              parentheses)",
         ),
-        ("a && b", "column 3: found `&&`, expected `and` (that is how it is written here)"),
-        ("!a", "column 1: found `!`, expected `not` (that is how it is written here)"),
-        ("x ≤ 3", "column 3: found `≤`, expected `<=` (that is how it is written here)"),
-        ("x = 3", "column 3: found `=`, expected `==` (that is how it is written here)"),
+        ("a && b", "column 3: found `&&`, expected `and` (formulas use this operator)"),
+        ("!a", "column 1: found `!`, expected `not` (formulas use this operator)"),
+        ("x ≤ 3", "column 3: found `≤`, expected `<=` (formulas use this operator)"),
+        ("x = 3", "column 3: found `=`, expected `==` (formulas use this operator)"),
         (
             "größe # 3",
             "column 7: found `#`, expected a formula (names with other characters than letters, digits, `_` and `.` \
@@ -99,7 +99,7 @@ fn what_is_no_formula_is_refused_with_its_place_and_what_belongs_there() {
         ),
         ("3x > 1", "column 1: found `3x`, expected a finite number"),
         ("x > 1e999", "column 5: found `1e999`, expected a finite number"),
-        ("'x > 1", "column 1: found a name without an end, expected a closing `'`"),
+        ("'x > 1", "column 1: found a name without a closing quotation mark, expected a closing `'`"),
         ("abs x", "column 5: found `x`, expected `(`"),
         ("min(x) > 1", "column 6: found `)`, expected `,`"),
         ("always[0 a", "column 10: found `a`, expected `,`"),

@@ -118,7 +118,8 @@ impl<'a> Case<'a> {
             Verdict::Error => (End::Error, error.to_owned()),
             Verdict::Inconclusive => (
                 End::Skipped,
-                "inconclusive: the situation that the test is about never came about, or it ended too early".to_owned(),
+                "inconclusive: the situation that the test is about never came about, or the test ended too early"
+                    .to_owned(),
             ),
             Verdict::Invalid => (End::Skipped, format!("invalid: {error}")),
         };

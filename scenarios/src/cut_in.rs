@@ -9,7 +9,7 @@ use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
 
 pub(crate) const PROGRAM: Program =
-    Program::new("cut-in", "a slower car changes into the lane of the car, right before it (UN R157)", cut_in);
+    Program::new("cut-in", "a slower car changes into the ego vehicle's lane, right in front of it (UN R157)", cut_in);
 
 fn cut_in(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 20.0..=60.0).unit("km/h").default(50.0);

@@ -9,7 +9,7 @@ use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
 
 pub(crate) const PROGRAM: Program =
-    Program::new("cut-out", "the leader changes lanes and uncovers a car that stands (UN R157)", cut_out);
+    Program::new("cut-out", "the leader changes lanes and reveals a standing car (UN R157)", cut_out);
 
 fn cut_out(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 20.0..=60.0).unit("km/h").default(50.0);

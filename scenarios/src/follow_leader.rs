@@ -10,7 +10,7 @@ use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
 
 pub(crate) const PROGRAM: Program =
-    Program::new("follow-leader", "the car follows a leader whose speed varies over the run", follow_leader);
+    Program::new("follow-leader", "the ego vehicle follows a leader whose speed varies over the run", follow_leader);
 
 fn follow_leader(s: &mut Scenario) {
     let leader_speed =

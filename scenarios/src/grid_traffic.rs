@@ -8,7 +8,7 @@ use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scen
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program =
-    Program::new("grid-traffic", "a way through a city with a hundred cars", grid_traffic);
+    Program::new("grid-traffic", "a route through a city with a hundred cars", grid_traffic);
 
 static CITY: LazyLock<Arc<RoadNetwork>> =
     LazyLock::new(|| grid_city(6, 6, 80.0, 2).build().expect("the streets meet at the junctions"));

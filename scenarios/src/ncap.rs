@@ -21,7 +21,7 @@ pub(crate) const CPNCO: Program =
     Program::new("ncap-cpnco", "a child runs from behind parked cars at the near side (Euro NCAP CPNCO-50)", cpnco);
 pub(crate) const CCR: Program = Program::new(
     "ncap-ccr",
-    "the car comes upon a car that stands, drives slowly or brakes (Euro NCAP CCRs, CCRm, CCRb)",
+    "the ego vehicle comes upon a car that stands, drives slowly or brakes (Euro NCAP CCRs, CCRm, CCRb)",
     ccr,
 );
 
@@ -34,7 +34,7 @@ const START: f64 = 10.0;
 struct Crossing {
     body: Body,
     name: &'static str,
-    /// The side from which the pedestrian comes: -1 for the right, 1 for the left.
+    /// The side from which the pedestrian comes, -1 for the right and 1 for the left.
     side: f64,
     /// The distance from the middle of the lane at which the pedestrian stands, and the distance over which the
     /// pedestrian gathers speed, in metres.
@@ -138,7 +138,7 @@ fn ccr(s: &mut Scenario) {
         _ => (f64::from(gap.value()), (v - (Stream::time() - 1.0).max(0.0) * f64::from(brake.value())).max(0.0)),
     };
     if ahead <= 0.0 {
-        s.refuse("the car is no quicker than the target, so that it never comes upon it");
+        s.refuse("the ego vehicle is not faster than the target, so it never reaches the target");
     }
     let overlap = f64::from(overlap.value()) / 100.0;
     let aside = (1.0 - overlap.abs()).copysign(overlap) * Vehicle::BMW_320I.width;

@@ -7,7 +7,7 @@ use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, S
 
 pub(crate) const PROGRAM: Program = Program::new(
     "oncoming-distractor",
-    "the car follows a leader while another car comes the other way",
+    "the ego vehicle follows a leader while another car comes the other way",
     oncoming_distractor,
 );
 

@@ -15,7 +15,7 @@ use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scena
 
 pub(crate) const PROGRAM: Program = Program::new(
     "pedestrian-crossing",
-    "a pedestrian crosses the road when the car is nearer than a distance",
+    "a pedestrian crosses the road when the ego vehicle is nearer than a distance",
     pedestrian_crossing,
 );
 
@@ -42,11 +42,11 @@ fn pedestrian_crossing(s: &mut Scenario) {
     s.duration(25.0);
     s.premise(&near);
     s.require("no-collision", never(car.collides()))
-        .text("The car touches nobody: metres of clearance, or minus the braking distance that was missing.")
+        .text("The car touches nobody. The robustness is the least clearance in metres, or minus the missing braking distance.")
         .unit("m")
         .scale(5.0);
     s.require("progress", eventually(car.travelled().at_least(100.0)))
-        .text("The car comes at least 100 m far, so that standing still for ever is no pass.")
+        .text("The car drives at least 100 m, so that standing still for ever does not pass.")
         .unit("m")
         .scale(50.0);
 }

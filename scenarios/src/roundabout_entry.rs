@@ -11,7 +11,7 @@ use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scen
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program =
-    Program::new("roundabout-entry", "the car enters a roundabout in which another car is", roundabout_entry);
+    Program::new("roundabout-entry", "the ego vehicle enters a roundabout with another car in it", roundabout_entry);
 
 static ROUNDABOUT: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
     let arm = |name: &str| RoadSegment::new(120.0).named(name);

@@ -1,4 +1,5 @@
-//! Every scenario of the catalogue: that it can be run, is the same whenever it is run, and is what its documentation says.
+//! Every scenario of the catalogue: that it can be run, is the same whenever it is run, and is what its documentation
+//! says.
 
 use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::vehicle::{Vehicle, VehicleModel};

@@ -1,5 +1,5 @@
-//! What every scenario has around it: it can be opened in all of them, may vary over time, and changes nothing where it is
-//! closed.
+//! What every scenario has around it: it can be opened in all of them, may vary over time, and changes nothing where it
+//! is closed.
 
 use paracosm_engine::{Program, Run, Setup, Step, Test, Weather};
 use paracosm_scenarios::ALL;

@@ -57,7 +57,7 @@ pub enum SpaceError {
     },
     /// The search for the combinations that the constraints allow exceeded its bounds. The list names the parameters.
     #[error(
-        "what the constraints allow of {} was not found out within the bounds of the search; leave out some of the \
+        "the search for the combinations of {} that the constraints allow exceeded its bounds; leave out some of the \
          constraints on these parameters, or give them fewer values", quoted(.0)
     )]
     Undecided(Vec<String>),

@@ -28,7 +28,7 @@ pub struct ParameterError {
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum ParameterFlaw {
     /// The lower end of an interval is not below its upper end, or an end is not a finite number.
-    #[error("interval [{lo}, {hi}], expected two finite numbers, the first below the second")]
+    #[error("found the interval [{lo}, {hi}], expected two finite numbers, the first below the second")]
     Interval {
         /// The lower end of the interval.
         lo: f64,
@@ -45,7 +45,7 @@ pub enum ParameterFlaw {
         value: Value,
     },
     /// A choice has a list as a value.
-    #[error("a choice is between numbers and words, found {value}")]
+    #[error("found the list {value} in a choice, expected numbers and words")]
     ListLevel {
         /// The list in the choice.
         value: Value,
@@ -62,7 +62,7 @@ pub enum ParameterFlaw {
     #[error("a signal needs at least one piece")]
     NoPiece,
     /// A discrete parameter has a smooth signal. The values of a choice cannot change smoothly.
-    #[error("a choice is piecewise constant where it varies, found the shape {shape}")]
+    #[error("found a signal of the shape {shape} for a choice, expected the shape piecewise-constant")]
     SmoothChoice {
         /// The shape of the signal.
         shape: Shape,
@@ -342,11 +342,11 @@ pub(crate) struct EntryError {
 enum EntryFlaw {
     #[error("expected either `interval = [lo, hi]` or `choice = [..]`")]
     Domain,
-    #[error("found {found} texts in `written`, expected the {expected} of `choice`")]
+    #[error("the key `written` has length {found}, expected length {expected}, a text for each value of `choice`")]
     WrittenCount { found: usize, expected: usize },
-    #[error("found `{found}` in `written`, expected the text of {level}")]
+    #[error("found `{found}` in `written`, expected a text of the value {level}")]
     Written { found: String, level: Value },
-    #[error("`{RESERVED}` is not supported by this version")]
+    #[error("the key `{RESERVED}` is not supported by this version; remove the key")]
     Reserved,
     #[error(transparent)]
     Shape(#[from] ShapeError),

@@ -63,14 +63,14 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Record<T> {
             type Value = Record<T>;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("values by name")
+                f.write_str("a map from names to values")
             }
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Record<T>, A::Error> {
                 let mut record = Record::default();
                 while let Some((name, value)) = map.next_entry::<String, T>()? {
                     if record.get(&name).is_some() {
-                        return Err(A::Error::custom(format!("`{name}` has two values")));
+                        return Err(A::Error::custom(format!("found `{name}` twice, expected one value per name")));
                     }
                     record.0.push((name, value));
                 }

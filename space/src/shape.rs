@@ -35,7 +35,7 @@ pub enum Shape {
 #[derive(Debug, Clone, Error, PartialEq, Eq)]
 pub enum ShapeError {
     /// No shape has this name.
-    #[error("no shape of a signal is called `{name}`{}; there are {}", did_you_mean(.nearest), NAMES.join(", "))]
+    #[error("no shape of a signal is called `{name}`{}; the shapes are {}", did_you_mean(.nearest), NAMES.join(", "))]
     Unknown {
         /// The unknown name.
         name: String,
@@ -43,9 +43,9 @@ pub enum ShapeError {
         nearest: Option<&'static str>,
     },
     /// The text lacks the number that its shape needs.
-    #[error("found `{text}`, expected `{shape}` with a number")]
+    #[error("found `{text}`, expected the shape `{shape}` with a number, such as `piecewise-constant(5)`")]
     NoNumber {
-        /// The text.
+        /// The text that was read.
         text: String,
         /// The name of the shape in the text.
         shape: String,
@@ -176,9 +176,9 @@ impl Entry {
     pub fn shape(&self) -> Result<Option<Shape>, ShapeError> {
         let Self { shape, degree, pieces } = self;
         let (takes, number, other) = match shape.as_str() {
-            "constant" => ("nothing more", None, degree.or(*pieces)),
-            "polynomial" => ("`degree`, and no `pieces`", *degree, *pieces),
-            _ => ("`pieces`, and no `degree`", *pieces, *degree),
+            "constant" => ("no other key", None, degree.or(*pieces)),
+            "polynomial" => ("the key `degree`, and not the key `pieces`", *degree, *pieces),
+            _ => ("the key `pieces`, and not the key `degree`", *pieces, *degree),
         };
         let missing = || ShapeError::Keys { shape: shape.clone(), takes };
         let found = if shape == "constant" { None } else { Some(Shape::named(shape, || number.ok_or_else(missing))?) };

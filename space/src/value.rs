@@ -158,7 +158,7 @@ impl<'de> Deserialize<'de> for Value {
             type Value = Value;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number, a word or a list of them")
+                f.write_str("a number, a word, or a list of numbers and words")
             }
 
             fn visit_i64<E>(self, number: i64) -> Result<Value, E> {

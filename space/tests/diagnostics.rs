@@ -48,14 +48,14 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check("lanes in [2, open]", 14, "found `open`, expected a number or a quoted word");
     check("lanes in [2,", 13, "found the end of the constraint, expected a number or a quoted word");
     check("2 in [2]", 1, "found `2`, expected the name of a parameter before `in`");
-    check("2 == 2", 1, "found values on both sides, expected a parameter on one of them");
+    check("2 == 2", 1, "found values on both sides of the comparison, expected a parameter on one side");
     check("lanes 2", 7, "found `2`, expected a comparison (`==`, `!=`, `<`, `<=`, `>`, `>=` or `in`)");
     check("lanes ==", 9, "found the end of the constraint, expected a number, a quoted word or a parameter");
     check("lanes not 2", 11, "found `2`, expected `in`");
     check("1 < open < 3", 10, "comparisons do not chain: join two of them with `and`");
-    check("(lanes == 2", 1, "the `(` here is never closed");
+    check("(lanes == 2", 1, "the `(` here has no closing `)`");
     check("(lanes == 2 open == 1)", 13, "found `open`, expected `and`, `or`, `implies` or `)`");
-    check("lanes == 2)", 11, "found `)`, which closes nothing");
+    check("lanes == 2)", 11, "found `)` without an opening `(`");
     check(
         "lanes == 2 AND open == 1",
         12,
@@ -144,7 +144,7 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         (2, 19),
         "found no `:`, expected one between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
     );
-    check(" : 1, 2", (1, 2), "found no name before `:`");
+    check(" : 1, 2", (1, 2), "found no name before `:`, expected the name of a parameter");
     check("A:  \nB: 1", (1, 3), "found no values, expected those of `A`, with commas between them");
     check("A: 1\nB: ~x, ~2", (2, 4), "every value of `B` is negative (`~`), expected one that is not");
     check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
@@ -224,7 +224,7 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     check("[Lanes] = [Weather];", (1, 9), "`Lanes` takes numbers and `Weather` words, which are not compared");
     check("[Lanes] = [Front lane];", (1, 11), "no parameter is called `Front lane` (did you mean `Front lanes`?)");
     check("([Lanes] = 2;", (1, 13), "found `;`, expected `AND`, `OR` or `)`");
-    check("([Lanes] = 2", (1, 1), "the `(` here is never closed");
+    check("([Lanes] = 2", (1, 1), "the `(` here has no closing `)`");
     check("IsNegative(Lane);", (1, 12), "no parameter is called `Lane` (did you mean `Lanes`?)");
     check("IsNegative Lanes;", (1, 12), "found `Lanes`, expected `(`");
     check(

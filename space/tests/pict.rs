@@ -63,8 +63,8 @@ fn a_model_is_read_with_its_sub_models_and_constraints() {
         model.notes,
         [
             "line 10: a sub-model without an order is covered as all parameters are",
-            "of aliases only the first is used: `ext4 | ext3`",
-            "weights are passed over: `NTFS (10)`",
+            "only the first alias of a value is used: `ext4 | ext3`",
+            "weights are ignored: `NTFS (10)`",
         ]
     );
 }
@@ -94,7 +94,7 @@ fn values_are_numbers_words_and_what_they_look_like() {
     check(
         "A: x|~z (3), y(2)",
         &["x".into(), "y".into()],
-        &["of aliases only the first is used: `x|~z`", "weights are passed over: `x|~z (3)`, `y(2)`"],
+        &["only the first alias of a value is used: `x|~z`", "weights are ignored: `x|~z (3)`, `y(2)`"],
     );
     check(
         "A: 1, , (3)",
@@ -102,7 +102,7 @@ fn values_are_numbers_words_and_what_they_look_like() {
         &[
             "parameter `A` lists the empty word as a value",
             "parameter `A` lists `` twice, which is read as one value",
-            "weights are passed over: `(3)`",
+            "weights are ignored: `(3)`",
         ],
     );
     check("A/@B@x: x@2", &["x@2".into()], &[]);

@@ -52,7 +52,8 @@ pub(super) struct Options {
     /// The scenarios, each NAME or NAME+PARAMETER+.. to open parameters, or functions
     #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"])]
     scenarios: Vec<String>,
-    /// The strategies; `paracosm-fuzz list` shows them all [default: random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto]
+    /// The strategies; `paracosm-fuzz list` shows them all [default:
+    /// random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     strategies: Vec<String>,
     /// How many tests a run has

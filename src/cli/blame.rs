@@ -34,7 +34,7 @@ Blame writes blame.json and blame.csv to DIR, and blame-map.svg and .png if two 
 pub(super) struct Options {
     /// The folder of the campaign
     dir: PathBuf,
-    /// The drivers to judge by; `paracosm-fuzz list` shows them all
+    /// The reference drivers to judge by; `paracosm-fuzz list drivers` shows all drivers
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', default_values_t = REFERENCES.map(str::to_owned))]
     driver: Vec<String>,
     #[command(flatten)]

@@ -36,7 +36,8 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Checks, before anything takes time, that a picture of one of these kinds can be written to the file of an option.
+    /// Checks, before anything takes time, that a picture of one of these kinds can be written to the file of an
+    /// option.
     ///
     /// # Errors
     /// The file belongs to a campaign, or has another ending.

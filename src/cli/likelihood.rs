@@ -29,8 +29,8 @@ All methods estimate. No method proves that a system does not fail.";
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// The distribution of a parameter over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or for a
-    /// choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform]
+    /// The distribution of a parameter over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or
+    /// for a choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform]
     #[arg(long, value_name = "NAME=DISTRIBUTION")]
     distribution: Vec<String>,
     /// How the probability is estimated: monte-carlo, qmc or subset
@@ -42,7 +42,7 @@ pub(super) struct Options {
     /// The probability that the interval contains the true value
     #[arg(long, value_name = "C", default_value_t = 0.95)]
     confidence: f64,
-    /// The source of all chance
+    /// The seed of all random choices
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// How many tests run at a time; results do not depend on it [default: one per core]

@@ -1,7 +1,8 @@
 //! The two programs: they read arguments, call the library, print the result and return an exit status.
 //!
-//! Results go to standard output, everything else to standard error. The exit status is 0 if the command has done its work, 1 if a
-//! requirement was violated and the user asked about violations, and 2 if the command, its input or the run was wrong.
+//! Results go to standard output, everything else to standard error. The exit status is 0 if the command has done its
+//! work, 1 if a requirement was violated and the user asked about violations, and 2 if the command, its input or the
+//! run was wrong.
 
 mod arguments;
 mod bench;

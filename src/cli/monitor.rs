@@ -31,7 +31,8 @@ pub(super) struct Options {
     /// A formula to evaluate; the option can be repeated
     #[arg(long, value_name = "FORMULA", required = true)]
     spec: Vec<String>,
-    /// Evaluate formulas in dense time: signals are straight lines between samples, and formulas are about every instant
+    /// Evaluate formulas in dense time: signals are straight lines between samples, and formulas are about every
+    /// instant
     #[arg(long)]
     dense: bool,
     /// End when all formulas are decided, without reading the rest of the trace

@@ -4,7 +4,8 @@ use super::output::domain_words;
 use crate::space::Parameter;
 use paracosm_campaign::Study;
 
-/// Returns a line for each attribute, and a line for open parameters that no attribute names. Empty if no design domain is stated.
+/// Returns a line for each attribute, and a line for open parameters that no attribute names. Empty if no design domain
+/// is stated.
 pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
     let Some(odd) = study.odd() else { return Vec::new() };
     let mut lines: Vec<(String, String)> = Vec::new();

@@ -213,7 +213,8 @@ pub(super) fn domain_words(domain: &Domain) -> String {
     }
 }
 
-/// Prints a value of a parameter, its numbers with five digits. A long list is shortened to its first values and its last value.
+/// Prints a value of a parameter, its numbers with five digits. A long list is shortened to its first values and its
+/// last value.
 pub(super) fn value_words(value: &Value) -> String {
     let scalar = |value: &Value| value.number().map_or_else(|| value.to_string(), digits);
     match value {

@@ -13,10 +13,10 @@ use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Runs all regression files, even if one of them breaks, and prints a line for each. `expect` overrides the expectation of
-/// the files. `junit` is written in the place of an older report. The exit status counts a violation even if it was
-/// expected; the report for CI goes by the expectations. The first test that broke, or did not repeat the trace that the same
-/// software has recorded, becomes the error of the command.
+/// Runs all regression files, even if one of them breaks, and prints a line for each. `expect` overrides the
+/// expectation of the files. `junit` is written in the place of an older report. The exit status counts a violation
+/// even if it was expected; the report for CI goes by the expectations. The first test that broke, or did not repeat
+/// the trace that the same software has recorded, becomes the error of the command.
 pub(super) fn replay(
     files: &[PathBuf],
     expect: Option<Expectation>,

@@ -30,8 +30,8 @@ pub(super) struct Options {
     /// Film through a camera, into a FILE.mp4, a FILE.gif, or PNG files in a new FOLDER
     #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
     camera: Option<PathBuf>,
-    /// The file of cameras for --camera; `paracosm-fuzz record --print-cameras` prints an example [default: the cameras of
-    /// the driver; for a driver without cameras, a camera at the front with 640 x 480 pixels]
+    /// The file of cameras for --camera; `paracosm-fuzz record --print-cameras` prints an example [default: the cameras
+    /// of the driver; for a driver without cameras, a camera at the front with 640 x 480 pixels]
     #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
     cameras: Option<PathBuf>,
     /// The name of the camera for --camera [default: the first by name]

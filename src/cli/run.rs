@@ -39,12 +39,12 @@ pub(super) struct Options {
     budget: usize,
     #[command(flatten)]
     sampling: Sampling,
-    /// How many tests an adaptive strategy proposes at a time: with fewer it learns from more outcomes, with more it keeps
-    /// more cores busy [default: 16]
+    /// How many tests an adaptive strategy proposes at a time: with fewer it learns from more outcomes, with more it
+    /// keeps more cores busy [default: 16]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
-    /// Count the tests in this file as done: run only the tests that complete them, and measure the coverage of all tests
-    /// together. The columns of the file are the open parameters
+    /// Count the tests in this file as done: run only the tests that complete them, and measure the coverage of all
+    /// tests together. The columns of the file are the open parameters
     #[arg(long, value_name = "TESTS.csv")]
     extend: Option<PathBuf>,
     /// How many tests run at a time; results do not depend on it [default: one per core]

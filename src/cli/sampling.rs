@@ -12,8 +12,8 @@ pub(super) struct Sampling {
     /// The index of the first point of a sequence [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N")]
     pub skip: Option<u64>,
-    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all combinations)
-    /// [default: ipog]
+    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all
+    /// combinations) [default: ipog]
     #[arg(long, value_name = "FAMILY")]
     pub discrete: Option<String>,
     /// The probability with which random rows may miss a combination [default: 0.05]
@@ -26,8 +26,8 @@ pub(super) struct Sampling {
     /// --budget is too small, the largest box is made as small as possible
     #[arg(long, value_name = "E")]
     pub epsilon: Option<f64>,
-    /// The measure that greedy makes small: dispersion or k-wise-dispersion [default: dispersion in continuous spaces and
-    /// for each row of --discrete, else k-wise-dispersion]
+    /// The measure that greedy makes small: dispersion or k-wise-dispersion [default: dispersion in continuous spaces
+    /// and for each row of --discrete, else k-wise-dispersion]
     #[arg(long, value_name = "MEASURE")]
     measure: Option<String>,
 }

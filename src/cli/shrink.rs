@@ -18,8 +18,8 @@ pub(super) struct Options {
     /// How many tests to run at most
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
-    /// Keep the failure mode: the same violated requirements, the same contact, braking or not. Otherwise the simpler test
-    /// violates the same requirements, perhaps in another way; the output says so
+    /// Keep the failure mode: the same violated requirements, the same contact, braking or not. Otherwise the simpler
+    /// test violates the same requirements, perhaps in another way; the output says so
     #[arg(long)]
     same_mode: bool,
     /// Write the simplest test to a new regression file, which `replay` runs

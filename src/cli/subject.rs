@@ -26,16 +26,17 @@ pub(super) struct Subject {
     /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver: driver.NAME=VALUE
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The driver under test: a name of `paracosm-fuzz list drivers`; `grpc://HOST:PORT` for a driver that listens there; or,
-    /// in a program built with the feature `neural`, `cnn` for a network that comes with it or MODEL.onnx [default: aeb]
+    /// The driver under test: a name of `paracosm-fuzz list drivers`; `grpc://HOST:PORT` for a driver that listens
+    /// there; or, in a program built with the feature `neural`, `cnn` for a network that comes with it or MODEL.onnx
+    /// [default: aeb]
     #[arg(long, value_name = "NAME|grpc://HOST:PORT|MODEL.onnx")]
     driver: Option<String>,
-    /// Test your own driver: a command that starts a driver, which listens over gRPC at the address in PARACOSM_ADDRESS. Each
-    /// worker starts the command once
+    /// Test your own driver: a command that starts a driver, which listens over gRPC at the address in
+    /// PARACOSM_ADDRESS. Each worker starts the command once
     #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
     driver_command: Option<String>,
-    /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size. `car` is the ego vehicle; other
-    /// actors have their names of the traces; `tree` also stands for `tree-2` and so on
+    /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size. `car` is the ego vehicle;
+    /// other actors have their names of the traces; `tree` also stands for `tree-2` and so on
     #[arg(long, value_name = "ACTOR=FILE.glb")]
     model: Vec<String>,
     #[command(flatten)]
@@ -43,12 +44,12 @@ pub(super) struct Subject {
     /// Add the requirements of this file, with their sources and severities, and its operational design domain
     #[arg(long, value_name = "FILE.toml")]
     requirements: Option<PathBuf>,
-    /// Add a formula that every trace should satisfy; the option can be repeated. The requirements are called spec-1, spec-2,
-    /// ..; `paracosm-fuzz describe SCENARIO` shows the signals for formulas
+    /// Add a formula that every trace should satisfy; the option can be repeated. The requirements are called spec-1,
+    /// spec-2, ..; `paracosm-fuzz describe SCENARIO` shows the signals for formulas
     #[arg(long, value_name = "FORMULA")]
     spec: Vec<String>,
-    /// Evaluate the formulas of --spec in dense time: signals are straight lines between samples, and formulas are about every
-    /// instant. In a file of requirements, time = "dense" does the same for a requirement
+    /// Evaluate the formulas of --spec in dense time: signals are straight lines between samples, and formulas are
+    /// about every instant. In a file of requirements, time = "dense" does the same for a requirement
     #[arg(long, requires = "spec")]
     dense: bool,
 }

@@ -10,15 +10,15 @@ use std::path::PathBuf;
 /// A system in its own process, and the space of its tests.
 #[derive(Debug, Clone, Args)]
 pub(super) struct System {
-    /// Test your own system instead of a scenario: a command that reads a test as a line of JSON from standard input and
-    /// answers with a line of JSON. Each worker starts the command once
+    /// Test your own system instead of a scenario: a command that reads a test as a line of JSON from standard input
+    /// and answers with a line of JSON. Each worker starts the command once
     #[arg(long, value_name = "COMMAND", requires = "space", conflicts_with_all = ["scenario", "driver", "driver_command", "open", "set"])]
     system: Option<String>,
     /// The file with the parameters of the system, SPACE.toml or a PICT model
     #[arg(long, value_name = "SPACE.toml", requires = "system")]
     space: Option<PathBuf>,
-    /// The time limit for an answer of the system or of a driver in its own process; a driver that the program starts has
-    /// ten times as long until it listens [default: 60]
+    /// The time limit for an answer of the system or of a driver in its own process; a driver that the program starts
+    /// has ten times as long until it listens [default: 60]
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<f64>,
 }

@@ -162,6 +162,6 @@ fn times_that_are_none_and_files_that_are_no_text_are_refused_with_what_was_expe
     refused(&generate(&["m.pict", "--optimise", "soon"]), &["--optimise <SECONDS>: found `soon`, expected a number"]);
     for name in ["latin1.pict", "latin1.toml"] {
         fs::write(dir.path().join(name), b"A: 1, 2\nB: caf\xe9, tea\n").unwrap();
-        refused(&generate(&[name]), &[&format!("{name}, line 2: found bytes that are no UTF-8, expected")]);
+        refused(&generate(&[name]), &[&format!("{name}, line 2: found bytes that are not UTF-8, expected")]);
     }
 }

@@ -22,8 +22,8 @@ fn blame(dir: &Path, out: &str, more: &[&str]) -> String {
     stdout(&succeeds(fuzz(dir, &[&["blame", out, "-q"], more].concat())))
 }
 
-/// Whose fault each failure is, found again from whole campaigns of all the drivers over the same tests, in which nothing
-/// but a contact can go wrong.
+/// Whose fault each failure is, found again from whole campaigns of all the drivers over the same tests, in which
+/// nothing but a contact can go wrong.
 fn found_again(dir: &Path, more: &[&str]) -> Vec<Value> {
     let failing = campaign(dir, "out", more);
     let others: Vec<Vec<Value>> =

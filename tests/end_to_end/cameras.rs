@@ -57,8 +57,8 @@ fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
     refused(&fuzz(dir, &[&replay[..], &["front"]].concat()), &["front exists"]);
 }
 
-/// Checks that a film has so many pictures of 40 x 24 pixels, and, where there is something that can decode it, that they
-/// are hardly other than those in a folder.
+/// Checks that a film has so many pictures of 40 x 24 pixels, and, where there is something that can decode it, that
+/// they are hardly other than those in a folder.
 fn shows_the_same(dir: &Path, film: &str, folder: &str, count: usize) {
     let file = fs::read(dir.join(film)).expect("a film");
     let place = file.windows(4).position(|kind| kind == b"stsz").expect("sizes of pictures");

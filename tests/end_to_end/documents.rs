@@ -1,7 +1,8 @@
 //! Every command that a document shows runs, in the order of the document, in a fresh folder.
 //!
-//! A block marked `console` shows a session: a line that begins with `$` is a command, other lines are its output. A block
-//! marked `sh` shows commands that prepare a machine or build something; only a few kinds of them may stand in documents.
+//! A block marked `console` shows a session: a line that begins with `$` is a command, other lines are its output. A
+//! block marked `sh` shows commands that prepare a machine or build something; only a few kinds of them may stand in
+//! documents.
 
 use std::fs;
 use std::io::{self, Write};
@@ -35,7 +36,8 @@ fn documents() -> Vec<PathBuf> {
     all
 }
 
-/// The commands in the blocks of a kind: lines in `sh`, lines that begin with `$` in `console`, joined where they go on.
+/// The commands in the blocks of a kind: lines in `sh`, lines that begin with `$` in `console`, joined where they go
+/// on.
 fn commands(text: &str, kind: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     let mut block = None;

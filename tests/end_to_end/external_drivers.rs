@@ -258,10 +258,10 @@ fn what_is_no_driver_is_refused_before_the_first_test() {
     let unused = format!("grpc://{unused}");
     let (served, exits) = (command(), "sh -c 'echo no licence >&2; exit 4'");
     let cases: &[(&[&str], &[&str])] = &[
-        (&["--driver", &unused], &[&unused, "nobody listens there; start the driver first"]),
+        (&["--driver", &unused], &[&unused, "no process listens at this address; start the driver first"]),
         (&["--driver", "grpc://localhost"], &["grpc://localhost", "no port", "grpc://127.0.0.1:50051"]),
         (&["--driver", "http://localhost:1"], &["another scheme", "expected grpc://HOST:PORT"]),
-        (&["--driver", "grpc://no-such-host.invalid:1"], &["the host is not known"]),
+        (&["--driver", "grpc://no-such-host.invalid:1"], &["the name of the host is not known; check the address"]),
         (&["--driver-command", ""], &["--driver-command", "found no program"]),
         (&["--driver-command", "sh 'x"], &["--driver-command", "a quote is not closed"]),
         (&["--driver-command", "no-such-program x"], &["cannot start `no-such-program`"]),

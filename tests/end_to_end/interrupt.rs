@@ -7,8 +7,8 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-/// `paracosm-cover generate` as it runs, once it has said a line that contains this on standard error; with what it will
-/// say after that.
+/// `paracosm-cover generate` as it runs, once it has said a line that contains this on standard error; with what it
+/// will say after that.
 fn searching(dir: &Path, arguments: &[&str], says: &str) -> (Child, BufReader<impl Read>) {
     let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-cover"));
     let program = program.arg("generate").args(arguments).current_dir(dir);

@@ -256,7 +256,8 @@ fn a_system_that_judges_itself_is_held_to_the_requirements_of_the_file() {
     refused(&fuzz(dir.path(), &SYSTEM), &["requirements.toml", "[odd]", "once"]);
 }
 
-/// The opening tags of a document with their attributes, unescaped; checks that it is well-formed as far as we write XML.
+/// The opening tags of a document with their attributes, unescaped; checks that it is well-formed as far as we write
+/// XML.
 fn elements(document: &str) -> Vec<(String, Vec<(String, String)>)> {
     let body = document.strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n").expect("it says what it is");
     let (mut open, mut found) = (Vec::new(), Vec::new());

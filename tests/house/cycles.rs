@@ -1,8 +1,8 @@
 //! The modules of a crate do not import one another in a circle.
 //!
 //! A module stands for all that it contains. So the children of one parent are compared with each other: an import from
-//! somewhere in `a` to somewhere in `b` is an edge from `a` to `b`. A parent and its descendants may import each other: the
-//! parent is the whole, and its children are the parts.
+//! somewhere in `a` to somewhere in `b` is an edge from `a` to `b`. A parent and its descendants may import each other:
+//! the parent is the whole, and its children are the parts.
 
 use crate::expect_none;
 use crate::imports::{Import, imports};

@@ -1,8 +1,8 @@
 //! No decision reads the words of a message.
 //!
-//! Words are for readers, and change when somebody finds better ones. A decision that looks for a word in them breaks then, and
-//! no compiler says so. A message is here a text that `to_string` or `format!` has just made, and whatever is called
-//! [`message`](MESSAGES) or so. Looking into it is [`LOOKS`], or comparing it with a literal.
+//! Words are for readers, and change when somebody finds better ones. A decision that looks for a word in them breaks
+//! then, and no compiler says so. A message is here a text that `to_string` or `format!` has just made, and whatever is
+//! called [`message`](MESSAGES) or so. Looking into it is [`LOOKS`], or comparing it with a literal.
 
 use crate::expect_none;
 use crate::source::{Module, attributes, attributes_in_impl, is_for_tests, modules, modules_of};

@@ -25,7 +25,8 @@ const FLOORS: [(&str, u8); 16] = [
     ("paracosm-python", 8),
 ];
 
-/// These take a catalogue from their caller, and know none, although catalogues are below them. Their tests may name one.
+/// These take a catalogue from their caller, and know none, although catalogues are below them. Their tests may name
+/// one.
 const TAKE_CATALOGUES: [&str; 3] = ["paracosm-campaign", "paracosm-analysis", "paracosm-report"];
 const CATALOGUES: [&str; 2] = ["paracosm-scenarios", "paracosm-standards"];
 

@@ -1,8 +1,9 @@
 //! Which module of a crate names which other one.
 //!
-//! A `use` counts, and so does a path in an expression, a type, a pattern or the tokens of a macro. A name that a module only
-//! passes on (`pub use`) counts for the module that passes it on and for the module that has it: a detour hides no circle. A
-//! `use …::*` counts for the module that it names, not for the modules that this one has its names from.
+//! A `use` counts, and so does a path in an expression, a type, a pattern or the tokens of a macro. A name that a
+//! module only passes on (`pub use`) counts for the module that passes it on and for the module that has it: a detour
+//! hides no circle. A `use …::*` counts for the module that it names, not for the modules that this one has its names
+//! from.
 
 use crate::source::{Module, attributes, attributes_in_impl, is_for_tests};
 use proc_macro2::{Span, TokenStream, TokenTree};
@@ -164,7 +165,8 @@ impl<'a> Names<'a> {
         Self { modules, written, numbers }
     }
 
-    /// The module that has the last name of a path, after those that only pass a name on. Empty for another crate's path.
+    /// The module that has the last name of a path, after those that only pass a name on. Empty for another crate's
+    /// path.
     fn meant(&self, from: usize, path: &[String], detours: usize) -> Vec<usize> {
         let Some((first, mut rest)) = path.split_first() else { return Vec::new() };
         let mut at = match first.as_str() {

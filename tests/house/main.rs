@@ -1,7 +1,7 @@
 //! The plan of the house, kept by a test.
 //!
-//! A rule that only a document holds is broken by the first change in a hurry. This test reads the workspace as cargo and the
-//! compiler do, its manifests and its syntax trees, and says which line breaks which rule:
+//! A rule that only a document holds is broken by the first change in a hurry. This test reads the workspace as cargo
+//! and the compiler do, its manifests and its syntax trees, and says which line breaks which rule:
 //!
 //! - [`floors`]: a crate uses crates of lower floors, never one above or beside it.
 //! - [`cycles`]: the modules of a crate do not import one another in a circle.

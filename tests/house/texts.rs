@@ -1,12 +1,12 @@
 //! An error is a type with data; its words are made where it is shown.
 //!
-//! Who gets a text as an error can only show it. Who gets a type can count, compare, translate and decide. So, outside of
-//! `src/cli`, which shows:
+//! Who gets a text as an error can only show it. Who gets a type can count, compare, translate and decide. So, outside
+//! of `src/cli`, which shows:
 //!
-//! - No error type, and no variant of one, holds only texts that are words for a reader. An error type derives `Error`, or
-//!   implements a trait of a name that ends in `Error` or `Reason`. A text is a `String`, a `str` behind whatever pointer, or
-//!   an `Option` of these. A field of a text is words for a reader if it has no name, or one of [`WORDS`]. A text that names a
-//!   thing, as in `{ parameter: String }`, is data.
+//! - No error type, and no variant of one, holds only texts that are words for a reader. An error type derives `Error`,
+//!   or implements a trait of a name that ends in `Error` or `Reason`. A text is a `String`, a `str` behind whatever
+//!   pointer, or an `Option` of these. A field of a text is words for a reader if it has no name, or one of [`WORDS`].
+//!   A text that names a thing, as in `{ parameter: String }`, is data.
 //! - No `Result` has a text as its error.
 
 use crate::expect_none;

@@ -83,7 +83,7 @@ pub enum BenchFlaw {
     #[error("found 0 as the budget or the batch, expected numbers from 1 on")]
     Zero,
     /// The baseline is not among the strategies.
-    #[error("the baseline {baseline} is not among the strategies")]
+    #[error("the baseline {baseline} is not among the strategies: add it to them, or choose another baseline")]
     Baseline {
         /// The baseline.
         baseline: Strategy,
@@ -99,7 +99,7 @@ pub enum BenchFlaw {
         why: Error,
     },
     /// The folder holds a different bench.
-    #[error("{} holds a different bench: its `{key}` differs", folder.display())]
+    #[error("{} holds a different bench: the entry `{key}` of its bench.json differs; choose another folder", folder.display())]
     Other {
         /// The folder.
         folder: PathBuf,
@@ -174,6 +174,7 @@ impl Bench {
     /// has reference maps by the names of the targets. `watch` receives the new rows in order; its first error ends
     /// the work. The work also ends if `stop` is set.
     ///
+    /// # Errors
     /// `watch` returned an error, a run cannot be made, or `stop` was set.
     pub fn run(
         &self,

@@ -86,19 +86,19 @@ struct Written {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum MapFlaw {
     /// The file has another version of the format.
-    #[error("found format {found}, expected {FORMAT}")]
+    #[error("found format {found} of the reference map, expected {FORMAT}: make the map again")]
     Format {
         /// The version of the file's format.
         found: u32,
     },
     /// The file holds the map of another study.
-    #[error("the map is of another study: its `{key}` differs; make another one elsewhere")]
+    #[error("the map is of another study: the entry `{key}` of its study differs; make a new map elsewhere")]
     Other {
         /// The entry in which the studies differ.
         key: String,
     },
     /// The file has more verdicts than its study has tests.
-    #[error("found {found} verdicts, expected at most {expected}")]
+    #[error("found {found} as the number of verdicts, expected at most {expected}, the number of tests of the map")]
     TooMany {
         /// The number of verdicts.
         found: usize,
@@ -106,7 +106,7 @@ pub enum MapFlaw {
         expected: usize,
     },
     /// A letter does not stand for a verdict.
-    #[error("found a verdict that is none of `. F i x e`")]
+    #[error("found a letter that is no verdict, expected `.`, `F`, `i`, `x` or `e`")]
     Letter,
 }
 

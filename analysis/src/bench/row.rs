@@ -36,13 +36,15 @@ pub struct Row {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RowFlaw {
     /// The header is not that of this version.
-    #[error("found another header than this version writes")]
+    #[error("found a header that this version does not write: was the file written by another version?")]
     Header,
     /// The row belongs to another run.
-    #[error("the row is not that of the run in its place; was the file edited?")]
+    #[error(
+        "the row has another scenario, strategy or seed than the run that belongs on this line: was the file edited?"
+    )]
     Foreign,
     /// The row has too few or too many fields.
-    #[error("found {found} fields, expected {}", Row::COLUMNS.len())]
+    #[error("found {found} as the number of fields, expected {}", Row::COLUMNS.len())]
     Fields {
         /// The number of fields of the row.
         found: usize,

@@ -31,18 +31,18 @@ struct Reference {
 pub enum InquiryFlaw {
     /// The campaign tests a system, which a reference driver cannot replace.
     #[error(
-        "the campaign is of the system `{command}`, whose place no driver can take: only failures in scenarios have \
-         somebody to blame"
+        "the campaign tests the system `{command}`, which a reference driver cannot replace: blame is judged for \
+         failures in scenarios only"
     )]
     System {
         /// The command of the system.
         command: String,
     },
     /// No reference driver is named.
-    #[error("no driver is named, expected at least one to judge by")]
+    #[error("no reference driver is named, expected at least one")]
     NoDriver,
     /// A reference driver is named twice.
-    #[error("driver `{name}` is named twice")]
+    #[error("driver `{name}` is named twice, expected once")]
     Twice {
         /// The name of the driver.
         name: String,

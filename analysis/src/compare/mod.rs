@@ -57,25 +57,25 @@ pub struct SamplerComparison {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ComparisonFlaw {
     /// There are no strategies.
-    #[error("there is no strategy")]
+    #[error("no strategy is named, expected at least one")]
     NoStrategy,
     /// A dimension or a budget is 0.
     #[error("found 0 among the dimensions or the budgets, expected numbers from 1 on")]
     Zero,
     /// There are too many sets, so that the comparison would take for ever.
-    #[error("these are more than {MOST_SETS} sets; take fewer seeds, budgets or dimensions")]
+    #[error("the comparison has more than {MOST_SETS} sets: choose fewer strategies, seeds, budgets or dimensions")]
     TooManySets,
     /// k is 0.
     #[error("k is 0, expected a number from 1 on")]
     NoStrength,
     /// The baseline is not among the strategies.
-    #[error("the baseline {baseline} is not among the strategies")]
+    #[error("the baseline {baseline} is not among the strategies: add it to them, or choose another baseline")]
     Baseline {
         /// The baseline.
         baseline: Strategy,
     },
     /// The baseline cannot make sets of a dimension.
-    #[error("the baseline {baseline} is made for {}, not for {dims} dimensions", span(*.baseline))]
+    #[error("the baseline {baseline} supports {}, not d = {dims}: choose another baseline or other dimensions", span(*.baseline))]
     Unable {
         /// The baseline.
         baseline: Strategy,
@@ -83,10 +83,14 @@ pub enum ComparisonFlaw {
         dims: usize,
     },
     /// A measure needs discrete parameters.
-    #[error("k-wise is a measure of discrete parameters, and the unit cube has none")]
+    #[error(
+        "the measure `k-wise` needs discrete parameters, and the unit cube has no such parameters: leave the measure out"
+    )]
     Discrete,
     /// No set would be measured.
-    #[error("there is nothing to measure: {k}-wise dispersion needs more than {k} dimensions")]
+    #[error(
+        "there is nothing to measure: {k}-wise dispersion needs d > {k}; choose more dimensions, a smaller k or other measures"
+    )]
     Nothing {
         /// The number of coordinates that are considered together.
         k: usize,
@@ -210,13 +214,16 @@ impl SamplerComparison {
         for strategy in &self.strategies {
             let unable: Vec<usize> = self.dims.iter().copied().filter(|d| !strategy.dims().contains(d)).collect();
             if !unable.is_empty() {
-                notes.push(format!("{strategy} is made for {}: left out at d = {}", span(*strategy), list(&unable)));
+                notes.push(format!("{strategy} supports {} and is left out at d = {}", span(*strategy), list(&unable)));
             }
         }
         let low: Vec<usize> = self.dims.iter().copied().filter(|dims| *dims <= self.k).collect();
         if !low.is_empty() && self.all_measures().contains(&Measure::K_WISE_DISPERSION) {
             let k = self.k;
-            notes.push(format!("{k}-wise dispersion left out at d = {}: it says more only beyond {k}", list(&low)));
+            notes.push(format!(
+                "{k}-wise dispersion is left out at d = {}: it differs from the dispersion only for d > {k}",
+                list(&low)
+            ));
         }
         let quick = |measure: &Measure| matches!(measure.descriptor().compare, Compare::WhereQuick(_));
         for measure in self.all_measures().into_iter().filter(quick) {
@@ -225,7 +232,9 @@ impl SamplerComparison {
                 let slow: Vec<usize> = self.budgets.iter().copied().filter(slow).collect();
                 if !slow.is_empty() {
                     let (title, at) = (measure.descriptor().title, format!("d = {dims}, n = {}", list(&slow)));
-                    notes.push(format!("{title} left out at {at}: it takes long; name it to have it"));
+                    notes.push(format!(
+                        "{title} is left out at {at}, because it takes long: name the measure to include it"
+                    ));
                 }
             }
         }
@@ -294,7 +303,7 @@ impl Schedule {
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {
             notes.push(format!(
-                "{cut_short} sets were cut short by the time limit: the lower ends of brackets stand in"
+                "the time limit cut measures short (sets: {cut_short}): the lower ends of brackets stand for their values"
             ));
         }
         Ok(Compared { comparison, sets, cells, slopes, notes })

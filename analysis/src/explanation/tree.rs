@@ -290,7 +290,8 @@ mod tests {
         })
     }
 
-    /// `2 p (1 - p) w`, where p is the failing tests' share of the weight w, and all that fail weigh as much as all that pass.
+    /// `2 p (1 - p) w`, where p is the failing tests' share of the weight w, and all that fail weigh as much as all
+    /// that pass.
     fn gini([tests, failures]: [usize; 2], [all, failing]: [usize; 2]) -> f64 {
         let share = |part: usize, of: usize| if part == 0 { 0.0 } else { part as f64 / of as f64 };
         let (fail, pass) = (share(failures, failing), share(tests - failures, all - failing));
@@ -334,7 +335,8 @@ mod tests {
     proptest! {
         #[test]
         fn the_best_split_is_that_of_a_search_through_all(table in tables(), least in 1..4_usize) {
-            // With more than one test to a side the order of the levels is no proof any more, but of numbers all is tried.
+            // With more than one test to a side the order of the levels is no proof any more, but of numbers all is
+            // tried.
             let mut table = table;
             table.columns.truncate(if least == 1 { 3 } else { 2 });
             let rows: Vec<usize> = (0..table.failed.len()).collect();

@@ -100,7 +100,7 @@ pub(super) fn trust(explanation: &Explanation) -> String {
         return format!("none: no tree of at most {MOST_LEAVES} leaves finds failing tests better than chance; {all}");
     }
     format!(
-        "finds {} of the failing tests, and takes {} of the passing ones for failing, by {FOLDS}-fold cross-validation",
+        "finds {} of the failing tests, and mistakes {} of the passing tests for failing, by {FOLDS}-fold cross-validation",
         percent(cross_validated.recall),
         percent(cross_validated.false_alarms()),
     )

@@ -62,7 +62,7 @@ impl fmt::Display for Method {
 
 /// The error that no method has this name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no method is called `{name}`{}; there are {}", did_you_mean(.nearest), Method::ALL.map(Method::name).join(", "))]
+#[error("no method is called `{name}`{}; the methods are {}", did_you_mean(.nearest), Method::ALL.map(Method::name).join(", "))]
 pub struct UnknownMethod {
     /// The name that was not found.
     pub name: String,
@@ -90,7 +90,7 @@ pub enum LikelihoodFlaw {
         method: Method,
     },
     /// No parameter is open, so that nothing is random.
-    #[error("no parameter is open, so there is no probability to ask for")]
+    #[error("no parameter is open, so there is no probability to estimate: leave at least one parameter open")]
     NothingOpen,
     /// The space has constraints, so that the distribution of the tests is not known.
     #[error(
@@ -99,7 +99,7 @@ pub enum LikelihoodFlaw {
     Constraints,
     /// No test could be judged: each test broke, or its world could not be built.
     #[error(
-        "not one of the tests could be judged{}", first.as_ref().map(|first| format!("; the first: {first}")).unwrap_or_default()
+        "no test could be judged{}", first.as_ref().map(|first| format!("; the problem of the first test: {first}")).unwrap_or_default()
     )]
     NothingJudged {
         /// The problem of the first test, if it is known.
@@ -207,7 +207,7 @@ pub fn estimate(question: &Question, dims: usize, evaluate: &mut Evaluate) -> Re
     if runs.unjudged > 0 {
         let count = runs.unjudged;
         notes.push(format!(
-            "{count} of the tests could not be judged: they count as passed in the lower end and as failed in the upper"
+            "{count} of the tests could not be judged: such tests count as passed in the lower end of the interval and as failed in the upper end"
         ));
     }
     let [lower, upper] = found.interval;

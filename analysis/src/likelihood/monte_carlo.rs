@@ -19,7 +19,7 @@ pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Res
         tally.add(Tally::of(&runs.run(&points)?));
     }
     let notes = if tally.failures == 0 {
-        let note = "no test failed: rarer failures are for a larger budget or for the method subset";
+        let note = "no test failed: to find rarer failures, choose a larger budget or the method subset";
         vec![note.to_owned()]
     } else {
         Vec::new()

@@ -46,7 +46,7 @@ fn interval(tallies: &[Tally], all: Tally, confidence: f64) -> ([f64; 2], String
     if fewer < count {
         let outcome = if fewer == all.failures { "failures" } else { "passing tests" };
         let note = format!(
-            "with {fewer} {outcome} in {count} repetitions their spread says nothing: the interval is that of as many \
+            "with so few {outcome} ({fewer} in {count} repetitions) the spread of the repetitions says nothing: the interval is that of as many \
              independent tests"
         );
         return (all.interval(confidence), "Clopper and Pearson, as of independent tests".to_owned(), vec![note]);
@@ -62,6 +62,7 @@ fn interval(tallies: &[Tally], all: Tally, confidence: f64) -> ([f64; 2], String
     // That no repetition differs by a test does not mean that the next repetition would not differ.
     let tail = (1.0 - confidence) / 2.0;
     let off = (1.0 - libm::pow(tail, 1.0 / count as f64)) / tallies[0].tests as f64;
-    let note = "all repetitions agree: the interval allows for a test that is yet to tell them apart".to_owned();
+    let note =
+        "all repetitions agree: the interval allows for a further repetition that differs by one test".to_owned();
     ([lower - off, upper + off], source, vec![note])
 }

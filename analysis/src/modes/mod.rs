@@ -93,7 +93,7 @@ pub struct Mode {
     pub trials: Vec<usize>,
 }
 
-/// A contact of the car under test.
+/// A contact of the ego vehicle.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Touch {
     /// The name of the object that the car touched.

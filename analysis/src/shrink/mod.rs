@@ -77,7 +77,7 @@ pub enum Sameness {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ShrinkFlaw {
     /// The test did not fail.
-    #[error("test {index} ended `{verdict}`, expected one that failed: there is nothing to shrink")]
+    #[error("test {index} has the verdict `{verdict}`, expected a failing test: there is nothing to shrink")]
     NoFailure {
         /// The index of the test.
         index: usize,
@@ -86,7 +86,7 @@ pub enum ShrinkFlaw {
     },
     /// The test does not fail in the same way when it is run again.
     #[error(
-        "test {index} violates {} in the log, but not when it is run again: it ended `{verdict}`", violates.join(", ")
+        "test {index} violates {} in the log, but does not fail in the same way when it is run again: the verdict is now `{verdict}`", violates.join(", ")
     )]
     Passes {
         /// The index of the test.

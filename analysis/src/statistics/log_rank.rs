@@ -39,7 +39,8 @@ mod tests {
 
     #[test]
     fn the_leukaemia_patients_of_freireich_have_their_published_statistic() {
-        // 6-MP against placebo (Freireich et al. 1963). Kleinbaum and Klein, Survival Analysis, chapter 2: chi-square 16.793.
+        // 6-MP against placebo (Freireich et al. 1963). Kleinbaum and Klein, Survival Analysis, chapter 2: chi-square
+        // 16.793.
         let treated = lifetimes("6 6 6 6+ 7 9+ 10 10+ 11+ 13 16 17+ 19+ 20+ 22 23 25+ 32+ 32+ 34+ 35+");
         let placebo = lifetimes("1 1 2 2 3 4 4 5 5 8 8 8 8 11 11 12 12 15 17 22 23");
         let published = libm::erfc((16.793_f64 / 2.0).sqrt());

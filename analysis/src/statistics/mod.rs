@@ -24,6 +24,7 @@ pub use versus::{Versus, correct, median_of};
 /// Returns the quantile at `q` of sorted values, interpolated linearly between two values (type 7 of Hyndman and Fan,
 /// Sample quantiles in statistical packages, The American Statistician 50, 1996).
 ///
+/// # Panics
 /// `sorted` is empty.
 pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     let at = q * (sorted.len() - 1) as f64;

@@ -77,8 +77,8 @@ mod tests {
 
     #[test]
     fn the_leukaemia_patients_of_freireich_have_their_published_curve() {
-        // 6-MP, weeks in remission (Freireich et al. 1963; Kalbfleisch and Prentice, The Statistical Analysis of Failure
-        // Time Data, table 1.1 and figure 1.1).
+        // 6-MP, weeks in remission (Freireich et al. 1963; Kalbfleisch and Prentice, The Statistical Analysis of
+        // Failure Time Data, table 1.1 and figure 1.1).
         let patients = "6 6 6 6+ 7 9+ 10 10+ 11+ 13 16 17+ 19+ 20+ 22 23 25+ 32+ 32+ 34+ 35+";
         let survival = Survival::of(&lifetimes(patients));
         let published =

@@ -141,8 +141,8 @@ proptest! {
         let guilty = planted.guilty_of(&located);
         for values in &guilty {
             prop_assert!(!passes_with(values));
-            // Without any one of its values, it is in a test that passed; but for those which what was found guilty before,
-            // and is kept out of tests, ties to others.
+            // Without any one of its values, it is in a test that passed; but for those which what was found guilty
+            // before, and is kept out of tests, ties to others.
             let location = located.locations.iter().find(|location| pairs(&location.values) == *values).unwrap();
             let tied = pairs(&location.undivided);
             for i in (0..values.len()).filter(|&i| !tied.contains(&values[i])) {

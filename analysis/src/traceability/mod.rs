@@ -171,11 +171,14 @@ impl Traced {
             return None;
         }
         Some(match (self.undecided, self.not_reached) {
-            (0, 0) if self.formula.is_empty() => "it has no formula, and nothing judged it".to_owned(),
-            (0, 0) => "no test judged it".to_owned(),
-            (0, _) => "no test came to the situation that it is about".to_owned(),
-            (_, 0) => "it was undecided in every test".to_owned(),
-            (..) => "it was undecided, or its test never came to the situation that it is about".to_owned(),
+            (0, 0) if self.formula.is_empty() => "the requirement has no formula, and nothing judged it".to_owned(),
+            (0, 0) => "no test judged the requirement".to_owned(),
+            (0, _) => "no test came to the situation that the requirement is about".to_owned(),
+            (_, 0) => "the requirement was undecided in every test".to_owned(),
+            (..) => {
+                "in every test the requirement was undecided, or the test never came to the situation that it is about"
+                    .to_owned()
+            }
         })
     }
 }
@@ -214,8 +217,10 @@ impl Traceability {
         let parameters = Tried::of(study, &judging)?;
         let of_requirements = requirements.iter().filter_map(|traced| gap(&traced.id, traced.gap()?));
         let of_parameters = parameters.iter().flat_map(Tried::untried);
-        let of_fixed =
-            study.fixed().iter().filter_map(|(name, value)| gap(name, format!("always {}", tried::words(value))));
+        let of_fixed = study
+            .fixed()
+            .iter()
+            .filter_map(|(name, value)| gap(name, format!("the same in all tests: {}", tried::words(value))));
         let excluded = study.odd().into_iter().flat_map(Odd::iter);
         let excluded = excluded.filter_map(|(name, attribute)| {
             gap(name, format!("excluded from the design domain: {}", attribute.excluded.as_ref()?))

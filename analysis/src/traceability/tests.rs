@@ -63,7 +63,7 @@ fn tenths_and_levels_without_a_test_are_named_and_broken_tests_try_nothing() {
     assert_eq!(traceability.parameters[1].levels, [Value::from(4)]);
     let said: Vec<String> = traceability.untested.iter().map(|gap| format!("{}: {}", gap.what, gap.why)).collect();
     let expected = [
-        "b: it was undecided in every test",
+        "b: the requirement was undecided in every test",
         "x: nothing from 6 to 8 m",
         "x: nothing from 14 to 18 m",
         "lanes: never 4",

@@ -53,8 +53,8 @@ impl Tried {
     /// Returns the untried values in words.
     pub(super) fn untried(&self) -> Vec<Gap> {
         let unit = self.unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
-        let gaps = self.gaps.iter().map(|[from, to]| format!("nothing from {} to {}{unit}", short(*from), short(*to)));
-        let levels = self.levels.iter().map(|level| format!("never {level}{unit}"));
+        let gaps = self.gaps.iter().map(|[from, to]| format!("no test from {} to {}{unit}", short(*from), short(*to)));
+        let levels = self.levels.iter().map(|level| format!("no test with {level}{unit}"));
         gaps.chain(levels).map(|why| Gap { what: self.name.clone(), why }).collect()
     }
 }

@@ -60,7 +60,7 @@ pub enum AnswerFlaw {
         source: serde_json::Error,
     },
     /// The line is the answer to another test.
-    #[error("found the answer to test {found}, expected that to test {expected}")]
+    #[error("found the answer to test {found}, expected the answer to test {expected}")]
     Index {
         /// The index of the test in the answer.
         found: usize,
@@ -71,16 +71,16 @@ pub enum AnswerFlaw {
     #[error("found only an index, expected {EXPECTED}")]
     Empty,
     /// The answer has several results.
-    #[error("found several of `trace`, `robustness` and `error`, expected one")]
+    #[error("found several of `trace`, `robustness` and `error`, expected exactly one of these three")]
     Several,
     /// A robustness is not a number.
-    #[error("the robustness of `{requirement}` is no number")]
+    #[error("the robustness of `{requirement}` is not a number")]
     Robustness {
         /// The id of the requirement.
         requirement: String,
     },
     /// The answer has the robustness of no requirement.
-    #[error("found the robustness of nothing, expected a requirement")]
+    #[error("`robustness` is empty, expected the robustness of at least one requirement")]
     NoRobustness,
     /// The trace of the answer is invalid.
     #[error(transparent)]
@@ -142,7 +142,7 @@ fn no_answer(text: &str, error: serde_json::Error) -> AnswerFlaw {
 /// Returns the description of a JSON error without its place, which the message names separately.
 fn words(error: &serde_json::Error) -> String {
     match error.classify() {
-        Category::Syntax => "it is no JSON".to_owned(),
+        Category::Syntax => "it is not JSON".to_owned(),
         Category::Eof => "it ends too early".to_owned(),
         Category::Data | Category::Io => error.to_string(),
     }
@@ -216,7 +216,7 @@ impl<'de> Deserialize<'de> for Sample {
             type Value = Sample;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number or a truth")
+                f.write_str("a number, true or false")
             }
 
             fn visit_bool<E>(self, truth: bool) -> Result<Sample, E> {

@@ -28,9 +28,9 @@ enum Heard {
 /// Output that cannot be an answer.
 #[derive(Debug, Error)]
 enum Noise {
-    #[error("found a line without an end, expected an answer of at most {LONGEST_ANSWER} bytes")]
+    #[error("found a line that is too long, expected an answer of at most {LONGEST_ANSWER} bytes")]
     TooLong,
-    #[error("found bytes that are no UTF-8, expected an answer as JSON")]
+    #[error("found bytes that are not UTF-8, expected an answer as JSON")]
     NoText,
 }
 

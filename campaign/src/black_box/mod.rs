@@ -53,7 +53,7 @@ pub fn checked_timeout(timeout: Option<f64>) -> Result<f64, TimeoutFlaw> {
 
 /// The time-out is out of range.
 #[derive(Debug, Error)]
-#[error("the time-out is {seconds}, expected a number of seconds above 0, at most a year")]
+#[error("the time-out is {seconds} s, expected more than 0 s and at most a year")]
 pub struct TimeoutFlaw {
     /// The time-out that was given.
     pub seconds: f64,

@@ -29,7 +29,7 @@ pub struct Blind {
 impl Reason for Blind {}
 
 impl Darkroom {
-    /// Returns an error: this program cannot draw images.
+    /// Returns the error that this program cannot draw images.
     pub fn open(cameras: &Cameras, _: &Appearances) -> Result<Self, Error> {
         Err(Error::unavailable(Blind { cameras: cameras.all.keys().cloned().collect() }))
     }

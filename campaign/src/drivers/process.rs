@@ -69,7 +69,7 @@ impl Launcher {
 impl Running {
     fn start(words: &[String]) -> Result<Self, Problem> {
         let gone = |message: String| Problem::new(ProblemKind::Process, message);
-        let address = free_address().map_err(|error| gone(format!("found no port for it to listen at: {error}")))?;
+        let address = free_address().map_err(|error| gone(format!("found no free port for the driver: {error}")))?;
         let started = Process::start(words, &[(ADDRESS, address.to_string())]);
         let mut process = started.map_err(|error| gone(format!("cannot start `{}`: {error}", words[0])))?;
         if let Some(stdout) = process.stdout() {
@@ -110,11 +110,12 @@ impl Running {
         }
     }
 
-    /// Ends the process and says what happened to it: `when` it ended, or, if it had not ended, `otherwise`.
+    /// Ends the process and says what happened to it. The text is `when` it ended, or `otherwise` if it had not ended
+    /// by itself.
     fn post_mortem(&self, when: &str, otherwise: &str) -> String {
         self.with(|process| {
             let how = match process.ended() {
-                Some(status) => format!("it ended {when} ({status})"),
+                Some(status) => format!("the process ended {when} ({status})"),
                 None => otherwise.to_owned(),
             };
             process.post_mortem(how)

@@ -105,7 +105,7 @@ impl Ride {
             Ok(images) => self.images = images,
             Err(error) => {
                 let time = self.run.as_ref().map_or(0.0, Run::time);
-                let message = format!("the driver could not see at {time:.3} s: {error}");
+                let message = format!("the driver got no images at {time:.3} s: {error}");
                 self.outcome = Some(Err(Problem::new(ProblemKind::Camera, message)));
             }
         }
@@ -114,7 +114,7 @@ impl Ride {
     /// Returns the result of the test with its index. Also returns the driver, unless the test broke and left it in an
     /// unknown state.
     pub fn end(self) -> (TestEnd, Option<Box<dyn Driver>>) {
-        let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was left before its end"));
+        let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was abandoned before its end"));
         let outcome = self.outcome.unwrap_or_else(left);
         let driver = self.driver.filter(|_| !is_broken(&outcome));
         ((self.place, outcome), driver)

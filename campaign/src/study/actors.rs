@@ -28,7 +28,7 @@ pub enum AppearanceFlaw {
         all: Vec<String>,
     },
     /// The actor already has a model.
-    #[error("--model {actor}={file}: it has another model already, {other}")]
+    #[error("--model {actor}={file}: the actor already has another model, {other}")]
     Twice {
         /// The name of the actor.
         actor: String,
@@ -71,8 +71,8 @@ impl Study {
         }
     }
 
-    /// Returns the bodies of tests, by name: those of the nominal test, and those that exist with the greatest values
-    /// of open parameters.
+    /// Returns the bodies of tests, by name. They are those of the nominal test, and those that exist with the greatest
+    /// values of open parameters.
     fn actors(&self) -> Result<Vec<(String, Class)>, Error> {
         let (simulation, nominal) = (self.subject.scenario()?, self.nominal()?);
         let mut greatest = nominal.clone();

@@ -25,7 +25,7 @@ pub struct Appearances(BTreeMap<String, Appearance>);
 #[serde(deny_unknown_fields)]
 struct Appearance {
     file: String,
-    /// The hash of the model that was read: XXH3, 128 bits.
+    /// The hash of the model that was read, which is the 128-bit XXH3.
     hash: String,
     #[cfg(feature = "camera")]
     #[serde(skip)]

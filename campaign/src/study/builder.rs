@@ -89,8 +89,8 @@ impl StudyBuilder {
         }
     }
 
-    /// Sets the driver under test: the name of a driver of `paracosm-fuzz list`; a server that listens at
-    /// `grpc://HOST:PORT`; or a network, which is `cnn` or a file whose name ends in `.onnx`.
+    /// Sets the driver under test. The name is that of a driver of `paracosm-fuzz list`, the address `grpc://HOST:PORT`
+    /// of a server, or a network, which is `cnn` or a file whose name ends in `.onnx`.
     pub fn driver(mut self, name: &str) -> Self {
         self.driver = Some(Wish::Name(name.to_owned()));
         self

@@ -119,7 +119,7 @@ impl Wish {
 #[derive(Debug, Error)]
 pub enum DriverFlaw {
     /// No driver has that name.
-    #[error("no driver is called `{name}`{}; `paracosm-fuzz list` shows them all", did_you_mean(.nearest))]
+    #[error("no driver is called `{name}`{}; `paracosm-fuzz list` shows all drivers", did_you_mean(.nearest))]
     Unknown {
         /// The name that was asked for.
         name: String,
@@ -127,7 +127,7 @@ pub enum DriverFlaw {
         nearest: Option<&'static str>,
     },
     /// The driver has no such setting, or the setting is out of range.
-    #[error("{0}; `paracosm-fuzz list` shows them all")]
+    #[error("{0}; `paracosm-fuzz list` shows all drivers with their settings")]
     Setting(DriverError),
     /// A network has no other setting than `latency`.
     #[error("driver `{driver}` is a network and has no setting `{setting}`, only `{}`", LATENCY.name)]
@@ -175,15 +175,13 @@ pub enum DriverFlaw {
     #[error(transparent)]
     Timeout(#[from] TimeoutFlaw),
     /// The driver is in an external process, and cannot be made in this one.
-    #[error("driver `{driver}` is in a process of its own, and cannot be made in this one")]
+    #[error("driver `{driver}` runs in a process of its own, and cannot be made in this process")]
     InAProcess {
         /// The driver, by its address or its command.
         driver: String,
     },
     /// The driver cannot have a time-out.
-    #[error(
-        "--timeout is for a --system, a --driver-command and a driver at an address, and `{driver}` is none of them"
-    )]
+    #[error("--timeout applies to a --system, a --driver-command or a driver at an address, but not to `{driver}`")]
     NoTimeout {
         /// The name of the driver.
         driver: String,

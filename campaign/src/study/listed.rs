@@ -11,7 +11,7 @@ pub(super) const LATENCY: Setting = Setting {
     unit: "s",
     range: (0.0, 100.0),
     whole: false,
-    about: "from when it is asked to when its answer takes effect",
+    about: "the time from a question to the driver until its answer takes effect",
 };
 pub(super) const SEED: Setting = Setting {
     name: "seed",
@@ -20,7 +20,7 @@ pub(super) const SEED: Setting = Setting {
     // Up to this limit, every whole number is exact as a float.
     range: (0.0, 9_007_199_254_740_992.0),
     whole: true,
-    about: "where its chance and the noise of its sensors come from",
+    about: "the seed of the driver's randomness and of its sensors' noise",
 };
 
 /// A driver in the form in which lists show it.
@@ -40,7 +40,8 @@ impl ListedDriver {
         Self { name: driver.name, about: driver.about, settings: driver.settings }
     }
 
-    /// Returns all drivers that can be chosen: those of the engine, networks, and drivers in an external process.
+    /// Returns all drivers that can be chosen, which are those of the engine, networks, and drivers in an external
+    /// process.
     pub fn all() -> impl Iterator<Item = Self> {
         driver::ALL.iter().map(|driver| Self::of(driver)).chain(ELSEWHERE)
     }
@@ -55,12 +56,12 @@ const ELSEWHERE: [ListedDriver; 3] = [
     },
     ListedDriver {
         name: "MODEL.onnx",
-        about: "a network of one's own in a file (feature `neural`)",
+        about: "a network of your own in a file (feature `neural`)",
         settings: &[LATENCY],
     },
     ListedDriver {
         name: "grpc://HOST:PORT",
-        about: "a driver of your own, which listens there; --driver-command COMMAND starts one",
+        about: "a driver of your own that listens at this address; --driver-command COMMAND starts a driver",
         settings: &[LATENCY, SEED],
     },
 ];

@@ -39,7 +39,8 @@ use paracosm_engine::{Program, Run, Setup, Test};
 use paracosm_generators::{Generator, GeneratorError};
 use paracosm_space::{Point, Space, Value, Values};
 
-/// A study: the system under test, the open parameters, the requirements of every test, and the choice of tests.
+/// The complete description of a campaign, with the system under test, the open parameters, the requirements of every
+/// test, and the choice of tests.
 #[derive(Debug, Clone)]
 pub struct Study {
     made_by: Maker,
@@ -142,8 +143,8 @@ impl Study {
         Ok(self.subject.scenario()?.program()?)
     }
 
-    /// Returns the signals of the trace of a test, as far as they are known before the test runs: those of the world
-    /// with nominal values. Returns `None` for an external system.
+    /// Returns the signals of the trace of a test, as far as they are known before the test runs. They are those of the
+    /// world with nominal values. Returns `None` for an external system.
     ///
     /// # Errors
     /// The program does not exist, or cannot build its nominal world.
@@ -171,7 +172,7 @@ impl Study {
         self.sampling.strategy.build_independent(&self.sampling.request(&self.space, &[]))
     }
 
-    /// Returns all values from which a test's world is built: its own values and the fixed ones.
+    /// Returns all values from which a test's world is built, the test's own and the fixed ones.
     pub fn complete(&self, test: &Values) -> Values {
         let own = test.iter().filter(|(name, _)| parameters::is_of_world(name));
         own.chain(self.fixed().iter()).map(owned).collect()

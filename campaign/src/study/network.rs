@@ -16,7 +16,7 @@ const ENDING: &str = ".onnx";
 pub(super) struct Network {
     /// The file of the network, or the name of a network that comes with the software.
     file: String,
-    /// The hash of the file: XXH3, 128 bits.
+    /// The hash of the file, which is the 128-bit XXH3.
     hash: String,
     #[cfg(feature = "neural")]
     #[serde(skip)]
@@ -34,7 +34,7 @@ impl PartialEq for Network {
 pub enum NetworkFlaw {
     /// This program was built without networks.
     #[error(
-        "driver `{driver}` is a network, and this program was built without them: build it with \
+        "driver `{driver}` is a network, but this program was built without networks: build it with \
          `cargo build --release --features neural`"
     )]
     NotBuilt {
@@ -42,9 +42,7 @@ pub enum NetworkFlaw {
         driver: String,
     },
     /// The file has changed.
-    #[error(
-        "the network {file} has the hash {found}, expected {expected}: it is not the one that the campaign was run with"
-    )]
+    #[error("the network {file} has the hash {found}, expected {expected}: the campaign was run with another network")]
     Changed {
         /// The file.
         file: String,
@@ -55,7 +53,7 @@ pub enum NetworkFlaw {
     },
     /// No network was trained for the scenario.
     #[error(
-        "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {}; a network of one's \
+        "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {}; a network of your \
          own is --driver MODEL.onnx", known.join(", ")
     )]
     NotTaught {

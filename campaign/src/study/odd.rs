@@ -82,7 +82,7 @@ pub enum OddFlaw {
         open: Vec<String>,
     },
     /// Two files state the design domain.
-    #[error("[odd] stands in the space as well, expected it once")]
+    #[error("[odd] stands in another file as well, expected it in one file only")]
     Twice,
 }
 

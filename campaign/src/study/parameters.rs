@@ -37,7 +37,7 @@ pub enum ParameterMisuse {
         all: Vec<String>,
     },
     /// The parameter takes single values, but was given an interval.
-    #[error("parameter `{name}` takes {domain}, which is no interval")]
+    #[error("parameter `{name}` takes {domain}, which is not an interval")]
     NoInterval {
         /// The name of the parameter.
         name: String,

@@ -16,16 +16,16 @@ pub struct StatedRequirement {
     pub formula: Option<Formula>,
     /// The unit of the robustness.
     pub unit: String,
-    /// The scale of the robustness in that unit: a large robustness. `None` if no scale was stated, so that a search
-    /// has to learn it.
+    /// The scale of the robustness in that unit, which is a robustness that counts as large. `None` if no scale was
+    /// stated, so that a search has to learn it.
     pub scale: Option<f64>,
-    /// The source of the requirement: a regulation, a specification, a hazard.
+    /// The source of the requirement, for example a regulation, a specification or a hazard.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub source: Option<String>,
     /// The severity of a violation, in a word chosen by the author.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub severity: Option<String>,
-    /// The semantics of time: samples only, or also the time between them.
+    /// The semantics of time, which looks at the samples only, or also at the time between them.
     #[serde(skip_serializing_if = "is_sampled", default)]
     pub time: Semantics,
     /// True if the requirement was given with the study and is not the scenario's own.

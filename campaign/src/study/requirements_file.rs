@@ -50,7 +50,7 @@ pub enum RequirementFlaw {
         id: String,
     },
     /// The scenario already states this for its own requirement.
-    #[error("requirement `{id}` is the scenario's, which has {claim} for it: leave it out, or take another id")]
+    #[error("requirement `{id}` is the scenario's own, which has {claim}: remove these keys, or take another id")]
     OfScenario {
         /// The id.
         id: String,

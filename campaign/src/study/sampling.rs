@@ -10,7 +10,7 @@ use thiserror::Error;
 /// The default number of tests that an adaptive strategy is asked for at a time.
 const ADAPTIVE_BATCH: usize = 16;
 
-/// The choice of tests: their number, and the strategy with its options.
+/// The choice of tests, with their number, and the strategy with its options.
 ///
 /// ```
 /// use paracosm_campaign::Sampling;

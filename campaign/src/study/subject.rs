@@ -54,7 +54,7 @@ enum Source {
 
 /// The scenario that a study names is not available.
 #[derive(Debug, Error)]
-#[error("the campaign was run on the scenario `{scenario}`, which cannot be had here{}", why(.source))]
+#[error("the campaign was run on the scenario `{scenario}`, which is not available here{}", why(.source))]
 pub struct MissingScenario {
     /// The name of the scenario.
     pub scenario: String,
@@ -64,7 +64,7 @@ pub struct MissingScenario {
 
 /// A scenario is needed, but the subject is an external system.
 #[derive(Debug, Error)]
-#[error("the system `{command}` is no scenario, but that is what is asked of it here")]
+#[error("the system `{command}` is not a scenario, but this works only with a scenario")]
 pub struct NoScenario {
     /// The command of the system.
     pub command: String,

@@ -19,7 +19,7 @@ use std::fmt::{self, Display};
 pub enum Metric {
     /// A quantity.
     Number(f64),
-    /// A flag: `true` if something happened.
+    /// A flag, which is `true` if something happened.
     Flag(bool),
     /// A word of a fixed list; `None` if no word applies.
     Word(Option<String>),
@@ -56,7 +56,7 @@ impl<'de> Deserialize<'de> for Metric {
                 _ => Metric::Word(Some(word)),
             },
             serde_json::Value::Number(number) => Metric::Number(number.as_f64().unwrap_or(f64::NAN)),
-            other => return Err(D::Error::custom(format!("found {other}, expected a number, a truth or a word"))),
+            other => return Err(D::Error::custom(format!("found {other}, expected a number, true, false or a word"))),
         })
     }
 }

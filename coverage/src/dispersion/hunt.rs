@@ -44,7 +44,7 @@ pub(super) struct Hunt<'a> {
     witness: LargestEmptyBox,
     /// The boxes that have not been explored to the end, the largest first.
     open: Vec<Open>,
-    /// The upper bound: no box that is left is larger.
+    /// An upper bound on the volume of the boxes that are left.
     upper: f64,
     /// The number of attempts so far to find a better witness.
     attempts: u64,

@@ -50,7 +50,7 @@ impl Measure {
     });
 }
 
-/// Computes the dispersion: the largest volume of an open axis-parallel box in `[0,1]^d` that holds none of the
+/// Computes the dispersion, the largest volume of an open axis-parallel box in `[0,1]^d` that holds none of the
 /// points. A point on a face of a box is not in the box. The dispersion of a set without points is 1, the volume of
 /// the cube (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling
 /// 23, 1996).

@@ -114,7 +114,7 @@ impl<'a> BoxSearch<'a> {
         Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
     }
 
-    /// Makes a search that can be repeated without its arithmetic: it tries cuts in the order of the axes and
+    /// Makes a search that can be repeated without its arithmetic. It tries cuts in the order of the axes and
     /// remembers its pivots.
     pub fn with_trail(points: &'a PointSet, reference: f64) -> Self {
         Self { trail: Some(Vec::new()), ..Self::new(points, reference) }

@@ -41,7 +41,7 @@ impl Measure {
     });
 }
 
-/// Computes the fill distance: the largest Euclidean distance of a place in `[0,1]^d` from its nearest point. Returns
+/// Computes the fill distance, the largest Euclidean distance of a place in `[0,1]^d` from its nearest point. Returns
 /// `None` for a set without points, because no ball is then too large to be empty.
 ///
 /// The result is exact, in any dimension, unless `deadline` cuts the search short. The radius is usually irrational,

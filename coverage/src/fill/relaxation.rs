@@ -22,7 +22,8 @@
 use super::tree::{Nearest, Tree};
 use crate::bracket::Watch;
 
-/// The method ends after so many pivots per row. It ends on its own earlier, unless rounding makes it go in circles.
+/// The method ends after this number of pivots per row. It ends on its own earlier, unless rounding makes it go in
+/// circles.
 const MOST_PIVOTS_PER_ROW: usize = 16;
 /// The distance that the solution may be beyond an end of the box, as a share of the box's width.
 const BEYOND_END: f64 = 1e-12;

@@ -120,7 +120,8 @@ impl<'a> BallSearch<'a> {
         self.relaxation.solve(sides, 0.0, &mut self.watch)
     }
 
-    /// Climbs from a place to better ones, as long as there is time: the relaxation of a box around it says where to go.
+    /// Climbs from a place to better ones, as long as there is time: the relaxation of a box around it says where to
+    /// go.
     pub fn climb(&mut self, mut from: Centre) -> Centre {
         let mut step = from.squared.sqrt();
         while step > SHORTEST_STEP * from.squared.sqrt() && !self.watch.passed_after(0) {
@@ -186,8 +187,8 @@ impl<'a> BallSearch<'a> {
     /// Cuts the box in two near the solution, along the axis where the relaxation is most inexact there. An interval
     /// of that axis where nothing is above the bar is left out.
     ///
-    /// There is always something to cut: a box whose sides are neighbouring numbers is not above the bar, because `same_as`
-    /// allows for them.
+    /// There is always something to cut: a box whose sides are neighbouring numbers is not above the bar, because
+    /// `same_as` allows for them.
     fn cut(&self, cell: Open, bar: f64) -> [Open; 2] {
         let place = &self.relaxation.place;
         let off = |axis: usize| {

@@ -133,7 +133,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Points anywhere, or all nearly as far from the middle, so that the nearest may be in any part of the tree.
+    /// Points anywhere, or points nearly equally far from the middle, so that the nearest may be in any part of the
+    /// tree.
     fn points() -> impl Strategy<Value = Vec<[f64; 2]>> {
         let anywhere = prop::collection::vec(prop::array::uniform2(0.0..=1.0f64), 1..400);
         let onto_circle = |points: Vec<[f64; 2]>| {

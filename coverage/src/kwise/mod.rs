@@ -48,8 +48,8 @@ pub struct KwiseCoverage {
     pub valid: u64,
     /// The number of valid combinations that some test contains.
     pub covered: u64,
-    /// The first [`MISSING_LISTED`] valid combinations that no test contains, as (parameter, level) indices: ordered
-    /// by their sets of parameters, then by their levels, both lexicographically.
+    /// The first [`MISSING_LISTED`] valid combinations that no test contains, as (parameter, level) indices. They are
+    /// ordered by their sets of parameters, then by their levels, both lexicographically.
     pub missing: Vec<Vec<(usize, usize)>>,
     /// The share of the valid combinations of *all* parameters that are tested. `None` if constraints join too many
     /// parameters, so that these combinations cannot be counted.
@@ -59,7 +59,7 @@ pub struct KwiseCoverage {
 }
 
 impl KwiseCoverage {
-    /// Returns the share of the valid combinations that some test contains: 1 for a k-wise covering family.
+    /// Returns the share of the valid combinations that some test contains. It is 1 for a k-wise covering family.
     pub fn ratio(&self) -> f64 {
         if self.valid == 0 { 1.0 } else { self.covered as f64 / self.valid as f64 }
     }
@@ -69,7 +69,7 @@ impl KwiseCoverage {
 #[derive(Debug, Error, PartialEq)]
 pub enum KwiseError {
     /// k is 0 or more than the number of parameters.
-    #[error("k is {k}, expected 1 to {parameters}, the number of parameters")]
+    #[error("k is {k}, expected a number from 1 to {parameters}, the number of parameters")]
     Strength {
         /// The requested k.
         k: usize,
@@ -77,10 +77,10 @@ pub enum KwiseError {
         parameters: usize,
     },
     /// A parameter has no level, so that no test exists.
-    #[error("parameter {0} has no level")]
+    #[error("parameter {0} has no level, expected at least one")]
     NoLevel(usize),
     /// There are more valid combinations than can be counted.
-    #[error("there are {found} valid combinations of {k} parameters, more than the {MOST_TUPLES} that can be counted")]
+    #[error("{found} combinations of {k} parameters are valid; at most {MOST_TUPLES} can be counted; use a smaller k")]
     TooMany {
         /// The requested k.
         k: usize,
@@ -88,7 +88,7 @@ pub enum KwiseError {
         found: u128,
     },
     /// A counter would need too much memory for the valid combinations.
-    #[error("to keep count of the combinations of {k} parameters takes {mebibytes} MiB, more than 64")]
+    #[error("counting the combinations of {k} parameters takes {mebibytes} MiB, more than 64; use a smaller k")]
     Memory {
         /// The requested k.
         k: usize,
@@ -106,7 +106,7 @@ pub enum KwiseError {
         expected: usize,
     },
     /// A test has a level that the parameter does not have.
-    #[error("test {index}, parameter {parameter}: level {found}, expected one below {levels}")]
+    #[error("test {index}, parameter {parameter}: found level {found}, expected a level below {levels}")]
     Level {
         /// The position of the test, from 0.
         index: usize,

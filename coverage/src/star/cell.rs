@@ -5,9 +5,9 @@ use super::sides::{Sides, above_0};
 /// The kind of difference that is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BoxKind {
-    /// Open boxes: the volume less the share of points inside.
+    /// The volume less the share of points inside, for open boxes.
     Open,
-    /// Closed boxes: the share of points, with those on the faces, less the volume.
+    /// The share of points, with those on the faces, less the volume, for closed boxes.
     Closed,
 }
 

@@ -76,10 +76,10 @@ struct Pass<'a> {
     left: Most,
 }
 
-/// What a pass has found.
+/// The result of a pass.
 struct Outcome {
     best: f64,
-    /// The upper bound: no box exceeds it.
+    /// An upper bound on the values of all boxes.
     left: f64,
 }
 

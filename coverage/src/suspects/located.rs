@@ -17,8 +17,8 @@ pub struct Located {
     pub witness: Vec<usize>,
     /// The number of tests that the search asked for.
     pub tests: usize,
-    /// The number of tests that is enough for one guilty combination of this size: k (ceil(log2 N) + 1) for k of N
-    /// values. `None` if constraints kept the questions from halving the values in doubt, so that no number is
+    /// The number of tests that is enough to find one guilty combination of this size, k (ceil(log2 N) + 1) for k of
+    /// N values. `None` if constraints kept the questions from halving the values in doubt, so that no number is
     /// promised.
     pub bound: Option<usize>,
 }
@@ -26,9 +26,9 @@ pub struct Located {
 /// The agreement of a located combination with other tests. Positions are positions among these tests.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Standing {
-    /// The combination explains all tests: every test that contains it failed, and every other test passed.
+    /// Every test that contains the combination failed, and every other test passed.
     Sole,
-    /// All tests that contain the combination failed, but the tests at these positions failed without it: there is
+    /// All tests that contain the combination failed, but the tests at these positions failed without it. There is
     /// more than one cause.
     OneOfSeveral(Vec<usize>),
     /// The tests at these positions contain the combination and passed, so that it is not the cause by itself.

@@ -21,13 +21,13 @@ use thiserror::Error;
 /// The reason why a search for a guilty combination cannot begin.
 #[derive(Debug, Error, PartialEq)]
 pub enum LocateError {
-    /// A test does not belong to this space: test 0 is the failing test, test 1 the passing test.
+    /// A test does not belong to this space. Test 0 is the failing test, test 1 the passing test.
     #[error(transparent)]
     Test(#[from] KwiseError),
     /// A test violates a constraint.
     #[error("the {role} test violates a constraint")]
     Invalid {
-        /// The role of the test: `failing` or `passing`.
+        /// The role of the test, `failing` or `passing`.
         role: &'static str,
     },
     /// The failing test and the passing test are the same.
@@ -38,11 +38,11 @@ pub enum LocateError {
 /// The state of knowledge about a value of the failing test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
-    /// The value is not guilty: some failing test does not have it.
+    /// The value is not guilty, because some failing test does not have it.
     Cleared,
-    /// At least one of the doubted values is guilty: a test without them passed.
+    /// The value is in doubt. At least one such value is guilty, because a test without them passed.
     Doubted,
-    /// The value may be guilty: the passing test without the doubted values kept it.
+    /// The value may be guilty. The passing test without the doubted values kept it.
     Waiting,
     /// The value is guilty.
     Guilty,
@@ -58,7 +58,7 @@ struct Question {
     kept: Vec<usize>,
 }
 
-/// Finds the guilty combination: asks for a test, is told its result, and asks again.
+/// Finds the guilty combination by asking for tests one after the other and learning their results.
 ///
 /// ```
 /// use paracosm_space::rules::Rules;

@@ -44,16 +44,16 @@ pub struct Suspect {
     pub values: Vec<(usize, usize)>,
     /// The number of failing tests that contain the combination. No other tests contain it.
     pub failures: usize,
-    /// The suspicion: how suspect the single values are. For each value it takes the share of failed tests among the
-    /// tests with this value, by Laplace's rule (failed + 1) / (all + 2); the suspicion is the average over the
-    /// values. Values that are together by chance have about the share of all tests. The values of a guilty
-    /// combination have a higher share.
+    /// The average suspicion of the single values. For each value it takes the share of failed tests among the tests
+    /// with this value, by Laplace's rule (failed + 1) / (all + 2). Values that are together by chance have about the
+    /// share of all tests. The values of a guilty combination have a higher share.
     pub suspicion: f64,
 }
 
 impl Suspect {
-    /// Orders suspects: first by size, the smaller before the larger; then by the failures that they explain, more
-    /// before fewer; then by suspicion, higher before lower; then by the lexicographic order of their values.
+    /// Compares two suspects by their ranks: first by size, the smaller before the larger; then by the failures that
+    /// they explain, more before fewer; then by suspicion, higher before lower; then by the lexicographic order of
+    /// their values.
     fn order(&self, other: &Self) -> Ordering {
         let by_size = self.values.len().cmp(&other.values.len()).then(other.failures.cmp(&self.failures));
         by_size.then(other.suspicion.total_cmp(&self.suspicion)).then_with(|| self.values.cmp(&other.values))
@@ -63,8 +63,8 @@ impl Suspect {
 /// The suspects that tests show.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Suspects {
-    /// The first suspects in the order of their ranks: by size, the smallest first; then by explained failures, the
-    /// most first; then by suspicion, the highest first.
+    /// The first suspects in the order of their ranks. They are ordered by size, the smallest first; then by
+    /// explained failures, the most first; then by suspicion, the highest first.
     pub ranked: Vec<Suspect>,
     /// The number of all suspects.
     pub found: u64,

@@ -32,7 +32,7 @@ impl<'r> Partial<'r> {
         levels.iter().any(|&level| level != than && self.choose(parameter, level))
     }
 
-    /// Completes the test: a parameter without a level gets the preferred level or, if that is impossible, the first
+    /// Completes the test. A parameter without a level gets the preferred level or, if that is impossible, the first
     /// possible level.
     pub fn complete(mut self, preferred: &[usize]) -> Vec<usize> {
         for (parameter, &level) in preferred.iter().enumerate() {

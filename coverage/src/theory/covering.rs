@@ -41,7 +41,7 @@ fn sorted(levels: &[usize], strength: usize) -> u128 {
     alike.fold(product.max(derived), u128::max)
 }
 
-/// The bound for so many parameters of `v` levels each.
+/// The bound for `parameters` parameters of `v` levels each.
 fn uniform(parameters: usize, v: usize, strength: usize) -> u128 {
     match strength {
         _ if v < 2 => 1,

@@ -9,7 +9,7 @@
 //! All functions take the number of dimensions and the dispersion `epsilon` that must not be exceeded. They return
 //! `None` if the number of points does not fit in `u64`, and panic if `dims` is 0 or `epsilon` is not in `(0, 1)`.
 
-/// Returns a lower bound on the number of points: no set of fewer points has a dispersion of at most `epsilon`.
+/// Returns a lower bound on the number of points of any set whose dispersion is at most `epsilon`.
 ///
 /// Any set of `n` points leaves an empty box of volume `1/(n+1)`. For `d >= 2` it also leaves a box of volume
 /// `5/(4(n+5))` (Dumitrescu, Jiang, On the largest empty axis-parallel box amidst n points, Algorithmica 66, 2013)
@@ -58,7 +58,7 @@ pub fn enough_of_sobol(dims: usize, epsilon: f64) -> Option<u64> {
 }
 
 /// Returns a number of uniformly random points that have a dispersion of at most `epsilon` with probability at least
-/// `1 - delta`:
+/// `1 - delta`. The number follows from this bound:
 ///
 /// ```text
 /// P(dispersion > epsilon) <= (M(M+1)/2)^d (1 - epsilon + 2d/M)^n     for any whole M > 2d/epsilon,
@@ -79,8 +79,7 @@ pub fn enough_at_random(dims: usize, epsilon: f64, delta: f64) -> Option<u64> {
         let boxes = d * (libm::log(m) + libm::log(m + 1.0) - std::f64::consts::LN_2);
         (boxes - libm::log(delta)) / -libm::log1p(2.0 * d / m - epsilon)
     };
-    // Few cells make a coarse grid, which wastes volume. Many cells make too many boxes. The best number is in
-    // between.
+    // A grid with few cells wastes volume. Many cells make too many boxes. The best number is in between.
     let found = (1..400).map(|step| points(libm::exp2(f64::from(step) / 20.0))).fold(f64::INFINITY, f64::min);
     whole(found.ceil())
 }

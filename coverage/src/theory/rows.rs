@@ -9,7 +9,7 @@ use paracosm_space::rules::{Rules, UniformTests};
 use std::collections::BTreeMap;
 
 /// Returns the number of uniformly random rows of `{0,1}^parameters` that Proposition 3.2 of the paper asks for, so
-/// that they are a k-wise covering family with probability at least `1 - delta`: `2^k (k ln N - ln delta)`, not
+/// that they are a k-wise covering family with probability at least `1 - delta`. It is `2^k (k ln N - ln delta)`, not
 /// rounded.
 ///
 /// The formula comes from `ln(1 - 2^-k) <= -2^-k` and `C(N,k) 2^k <= N^k`. The second inequality does not hold for
@@ -26,7 +26,8 @@ pub fn proposition_3_2(parameters: usize, k: usize, delta: f64) -> f64 {
 pub struct RandomRows {
     parameters: usize,
     k: usize,
-    /// `true` if the rows are those of the paper's Proposition 3.2: two levels each, and no constraints.
+    /// `true` if the paper's Proposition 3.2 applies, because all parameters have two levels and there are no
+    /// constraints.
     of_the_paper: bool,
     combinations: Combinations,
 }

@@ -73,9 +73,12 @@ impl Learner {
     pub fn new(recipe: Recipe) -> Self {
         assert!(
             recipe.resolution.iter().zip(SMALLEST).all(|(size, least)| *size >= least),
-            "images of 33 x 33 or more"
+            "the images of a recipe need at least 33 x 33 pixels"
         );
-        assert!(recipe.held_out != Some(0) && recipe.batch > 0, "a recipe needs whole numbers from 1 on");
+        assert!(
+            recipe.held_out != Some(0) && recipe.batch > 0,
+            "a recipe needs a batch of at least 1 lesson, and a distance between held-out runs of at least 1"
+        );
         let device = Device::flex().autodiff();
         let mut chance = Pcg64::seed_from_u64(recipe.seed);
         let network = Network::new(recipe.resolution, &mut chance, &device);
@@ -90,7 +93,7 @@ impl Learner {
         let (examined, learnt): (Vec<&Lesson>, Vec<&Lesson>) = lessons
             .iter()
             .partition(|lesson| self.recipe.held_out.is_some_and(|every| lesson.run % every == every - 1));
-        assert!(!learnt.is_empty(), "there are no lessons");
+        assert!(!learnt.is_empty(), "there is no lesson to learn from: all runs are held out, or none was given");
         let mut order = learnt;
         let batches = order.len().div_ceil(self.recipe.batch);
         let [first, last] = self.recipe.rates;

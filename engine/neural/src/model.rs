@@ -17,7 +17,7 @@ const PIXELS: (usize, usize) = (8, 1024);
 #[derive(Debug, Error)]
 pub enum ModelError {
     /// The file is not in the ONNX format, or has operations that are not known.
-    #[error("cannot be read as an ONNX model: {source:#}")]
+    #[error("cannot be read as an ONNX model with operations that are supported: {source:#}")]
     Unreadable {
         /// The error of the ONNX reader.
         source: TractError,
@@ -38,7 +38,7 @@ pub enum ModelError {
 #[derive(Debug, Error)]
 pub enum AnswerError {
     /// The image has another size than the network takes.
-    #[error("the image has {found} bytes, expected {expected}")]
+    #[error("the image has {found} bytes, expected {expected}: three for each pixel of the network's input")]
     ImageSize {
         /// The number of bytes of the image.
         found: usize,
@@ -52,7 +52,7 @@ pub enum AnswerError {
         source: TractError,
     },
     /// Steering or throttle is missing in the network's answer.
-    #[error("the network gives fewer than two numbers")]
+    #[error("the network's answer has fewer than two numbers, expected steering and throttle")]
     TooFewNumbers,
 }
 
@@ -80,7 +80,11 @@ impl Model {
         let inputs = model.inputs.len();
         if !(1..=2).contains(&inputs) {
             let found = format!("{inputs} tensors");
-            return Err(ModelError::Shape { what: "the input", found, expected: "an image, and the speed if need be" });
+            return Err(ModelError::Shape {
+                what: "the input",
+                found,
+                expected: "one or two tensors: an image, and optionally the speed",
+            });
         }
         let (height, width) = image_size(&model)?;
         let float = |dimensions: &[usize]| InferenceFact::dt_shape(DatumType::F32, dimensions);

@@ -66,7 +66,8 @@ impl Driver for Pilot {
             .map_err(|error| Fault::of(FaultKind::Answer, error.to_string()))?
             .map(f64::from);
         if !(steering.is_finite() && throttle.is_finite()) {
-            let message = format!("the network answers steering {steering}, throttle {throttle}, expected numbers");
+            let message =
+                format!("the network's answer is steering {steering} and throttle {throttle}, expected finite numbers");
             return Err(Fault::of(FaultKind::Answer, message));
         }
         Ok(Control { throttle: throttle.clamp(-1.0, 1.0), steering: steering.clamp(-1.0, 1.0) })

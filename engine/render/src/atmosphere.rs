@@ -6,9 +6,9 @@
 
 /// The elevation for which colours are given, in radians: that of [`Atmosphere::default`](crate::Atmosphere::default).
 const USUAL: f32 = 0.9;
-/// Vertical optical depth of clear air for red, green and blue light, of 0.610, 0.550 and 0.465 micrometres:
-/// 0.008735 wavelength^-4.08 (Leckner, The spectral distribution of solar radiation at the earth's surface, Solar Energy
-/// 20, 1978).
+/// The vertical optical depth of clear air for red, green and blue light, of 0.610, 0.550 and 0.465 micrometres:
+/// 0.008735 wavelength^-4.08 (Leckner, The spectral distribution of solar radiation at the earth's surface, Solar
+/// Energy 20, 1978).
 const DEPTHS: [f64; 3] = [0.06564, 0.10014, 0.19862];
 /// The radius of the earth (6371 km) divided by the height by which air thins to 1/e (8 km).
 const EARTH: f64 = 6371.0 / 8.0;
@@ -25,7 +25,7 @@ pub(crate) struct Daylight {
     pub zenith: f32,
     /// The light that comes from all around.
     pub around: [f32; 3],
-    /// The share of the air above that is not in the shadow of the earth, from 0 to 1: 1 until sunset.
+    /// The share of the air above that is not in the shadow of the earth, from 0 to 1. It is 1 until sunset.
     pub risen: f32,
 }
 
@@ -59,7 +59,7 @@ fn air_mass(elevation: f32) -> f64 {
     1.0 / (libm::sin(up) + 0.50572 * libm::pow(up.to_degrees() + 6.07995, -1.6364))
 }
 
-/// Returns the mean share of rays that is left over a depth: the mean of exp(-x) for x from 0 to `depth`.
+/// Returns the mean share of rays that is left over a depth. It is the mean of exp(-x) for x from 0 to `depth`.
 fn column(depth: f64) -> f64 {
     -libm::expm1(-depth) / depth
 }

@@ -47,8 +47,8 @@ impl Camera {
         camera.mounted(Point3::from(spec.position), yaw, pitch, roll)
     }
 
-    /// Returns the same camera, mounted elsewhere on its carrier: at a place in metres, turned by yaw (to the left),
-    /// then pitch (downwards), then roll (to the right) in radians, as in ISO 8855.
+    /// Returns the same camera, mounted elsewhere on its carrier. The mount is at a place in metres, turned by yaw (to
+    /// the left), then pitch (downwards), then roll (to the right) in radians, as in ISO 8855.
     ///
     /// # Errors
     /// A number is not finite.

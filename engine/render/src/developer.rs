@@ -27,7 +27,7 @@ pub struct Rendering {
 #[derive(Debug, Clone, Error)]
 pub enum Undrawn {
     /// The camera was inside a thing with which the car had collided, so that nothing was visible.
-    #[error("the camera was within a thing (id {0})")]
+    #[error("the camera was inside a thing (id {0}), so nothing was visible")]
     Inside(u16),
     /// The view cannot be drawn.
     #[error(transparent)]

@@ -12,7 +12,7 @@ pub type GraphicsCause = Arc<dyn std::error::Error + Send + Sync>;
 pub enum RenderError {
     /// The machine has no graphics adapter.
     #[error(
-        "no graphics adapter was found ({0}). None needs a display or a graphics card: on Debian and Ubuntu the package \
+        "no graphics adapter was found ({0}). No display or graphics card is needed: on Debian and Ubuntu the package \
          mesa-vulkan-drivers draws on the processor (apt install mesa-vulkan-drivers)"
     )]
     NoAdapter(GraphicsCause),
@@ -25,7 +25,7 @@ pub enum RenderError {
         source: GraphicsCause,
     },
     /// The adapter was taken away, or its driver gave up. A new renderer may work.
-    #[error("the graphics device was lost: {reason:?}, {message}; a new renderer has to be made")]
+    #[error("the graphics device was lost: {reason:?}, {message}; make a new renderer")]
     Lost {
         /// The reason that the graphics interface gives for the loss.
         reason: LossReason,
@@ -122,7 +122,7 @@ pub enum InstanceFlaw {
     #[error("paint of {0:?}, expected numbers from 0 to 1")]
     Paint([f32; 3]),
     /// The mesh has a corner with a number that is not finite.
-    #[error("mesh of corner {index} at {position:?} with texture coordinates {uv:?}, expected finite numbers")]
+    #[error("mesh whose corner {index} is at {position:?} with texture coordinates {uv:?}, expected finite numbers")]
     Corner {
         /// The index of the corner.
         index: usize,

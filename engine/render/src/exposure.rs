@@ -32,8 +32,8 @@ pub struct Sight {
     camera: Camera,
     pose: Isometry3<f64>,
     head_lamps: Point3<f64>,
-    /// The id of the thing that is not drawn: the ego vehicle, if the camera is inside it and would see its inner
-    /// sides.
+    /// The id of the ego vehicle if the camera is inside it. The vehicle is then not drawn, because the camera would
+    /// see its inner sides.
     without: Option<u16>,
     /// The outputs that the renderer has to draw.
     pub(crate) wanted: WantedImages,

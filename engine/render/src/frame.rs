@@ -12,7 +12,8 @@ pub struct Frame {
     pub rgb: Option<Vec<u8>>,
     /// Red, green and blue of each pixel in linear light; a white surface in full sun is about 1.
     pub linear: Option<Vec<f32>>,
-    /// The radial depth: metres from the pinhole to the point that the middle of the pixel sees; infinite for the sky.
+    /// The radial depth in metres from the pinhole to the point that the middle of the pixel sees; infinite for the
+    /// sky.
     pub depth: Option<Vec<f32>>,
     /// The number of the [`Semantic`] class of each pixel.
     pub semantic: Option<Vec<u8>>,
@@ -23,7 +24,7 @@ pub struct Frame {
     pub alone: Option<Vec<Extent>>,
 }
 
-/// The pixels of a thing: their number and their bounds.
+/// The number and the bounds of a thing's pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extent {
     /// The id of the thing.
@@ -68,8 +69,8 @@ impl Frame {
         self.camera.height()
     }
 
-    /// Returns the planar depth, if the frame has depth: metres along the camera's axis to the point that the middle of
-    /// the pixel sees.
+    /// Returns the planar depth in metres along the camera's axis to the point that the middle of the pixel sees, if
+    /// the frame has depth.
     pub fn planar_depth(&self) -> Option<Vec<f32>> {
         let depth = self.depth.as_ref()?;
         let forward = |(index, radial): (usize, &f32)| {
@@ -80,7 +81,7 @@ impl Frame {
         Some(depth.iter().enumerate().map(forward).collect())
     }
 
-    /// Returns the classes in CARLA's colours, if the frame has classes: red, green and blue of each pixel.
+    /// Returns the classes in CARLA's colours, red, green and blue of each pixel, if the frame has classes.
     pub fn semantic_colours(&self) -> Option<Vec<u8>> {
         Some(self.semantic.as_ref()?.iter().flat_map(|class| Semantic::colour_of(*class)).collect())
     }

@@ -34,9 +34,9 @@ pub(crate) struct Light {
 }
 
 impl Atmosphere {
-    /// Returns the colour of the air in linear light: the colour of the horizon, and of everything that fog hides. Fog
-    /// turns the light `l` of a point at `d` metres into `l t + colour (1 - t)` with `t = exp(-extinction d)`
-    /// (Koschmieder). The colour is pale and warm under a low sun, and goes dark after sunset.
+    /// Returns the colour of the horizon, and of everything that fog hides, in linear light. Fog turns the light `l` of
+    /// a point at `d` metres into `l t + colour (1 - t)` with `t = exp(-extinction d)` (Koschmieder). The colour is
+    /// pale and warm under a low sun, and goes dark after sunset.
     pub fn colour(&self) -> [f32; 3] {
         dimmed(times(HAZE, Daylight::of(self.sun_elevation).horizon), self.light, 0.5)
     }

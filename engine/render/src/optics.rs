@@ -43,8 +43,8 @@ impl Optics {
         Self { seed, ..self.clone() }
     }
 
-    /// Returns the outputs that the renderer has to draw for the `wanted` outputs: colours, or linear light if the lens
-    /// changes it.
+    /// Returns the outputs that the renderer has to draw for the `wanted` outputs. They have colours, or linear light
+    /// if the lens changes it.
     pub fn needs(&self, wanted: WantedImages) -> WantedImages {
         let plain = self.is_plain();
         WantedImages { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, ..wanted }

@@ -74,7 +74,7 @@ impl Semantic {
         &NAMES
     }
 
-    /// The colour in which CARLA draws the class: red, green and blue.
+    /// The colour in which CARLA draws the class, as red, green and blue.
     pub fn colour(self) -> [u8; 3] {
         COLOURS[self as usize]
     }

@@ -21,7 +21,7 @@ pub struct Scene {
     pub air: Atmosphere,
 }
 
-/// A thing in a scene: a mesh with its place.
+/// A mesh with its place in a scene.
 #[derive(Debug, Clone)]
 pub struct Instance {
     /// The shape of the thing, shared by all things that look alike.
@@ -30,10 +30,10 @@ pub struct Instance {
     pub pose: Isometry3<f32>,
     /// The factors by which the thing is larger than the mesh, along the mesh's axes.
     pub scale: [f32; 3],
-    /// The colour of the painted surfaces: red, green and blue in linear light, from 0 to 1.
+    /// The colour of the painted surfaces, red, green and blue in linear light, from 0 to 1.
     pub paint: [f32; 3],
-    /// The id of the thing that this instance is part of: 0 for no particular thing, otherwise one more than the index
-    /// of the body among the bodies of the run.
+    /// The id of the thing that this instance is part of. It is 0 for no particular thing, otherwise one more than the
+    /// index of the body among the bodies of the run.
     pub id: u16,
 }
 
@@ -48,7 +48,7 @@ pub struct Atmosphere {
     pub sun_elevation: f32,
     /// The direction of the sun, in radians counter-clockwise from x.
     pub sun_azimuth: f32,
-    /// The extinction of the fog in 1/m, 0 if there is no fog: 3.912 / visibility (Koschmieder, 2 % contrast).
+    /// The extinction of the fog in 1/m, 0 if there is no fog. It is 3.912 / visibility (Koschmieder, 2 % contrast).
     pub extinction: f32,
 }
 

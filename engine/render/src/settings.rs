@@ -24,7 +24,7 @@ pub struct CameraSettings {
     effects: &'static [&'static LensEffect],
 }
 
-/// An invalid camera: its name, and the flaw in its description.
+/// The error that a camera cannot be made, with the camera's name and the flaw in its description.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("camera `{camera}`: {flaw}")]
 pub struct NoCamera {
@@ -52,7 +52,7 @@ pub enum CameraFlaw {
         found: Vec<f64>,
     },
     /// The key belongs to no setting.
-    #[error("there is no key `{key}`{}, expected some of {}", did_you_mean(nearest), known.join(", "))]
+    #[error("a camera has no key `{key}`{}; its keys are {}", did_you_mean(nearest), known.join(", "))]
     UnknownKey {
         /// The unknown key.
         key: String,
@@ -95,7 +95,7 @@ impl CameraSettings {
         CORE_CAMERA_SETTINGS.iter().chain(of_lens).copied()
     }
 
-    /// Returns the keys of a file, in their order: [`RESOLUTION`], then the keys of all settings.
+    /// Returns the keys of a file, in their order. [`RESOLUTION`] comes first, then the keys of all settings.
     pub fn keys(self) -> Vec<&'static str> {
         let mut keys: Vec<_> = std::iter::once(RESOLUTION).chain(self.iter().map(|setting| setting.key)).collect();
         keys.dedup();
@@ -149,7 +149,7 @@ impl CameraSettings {
     }
 }
 
-/// Formats numbers as a file has them: a single number, or a list.
+/// Formats numbers as a file has them, as a single number or a list.
 fn listed(found: &[f64]) -> String {
     match found {
         [alone] => alone.to_string(),

@@ -12,8 +12,8 @@ pub struct View<'a> {
     pub camera: &'a Camera,
     /// The pose in the world of the vehicle that carries the camera.
     pub pose: Isometry3<f64>,
-    /// The id of the things that are not drawn, if any: usually the vehicle that carries the camera, since the camera
-    /// would see its inner sides.
+    /// The id of the things that are not drawn, if any. Usually it is that of the vehicle that carries the camera,
+    /// since the camera would see its inner sides.
     pub without: Option<u16>,
     /// The point midway between the two head lamps, in the coordinates of the vehicle that carries the camera, if it
     /// has head lamps. They shine forward as daylight fades.

@@ -1,5 +1,5 @@
-//! What every kind of thing looks like, on one sheet: a person should know a car for a car. The example `gallery` draws them
-//! larger and from all sides.
+//! What every kind of thing looks like, on one sheet: a person should know a car for a car. The example `gallery` draws
+//! them larger and from all sides.
 
 mod support;
 

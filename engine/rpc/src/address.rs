@@ -17,7 +17,7 @@ pub struct Address {
 
 /// The error for a text that is no address of a driver.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{text}`: {why}, expected grpc://HOST:PORT, as grpc://127.0.0.1:50051")]
+#[error("`{text}` is no address of a driver: {why}, expected grpc://HOST:PORT, for example grpc://127.0.0.1:50051")]
 pub struct AddressError {
     text: String,
     why: &'static str,
@@ -45,8 +45,8 @@ impl FromStr for Address {
 
     fn from_str(text: &str) -> Result<Self, AddressError> {
         let wrong = |why| AddressError { text: text.to_owned(), why };
-        let rest = text.strip_prefix(SCHEME).ok_or_else(|| wrong("found another scheme"))?;
-        let (host, port) = rest.rsplit_once(':').ok_or_else(|| wrong("found no port"))?;
+        let rest = text.strip_prefix(SCHEME).ok_or_else(|| wrong("it does not begin with grpc://"))?;
+        let (host, port) = rest.rsplit_once(':').ok_or_else(|| wrong("it has no port"))?;
         let port = port.parse().map_err(|_| wrong("the port is no number from 1 to 65535"))?;
         let inner = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
         let sound = match inner {
@@ -54,7 +54,7 @@ impl FromStr for Address {
             None => !host.is_empty() && host.chars().all(|c| c.is_ascii_alphanumeric() || "-._".contains(c)),
         };
         match (sound, port) {
-            (false, _) => Err(wrong("the host is no name and no address")),
+            (false, _) => Err(wrong("the host is neither a name nor an IP address")),
             (true, 0) => Err(wrong("the port is no number from 1 to 65535")),
             (true, port) => Ok(Self { host: host.to_owned(), port }),
         }

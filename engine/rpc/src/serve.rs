@@ -132,7 +132,9 @@ fn answer(
                 make(&SessionOptions { seed: hello.seed, settings: hello.settings.into_iter().collect() })?;
             let equipment = driver.equipment();
             if !equipment.rig.is_empty() {
-                return Err(Fault::new("a driver with a rig cannot be served, only one with cameras"));
+                return Err(Fault::new(
+                    "the driver has sensors other than cameras, which cannot be served over gRPC; expected a driver with cameras only",
+                ));
             }
             let cameras = equipment.cameras;
             let welcome = wire::Welcome {
@@ -154,7 +156,7 @@ fn answer(
             let Control { throttle, steering } = state.step(step)?;
             Ok(answer::Kind::Control(wire::Control { throttle, steering }))
         }
-        _ => Err(Fault::new("found an unexpected request, expected one hello, then resets and steps")),
+        _ => Err(Fault::new("the client sent a request out of order; expected one hello, then resets and steps")),
     }
 }
 

@@ -29,16 +29,20 @@ const LONGEST_ANSWER: usize = 1 << 24;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OpenError {
     /// No process listens at the address.
-    #[error("nobody listens there; start the driver first")]
+    #[error("no process listens at this address; start the driver first")]
     Unreachable,
     /// The name of the host cannot be resolved to an address.
-    #[error("the host is not known")]
+    #[error("the name of the host is not known; check the address")]
     UnknownHost,
     /// The process that listens is no driver.
-    #[error("what listens there is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC")]
+    #[error(
+        "the process at this address is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC"
+    )]
     Foreign,
     /// The driver speaks another version of the protocol.
-    #[error("the driver speaks protocol {found}, expected {PROTOCOL}; update the one that is older")]
+    #[error(
+        "the driver speaks version {found} of the protocol, expected version {PROTOCOL}; update the driver or PARACOSM, whichever is older"
+    )]
     Protocol {
         /// The version of the protocol that the driver speaks.
         found: u32,
@@ -75,8 +79,9 @@ impl Session {
     /// No process listens at the address, another kind of server does, or the driver refuses these terms.
     pub fn open(address: &Address, terms: &Terms, stop: Arc<AtomicBool>) -> Result<Self, OpenError> {
         let runtime = Builder::new_current_thread().enable_all().build();
-        let runtime =
-            runtime.map_err(|error| Fault::of(FaultKind::Lost, format!("cannot wait for the driver: {error}")))?;
+        let runtime = runtime.map_err(|error| {
+            Fault::of(FaultKind::Lost, format!("cannot start the runtime that waits for the driver: {error}"))
+        })?;
         let watch = Watch { timeout: terms.timeout, stop };
         if !address.is_known() {
             return Err(OpenError::UnknownHost);
@@ -141,7 +146,7 @@ impl Driver for Session {
         self.next = wire::Step::default();
         match self.ask(request::Kind::Reset(briefing.into()))? {
             Some(answer::Kind::Ready(_)) => Ok(()),
-            other => Err(unexpected("that the driver is ready", other.as_ref())),
+            other => Err(unexpected("the message that the driver is ready", other.as_ref())),
         }
     }
 
@@ -176,7 +181,7 @@ impl Watch {
                 if begun.elapsed() >= self.timeout {
                     return Err(Fault::of(
                         FaultKind::TimedOut,
-                        format!("no answer within {} s", self.timeout.as_secs_f64()),
+                        format!("the driver did not answer within {} s", self.timeout.as_secs_f64()),
                     ));
                 }
             }
@@ -189,7 +194,7 @@ fn unexpected(expected: &str, found: Option<&answer::Kind>) -> Fault {
     let found = match found {
         None => "the driver ended the session".to_owned(),
         Some(answer::Kind::Welcome(_)) => "found a welcome".to_owned(),
-        Some(answer::Kind::Ready(_)) => "found that it is ready".to_owned(),
+        Some(answer::Kind::Ready(_)) => "found the message that the driver is ready".to_owned(),
         Some(answer::Kind::Control(_)) => "found a control".to_owned(),
         Some(answer::Kind::Fault(fault)) => fault.message.clone(),
     };

@@ -161,7 +161,7 @@ impl Fleet {
 
     /// Makes a car change to the neighbouring lane on this side within `seconds` seconds when the event occurs, even if
     /// other cars are there. Without such a lane it does nothing. A time that is not a finite number above 0 is
-    /// reported as a mistake.
+    /// reported as a mistake when the world is built.
     pub fn change_lane(&self, car: usize, side: Side, seconds: f64, event: &Stream<bool>) {
         if seconds > 0.0 && seconds.is_finite() {
             self.order(car, "change_lane", event, |event| Order::Change(side, seconds, event));

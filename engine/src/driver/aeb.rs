@@ -28,24 +28,24 @@ use crate::observation::{Briefing, Control, Observation, Other};
 
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "aeb",
-    about: "keeps its speed and its way, and brakes for what it sees on its path",
+    about: "keeps its speed and its way, and brakes for bodies that it sees on its path",
     settings: &SETTINGS,
     make: |settings| Box::new(Aeb::new(settings)),
 };
 
 const SETTINGS: [Setting; 12] = [
-    setting("range", 60.0, "m", (0.0, 500.0), "distance up to which it sees"),
-    setting("field_of_view", 60.0, "deg", (0.0, 360.0), "opening angle of what it sees"),
+    setting("range", 60.0, "m", (0.0, 500.0), "greatest distance at which the sensor sees"),
+    setting("field_of_view", 60.0, "deg", (0.0, 360.0), "opening angle of the sensor"),
     setting("noise", 0.1, "m", (0.0, 10.0), "standard deviation of a detected position, each coordinate"),
     setting("latency", 0.5, "s", (0.0, 5.0), "delay of every frame"),
-    whole("samples", 8.0, (3.0, 100.0), "detections that a motion is estimated from"),
-    setting("ttc", 1.6, "s", (0.0, 10.0), "time to collision at which it brakes"),
+    whole("samples", 8.0, (3.0, 100.0), "number of detections from which a motion is estimated"),
+    setting("ttc", 1.6, "s", (0.0, 10.0), "time to collision at which the driver brakes"),
     setting("clear_ttc", 3.0, "s", (0.0, 30.0), "time to collision above which the way is clear again"),
     setting("release", 0.5, "s", (0.0, 10.0), "how long the way must be clear before the brake lets go"),
-    setting("deceleration", 9.0, "m/s^2", (0.0, 20.0), "what it asks of the brakes"),
-    setting("jerk", 30.0, "m/s^3", (1.0, 1000.0), "how fast the brake builds up"),
-    setting("margin", 0.3, "m", (0.0, 5.0), "room it wants beside the car"),
-    whole("seed", 1.0, (0.0, 4294967295.0), "of the noise, which is the same in every test"),
+    setting("deceleration", 9.0, "m/s^2", (0.0, 20.0), "deceleration that the driver asks for"),
+    setting("jerk", 30.0, "m/s^3", (1.0, 1000.0), "rate at which the deceleration changes"),
+    setting("margin", 0.3, "m", (0.0, 5.0), "room that the driver wants beside the car"),
+    whole("seed", 1.0, (0.0, 4294967295.0), "seed of the noise, which is the same in every test"),
 ];
 
 /// The speed in m/s that the driver assumes for a slow or standing car when it judges whether the way is clear.

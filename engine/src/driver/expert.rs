@@ -16,7 +16,7 @@ use crate::observation::{Briefing, Control, Observation, Other};
 
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "expert",
-    about: "keeps its way, its distance and people alive, knowing the truth: whom to learn from",
+    about: "keeps its way and its distance, and stops for people; knows the ground truth, so that networks can learn from it",
     settings: &[],
     make: |_: &Settings| Box::new(Expert::default()),
 };

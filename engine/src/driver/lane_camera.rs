@@ -18,19 +18,19 @@ use nalgebra::Vector2;
 
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "lane-camera",
-    about: "keeps its speed, and its lane by the edge of the road in the images of a camera",
+    about: "keeps its speed and its lane; finds the edge of the road in the images of a camera",
     settings: &SETTINGS,
     make: |settings: &Settings| Box::new(LaneCamera::new(settings)),
 };
 
 const SETTINGS: [Setting; 7] = [
     setting("rate", 10.0, "Hz", (1.0, 100.0), "images per second"),
-    setting("latency", 0.0, "s", (0.0, 2.0), "from when an image is taken to when it is there"),
+    setting("latency", 0.0, "s", (0.0, 2.0), "delay from when an image is taken to when it arrives"),
     setting("dropped", 0.0, "", (0.0, 1.0), "probability that an image is lost"),
     setting("blur", 0.0, "px", (0.0, 16.0), "standard deviation of the lens's blur"),
-    setting("contrast", 25.0, "", (1.0, 255.0), "how much brighter than the road, of 255, its edge is at least"),
-    setting("setback", 1.75, "m", (0.5, 10.0), "from the edge of the road to where it drives"),
-    setting("patience", 1.0, "s", (0.0, 60.0), "how long it drives on without seeing the road, before it brakes"),
+    setting("contrast", 25.0, "", (1.0, 255.0), "least difference in brightness between the road and its edge, of 255"),
+    setting("setback", 1.75, "m", (0.5, 10.0), "distance from the edge of the road at which it drives"),
+    setting("patience", 1.0, "s", (0.0, 60.0), "how long the driver goes on without seeing the road before it brakes"),
 ];
 
 /// The camera: its pixels across and down, focal length and sensor width in millimetres, position on the car in metres,

@@ -188,7 +188,7 @@ pub enum DriverError {
     },
     /// The setting cannot have that value.
     #[error(
-        "driver `{driver}`: setting `{name}` is {value}, expected a {}number from {} to {}",
+        "the setting `{name}` of driver `{driver}` is {value}, expected a {}number from {} to {}",
         if *whole { "whole " } else { "" }, range.0, range.1
     )]
     OutOfRange {

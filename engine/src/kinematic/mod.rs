@@ -3,8 +3,8 @@
 //! The performance models of UN Regulation No. 157 (Annex 4, Appendix 3) are defined in such a world, and the results
 //! in the literature were computed in one. It has no tyres, no streams and no physics. The ego vehicle keeps the middle
 //! of its lane, holds its speed and brakes when its [`BrakingModel`] says so. The others follow a [`Course`] that is
-//! known from the beginning. An encounter takes microseconds, so that one can check for tens of thousands of them
-//! whether a careful driver could have avoided the collision.
+//! known from the beginning. An encounter takes microseconds, so that tens of thousands can be checked: could a careful
+//! driver have avoided the collision?
 //!
 //! [`CutIn`], [`CutOut`] and [`LeaderBrakes`] are the three kinds of encounters of the regulation.
 //!

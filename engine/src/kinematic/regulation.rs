@@ -78,7 +78,7 @@ impl CutOut {
     /// # Panics
     /// The lateral speed is not positive.
     pub fn encounter(&self) -> Encounter {
-        assert!(self.lateral_speed > 0.0, "a car that cuts out moves sideways");
+        assert!(self.lateral_speed > 0.0, "the lateral speed of a car that cuts out has to be above 0");
         let leader = Course { target: LANE_WIDTH, lateral_speed: self.lateral_speed, ..ahead(self.gap, self.speed) };
         let standing = Course {
             visible_from: WANDERING / self.lateral_speed,

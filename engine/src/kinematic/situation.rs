@@ -1,4 +1,4 @@
-//! The input of a braking model: the true states of the ego vehicle and one other, along and across the lane.
+//! The input of a braking model: the true state of the ego vehicle and another road user, along and across the lane.
 
 /// The ego vehicle and one other road user at one moment. Lengths are in metres, times in seconds. "Along" means in the
 /// direction in which the ego vehicle drives.

@@ -22,7 +22,7 @@ impl BrakingModel for Brakes {
     }
 }
 
-/// Where the bodies of a cut-in are, written anew: the front of the car under test (braking from `onset` on), rear of
+/// Where the bodies of a cut-in are, written anew: the front of the ego vehicle (braking from `onset` on), rear of
 /// the other, and the room between their sides.
 fn naive(cut_in: &CutIn, onset: f64, deceleration: f64, time: f64) -> (f64, f64, f64) {
     let braked = (time - onset).max(0.0).min(cut_in.speed / deceleration);
@@ -151,7 +151,7 @@ fn who_is_not_in_the_path_has_no_least_gap() {
 
 #[test]
 fn a_car_that_was_passed_and_comes_over_runs_into_the_rear_of_one_that_brakes() {
-    // Passed after 1.2 s; at 2 s the car under test puts on the brakes in front of it.
+    // Passed after 1.2 s; at 2 s the ego vehicle puts on the brakes in front of it.
     let cut_in = CutIn { speed: 20.0, other_speed: 10.0, gap: 2.0, lateral_speed: 1.0 };
     let collision = cut_in.encounter().run(&Brakes::from(20, 10.0)).collision.unwrap();
     assert_eq!(collision.face, Impact::Rear);
@@ -172,8 +172,8 @@ fn the_standing_car_of_a_cut_out_is_seen_when_the_one_ahead_has_left_its_wanderi
         let cut_out = CutOut { speed: 20.0, gap: 40.0, distance: 60.0, lateral_speed };
         cut_out.encounter().run(&ForStanding).least_gap
     };
-    // 104.508 m to the standing car, 20 m of braking distance; unseen for 0.3 s and for 0.8 s (0.75 s, at the next tick).
-    // Until it has left the path, the one ahead is 40 m away and comes no nearer.
+    // 104.508 m to the standing car, 20 m of braking distance; unseen for 0.3 s and for 0.8 s (0.75 s, at the next
+    // tick). Until it has left the path, the one ahead is 40 m away and comes no nearer.
     for (lateral_speed, unseen) in [(1.25, 0.3), (0.5, 0.8)] {
         let expected: f64 = 104.508 - 20.0 - 20.0 * unseen;
         let gap = least_gap(lateral_speed);

@@ -80,19 +80,19 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InputError {
     /// The stream of an input is absent.
-    #[error("`{input}` has no value")]
+    #[error("the input `{input}` has no value, because its stream is absent")]
     Absent {
         /// The name of the input, as `object.input`.
         input: String,
     },
     /// The value of an input is NaN.
-    #[error("`{input}` is not a number")]
+    #[error("the value of the input `{input}` is not a number")]
     NotANumber {
         /// The name of the input, as `object.input`.
         input: String,
     },
     /// The value of an input is out of range.
-    #[error("`{input}` is {value}, expected {expected}")]
+    #[error("the value of the input `{input}` is {value}, expected {expected}")]
     OutOfRange {
         /// The name of the input, as `object.input`.
         input: String,

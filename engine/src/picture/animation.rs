@@ -91,7 +91,7 @@ impl MotionRecord {
         marks
     }
 
-    /// Draws the bodies that move on a page, or those that stand still; the car under test lies on top.
+    /// Draws the bodies that move on a page, or those that stand still; the ego vehicle lies on top.
     fn bodies(&self, scene: &Scene, page: &Page, moment: usize, moving: bool) -> Vec<PictureItem> {
         let these = (0..scene.bodies.len()).rev().filter(|i| self.moves(*i, page.moments.clone()) == moving);
         let poses = &self.moments[moment].poses;

@@ -9,7 +9,7 @@ use super::view::View;
 use crate::geometry::Pose;
 use crate::object::{Body, Class, Outline};
 
-/// The colour of the car under test.
+/// The colour of the ego vehicle.
 pub(super) const UNDER_TEST: Colour = [0xd5, 0x5e, 0x00];
 const RIM: Colour = [0xff, 0xff, 0xff];
 const WINDOW: Paint = Paint { colour: [0xff, 0xff, 0xff], opacity: 0.6 };

@@ -40,7 +40,7 @@ pub(super) fn text(at: Pixel, anchor: Anchor, text: impl Into<String>) -> Pictur
     PictureItem::Text { at, anchor, size: LETTERS, colour: INK, halo: None, text: text.into() }
 }
 
-/// Returns the entries for the car under test and the classes of the other bodies. The car is the first body.
+/// Returns the entries for the ego vehicle and the classes of the other bodies. The car is the first body.
 pub(super) fn entries<'a>(bodies: impl Iterator<Item = &'a Body>) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     let mut others = Vec::new();
@@ -98,7 +98,7 @@ pub(super) fn scale_bar(marks: &mut Vec<PictureItem>, [x, y]: Pixel, scale: f64)
 
 fn name(entry: &Entry) -> String {
     match entry {
-        Entry::UnderTest(_) => "car under test".to_owned(),
+        Entry::UnderTest(_) => "ego vehicle".to_owned(),
         Entry::Body(body) => body.class.to_string(),
         Entry::Plan => "planned path".to_owned(),
         Entry::Contact => "contact".to_owned(),
@@ -163,7 +163,7 @@ fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<PictureItem> {
     marks
 }
 
-/// Draws the star where the car under test touched something.
+/// Draws the star where the ego vehicle touched something.
 pub(super) fn contact(middle: Pixel, radius: f64) -> [PictureItem; 2] {
     let star = Contour::star(middle, 8, radius, 0.5 * radius);
     [star.clone().stroke([0x22, 0x22, 0x22], 2.5), star.fill([0xf0, 0xe4, 0x42])]

@@ -1,7 +1,7 @@
 //! Cuts a run into pages: stretches of time that each fit into one view of the same size, in which a car can still be
 //! told from a lorry.
 //!
-//! A page ends when the car under test drives out of the largest view, so pages follow the car as a reader's eyes
+//! A page ends when the ego vehicle drives out of the largest view, so pages follow the car as a reader's eyes
 //! follow a line of text. Pages on which the car is alone are left out, if there are others.
 
 use super::body::is_actor;
@@ -19,7 +19,7 @@ const ALONE: f64 = 1.6;
 /// The greatest number of pages, and the greatest height of all pages together as a share of their width.
 const MOST: usize = 6;
 const HIGHEST: f64 = 1.5;
-/// Distances in metres within which others have to be seen from the car under test: the first that gives one page.
+/// Distances in metres within which others have to be seen from the ego vehicle: the first that gives one page.
 const REACHES: [f64; 4] = [f64::INFINITY, 200.0, 100.0, NEAR];
 /// The distance in metres within which others are always seen.
 const NEAR: f64 = 50.0;

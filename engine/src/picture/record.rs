@@ -22,7 +22,7 @@ const STIR: f64 = 0.3;
 pub struct MotionRecord {
     pub(super) scene: Option<Scene>,
     pub(super) moments: Vec<Moment>,
-    /// The body that the car under test touches at the last moment.
+    /// The body that the ego vehicle touches at the last moment.
     pub(super) touched: Option<usize>,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Scene {
     pub bodies: Vec<Body>,
 }
 
-/// The poses of all bodies at a time in seconds, the car under test first.
+/// The poses of all bodies at a time in seconds, the ego vehicle first.
 #[derive(Debug, Clone)]
 pub(super) struct Moment {
     pub time: f64,
@@ -65,7 +65,7 @@ impl MotionRecord {
         self.moments.is_empty()
     }
 
-    /// Returns the bounds of the car under test in these moments, of the actors within `reach` metres of it, and of
+    /// Returns the bounds of the ego vehicle in these moments, of the actors within `reach` metres of it, and of
     /// things near its way.
     pub(super) fn bounds(&self, scene: &Scene, moments: Range<usize>, reach: f64) -> Bounds {
         let mut bounds = Bounds::empty();
@@ -89,7 +89,7 @@ impl MotionRecord {
         self.moments[moments].iter().any(|moment| (moment.poses[body].position - start).norm() > STIR)
     }
 
-    /// Returns where the car under test touches another body: the car's point nearest to the other's middle.
+    /// Returns where the ego vehicle touches another body: the car's point nearest to the other's middle.
     pub(super) fn point_of_contact(&self, scene: &Scene) -> Option<Vector2<f64>> {
         let poses = &self.moments.last()?.poses;
         let other = poses[self.touched?].position;

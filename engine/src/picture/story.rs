@@ -17,10 +17,10 @@ use std::ops::Range;
 /// The width of a picture in pixels.
 const WIDTH: f64 = 1200.0;
 /// The least and the greatest number of ghosts of a body on a page, if there is enough time, and the distance in metres
-/// between ghosts of the car under test.
+/// between ghosts of the ego vehicle.
 const GHOSTS: [f64; 2] = [4.0, 9.0];
 const APART: f64 = 10.0;
-/// The greatest number of bodies with ghosts: those that come nearest to the car under test.
+/// The greatest number of bodies with ghosts: those that come nearest to the ego vehicle.
 const TOLD: usize = 8;
 /// The possible numbers of seconds between two ghosts.
 const STEPS: [f64; 9] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
@@ -67,7 +67,7 @@ impl MotionRecord {
             marks.extend(body(view, &scene.bodies[i], &self.moments[last].poses[i], colour(i), 1.0));
         }
         for &moment in times.iter().filter(|moment| **moment != last) {
-            // The car under test lies on top.
+            // The ego vehicle lies on top.
             for &i in told.iter().rev() {
                 let round = matches!(scene.bodies[i].outline, Outline::Disc { .. });
                 let share = if round { SMALL_GHOST } else { GHOST };
@@ -82,7 +82,7 @@ impl MotionRecord {
         marks
     }
 
-    /// Returns the moving bodies that come nearest to the car under test, including the car itself if it moves.
+    /// Returns the moving bodies that come nearest to the ego vehicle, including the car itself if it moves.
     fn told(&self, page: &Page, moving: &[bool]) -> Vec<usize> {
         let nearest = |i: &usize| {
             let apart = |moment: &Moment| (moment.poses[*i].position - moment.poses[0].position).norm();

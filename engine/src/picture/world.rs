@@ -46,7 +46,7 @@ pub fn world(run: &Run, caption: &str) -> Drawing {
     marks.push(heading(&view, &bodies[0]));
     let seen = (0..bodies.len()).filter(|i| view.shows(bodies[*i].pose.position, 0.0));
     let seen: Vec<usize> = seen.collect();
-    // The car under test lies on top.
+    // The ego vehicle lies on top.
     for i in (0..bodies.len()).rev() {
         let colour = if i == 0 { UNDER_TEST } else { class_colour(bodies[i].body.class) };
         marks.extend(body(&view, &bodies[i].body, &bodies[i].pose, colour, 1.0));
@@ -113,7 +113,7 @@ fn plan(view: &View, path: &Path, paint: Paint) -> Vec<PictureItem> {
     vec![rim, contour.dashed(paint, 2.5, PLAN_DASH), Contour::polygon(head).fill(paint)]
 }
 
-/// Draws an arrow in front of the car under test. Its driver decides where the car goes, so no way is drawn.
+/// Draws an arrow in front of the ego vehicle. Its driver decides where the car goes, so no way is drawn.
 fn heading(view: &View, car: &BodyState) -> PictureItem {
     let front = car.body.outline.half_extent().x + 6.0 / view.scale;
     let size = 1.0 / view.scale;

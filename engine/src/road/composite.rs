@@ -117,7 +117,7 @@ impl Composite {
             let Pose { position, heading } = pose;
             if ![position.x, position.y, heading].into_iter().all(f64::is_finite) {
                 let problem =
-                    format!("is put at ({}, {}), heading {heading}, expected numbers", position.x, position.y);
+                    format!("is put at ({}, {}), heading {heading}, expected finite numbers", position.x, position.y);
                 return Err(RoadError::Element { element: all.parts[0].name.clone(), problem });
             }
             let frame = pose.then(&inverse(&all.parts[0].pose));

@@ -20,7 +20,7 @@ pub enum RoadError {
         problem: String,
     },
     /// Two elements have the same name.
-    #[error("two road elements are called `{name}`")]
+    #[error("two road elements are called `{name}`: give each element a name of its own")]
     NameTaken {
         /// The name of the elements.
         name: String,
@@ -34,7 +34,7 @@ pub enum RoadError {
         nearest: Option<String>,
     },
     /// The element does not have this point.
-    #[error("`{element}` has no point `{point}`{}; it has {}", did_you_mean(.nearest), points.join(", "))]
+    #[error("`{element}` has no point `{point}`{}; its points are {}", did_you_mean(.nearest), points.join(", "))]
     UnknownPoint {
         /// The name of the element.
         element: String,
@@ -56,7 +56,7 @@ pub enum RoadError {
         to: String,
     },
     /// Two points cannot be connected because their roads have different numbers of lanes.
-    #[error("`{a}` with {} lanes cannot be connected to `{b}` with {}", lanes.0, lanes.1)]
+    #[error("`{a}` with {} lanes cannot be connected to `{b}` with {} lanes, expected equal numbers", lanes.0, lanes.1)]
     DifferentLanes {
         /// The first point.
         a: String,
@@ -93,7 +93,7 @@ pub enum RoadError {
         angle: f64,
     },
     /// Two elements cover the same ground.
-    #[error("`{a}` and `{b}` overlap at ({:.1}, {:.1})", at.0, at.1)]
+    #[error("the road elements `{a}` and `{b}` overlap at ({:.1}, {:.1})", at.0, at.1)]
     Overlap {
         /// The first element.
         a: String,
@@ -115,7 +115,7 @@ pub enum RoadError {
         has: String,
     },
     /// A place lies beyond the ends of a road.
-    #[error("a place {at} m along `{element}` is asked for, which is {length} m long")]
+    #[error("there is no place {at} m along `{element}`, which is {length} m long")]
     Beyond {
         /// The name of the element.
         element: String,
@@ -125,7 +125,7 @@ pub enum RoadError {
         length: f64,
     },
     /// There is no connection between two places without a lane change.
-    #[error("no way leads from {from} to {to} without a change of lanes")]
+    #[error("no path leads from {from} to {to} without a lane change")]
     NoWay {
         /// The place where the path should have begun.
         from: String,

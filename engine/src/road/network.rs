@@ -248,7 +248,7 @@ impl RoadNetwork {
         let placed = self.find(element)?;
         let centre = placed.centre_line().ok_or_else(|| RoadError::Element {
             element: element.to_owned(),
-            problem: "is an intersection, expected a road".to_owned(),
+            problem: "is an intersection or a roundabout, expected a road".to_owned(),
         })?;
         if !(0.0..=centre.length()).contains(&at) {
             return Err(RoadError::Beyond { element: element.to_owned(), at, length: centre.length() });

@@ -80,7 +80,7 @@ impl Run {
 
     fn finish(&mut self, driver: &mut dyn Driver, mut see: impl FnMut(&Self)) -> Outcome {
         if let Some(camera) = self.eyes().cameras().all.keys().next() {
-            let message = format!("it sees through camera `{camera}`, and nothing draws here what cameras see");
+            let message = format!("the driver uses camera `{camera}`, but nothing renders images in this run");
             return self.broken_by(Fault::of(FaultKind::Equipment, message));
         }
         loop {

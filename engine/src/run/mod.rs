@@ -39,7 +39,7 @@ pub struct Setup {
     pub period: f64,
     /// The tick in seconds; `None` for the program's own tick.
     pub dt: Option<f64>,
-    /// The model that moves the car under test.
+    /// The model that moves the ego vehicle.
     pub model: VehicleModel,
 }
 
@@ -107,7 +107,10 @@ impl Run {
         let test = test.into();
         let mut scenario = program.built(Some(test))?;
         let (dt, period) = (setup.dt.unwrap_or(scenario.dt), setup.period);
-        assert!(dt > 0.0 && dt.is_finite() && period > 0.0, "a tick and a period are positive numbers of seconds");
+        assert!(
+            dt > 0.0 && dt.is_finite() && period > 0.0,
+            "the tick and the driver's period must be positive numbers of seconds"
+        );
         let graph = std::mem::take(&mut scenario.graph);
         let premise = scenario.premise.as_ref().map(|event| graph.slot(&event.node));
         let signals = std::mem::take(&mut scenario.signals);
@@ -214,7 +217,7 @@ impl Run {
         self.told
     }
 
-    /// Returns all bodies where they are now: the car under test first, then the others in the order in which they were
+    /// Returns all bodies where they are now: the ego vehicle first, then the others in the order in which they were
     /// placed, and last those on the [`Roadside`](crate::Roadside).
     pub fn bodies(&self) -> &[BodyState] {
         &self.scene.bodies
@@ -225,7 +228,7 @@ impl Run {
         self.scene.plans()
     }
 
-    /// Returns the index of the body that the car under test touches.
+    /// Returns the index of the body that the ego vehicle touches.
     pub fn touched(&self) -> Option<usize> {
         self.scene.contact.map(|contact| contact.body)
     }
@@ -240,7 +243,7 @@ impl Run {
         self.scene.weather(&self.graph)
     }
 
-    /// Returns the name of the object that a body belongs to, by the body's index; the car under test is `car`.
+    /// Returns the name of the object that a body belongs to, by the body's index; the ego vehicle is `car`.
     pub fn name_of(&self, body: usize) -> &str {
         self.scene.name(body)
     }

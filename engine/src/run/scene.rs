@@ -24,7 +24,7 @@ struct Object {
     behaviour: Behaviour,
 }
 
-/// The car under test, the objects around it, and the states of all bodies.
+/// The ego vehicle, the objects around it, and the states of all bodies.
 pub(super) struct Scene {
     pub ego: Ego,
     pub network: Arc<RoadNetwork>,

@@ -30,13 +30,13 @@ impl Sensing {
 }
 
 impl Run {
-    /// Gives the car under test these sensors, which begin anew. From now on they see every tick.
+    /// Gives the ego vehicle these sensors, which begin anew. From now on they see every tick.
     pub fn equip(&mut self, rig: Rig) {
         self.sensing.rig = rig;
         self.sensing.rig.reset();
     }
 
-    /// Gives the car under test the cameras of its driver.
+    /// Gives the ego vehicle the cameras of its driver.
     pub(super) fn open_eyes(&mut self, eyes: Shutters) {
         self.sensing.eyes = eyes.in_test(self.sensing.test);
     }
@@ -47,7 +47,7 @@ impl Run {
         self.sensing.film = film.in_test(self.sensing.test);
     }
 
-    /// Returns the sensors of the car under test, with the readings that have arrived since its driver was last asked.
+    /// Returns the sensors of the ego vehicle, with the readings that have arrived since its driver was last asked.
     pub fn rig(&self) -> &Rig {
         &self.sensing.rig
     }

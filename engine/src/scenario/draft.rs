@@ -8,7 +8,7 @@ use crate::stream::{Datum, Stream};
 
 /// An object under construction. [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or
 /// [`ObjectDraft::physical`] make it part of the world.
-#[must_use = "without a behaviour it is no object"]
+#[must_use = "call `geometric` or `physical`, or the object does not become part of the world"]
 pub struct ObjectDraft<'a> {
     scenario: &'a mut Scenario,
     name: String,

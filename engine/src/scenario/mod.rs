@@ -1,7 +1,7 @@
 //! The builder that a program writes its world into.
 //!
 //! A scenario is a function from a test to a world: it asks for its parameters by name, places objects, binds their
-//! inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two cars under test)
+//! inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two ego vehicles)
 //! are collected and reported when the function has returned, so programs need no `?` on every line.
 
 mod draft;

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor = Descriptor { name: "camera", about: "images in colour, by the renderer" };
 
-/// The cameras on the car under test.
+/// The cameras on the ego vehicle.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cameras {

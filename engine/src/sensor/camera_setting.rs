@@ -49,13 +49,15 @@ pub const CORE_CAMERA_SETTINGS: [CameraSetting; 11] = [
     core("position", "m", SIDEWAYS, "metres ahead of the middle of the car", field!(position[0]))
         .part("ahead")
         .required(0.3),
-    core("position", "m", SIDEWAYS, "metres to the left of it", field!(position[1])).part("left").required(0.0),
+    core("position", "m", SIDEWAYS, "metres to the left of the middle of the car", field!(position[1]))
+        .part("left")
+        .required(0.0),
     core("position", "m", UPWARDS, "metres above the ground", field!(position[2])).part("up").required(1.35),
     core("yaw_pitch_roll", "degrees", TURN, "degrees to the left", field!(yaw_pitch_roll[0])).part("yaw"),
     core("yaw_pitch_roll", "degrees", TURN, "then degrees downwards", field!(yaw_pitch_roll[1])).part("pitch"),
     core("yaw_pitch_roll", "degrees", TURN, "then degrees to the right", field!(yaw_pitch_roll[2])).part("roll"),
     core("rate", "Hz", (0.001, 1000.0), "images a second", field!(rate)).required(10.0),
-    core("latency", "s", (0.0, 100.0), "the seconds from when an image is taken to when it is there", field!(latency)),
+    core("latency", "s", (0.0, 100.0), "the seconds from when an image is taken to when it arrives", field!(latency)),
     core("dropped", "", (0.0, 1.0), "the probability that an image is lost", field!(dropped)),
 ];
 

@@ -30,13 +30,13 @@ pub enum SensorError {
         highest: f64,
     },
     /// Two sensors in a rig have the same name.
-    #[error("two sensors are called `{name}`")]
+    #[error("two sensors are called `{name}`; give each sensor its own name")]
     NameTaken {
         /// The common name.
         name: String,
     },
     /// An image has another number of pixels than its camera.
-    #[error("the depth image has {found} pixels, expected {} x {}", size.0, size.1)]
+    #[error("the depth image has {found} pixels, expected the camera's {} x {}", size.0, size.1)]
     WrongSize {
         /// The number of pixels of the image.
         found: usize,

@@ -9,8 +9,10 @@ use crate::object::{Class, gap};
 use nalgebra::{Vector2, Vector3};
 
 /// The entry of this kind of sensor in lists.
-pub(super) const DESCRIPTOR: Descriptor =
-    Descriptor { name: "ground truth", about: "every body as it is, but for what hides it" };
+pub(super) const DESCRIPTOR: Descriptor = Descriptor {
+    name: "ground truth",
+    about: "all bodies around the car as they truly are, and whether each is hidden",
+};
 
 /// The settings of a sensor that knows the ground truth, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +35,7 @@ impl Default for GroundTruthSettings {
 /// A body as it truly is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrueBody {
-    /// The index of the body among the bodies of the run, of which the car under test has the index 0.
+    /// The index of the body among the bodies of the run, of which the ego vehicle has the index 0.
     pub body: usize,
     /// The class of the body.
     pub class: Class,

@@ -27,7 +27,7 @@ impl<T> fmt::Debug for Stream<T> {
 
 /// An effect at the ticks of a stream: [`Stream::for_each`] makes it, and [`Scenario::place`](crate::Scenario::place)
 /// makes it part of the world.
-#[must_use = "it is only done once it is placed in the scenario"]
+#[must_use = "an effect only happens if you place it in the scenario"]
 #[derive(Debug)]
 pub struct Effect(pub(crate) Rc<Node>);
 

@@ -13,13 +13,13 @@ use thiserror::Error;
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum GraphFlaw {
     /// A stream is read but not defined.
-    #[error("the stream `{stream}` is read, but nothing defines it")]
+    #[error("the stream `{stream}` is read, but nothing defines it; call `define` on it")]
     Undefined {
         /// The name of the stream.
         stream: String,
     },
     /// Streams depend on themselves within a tick.
-    #[error("a stream depends on its own value at the same tick: {}; put a `pre` on the way", circle(.labels))]
+    #[error("a stream depends on its own value at the same tick: {}; put a `pre` on this cycle", circle(.labels))]
     Cycle {
         /// The labels of the nodes. Each node is an operand of the next, and the last node an operand of the first.
         labels: Vec<String>,

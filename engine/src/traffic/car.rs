@@ -231,7 +231,7 @@ impl TrafficCar {
         number("width in metres", self.width, 0.1, map.network.lane(self.start.lane).width)?;
         number("desired speed in m/s", self.desired, 0.0, 100.0)?;
         number("speed in m/s", self.speed, 0.0, 100.0)?;
-        number("metres to the right", -self.offset, -5.0, 5.0)?;
+        number("offset in metres to the right", -self.offset, -5.0, 5.0)?;
         number("acceleration of IDM in m/s²", self.idm.acceleration, 0.01, 10.0)?;
         number("deceleration of IDM in m/s²", self.idm.deceleration, 0.01, 10.0)?;
         number("time headway of IDM in s", self.idm.headway, 0.0, 100.0)?;

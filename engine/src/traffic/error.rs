@@ -20,7 +20,7 @@ pub enum TrafficError {
         most: f64,
     },
     /// A lane of a car belongs to another network.
-    #[error("car {car} is to drive on lane {lane} of a network with {lanes}")]
+    #[error("car {car} should drive on lane {lane}, but the network has only {lanes} lanes, counted from 0")]
     UnknownLane {
         /// The index of the car.
         car: usize,
@@ -31,7 +31,7 @@ pub enum TrafficError {
     },
     /// A lane of a route neither follows the lane before it nor lies beside it on a road.
     #[error(
-        "the route of car {car} leads from lane {from} to lane {to}, neither its successor nor beside it on a road"
+        "the route of car {car} leads from lane {from} to lane {to}, which neither follows nor is beside it on a road"
     )]
     Route {
         /// The index of the car.

@@ -66,7 +66,7 @@ pub struct Traffic {
     turns: u64,
     occupancy: Occupancy,
     claims: Lists<Claim>,
-    /// What lies ahead of each car.
+    /// The limits that each car has found ahead of it.
     ahead: Vec<Ahead>,
     askers: Vec<Asker>,
     asking: Lists<usize>,
@@ -202,7 +202,7 @@ impl Traffic {
     pub fn set_speed(&mut self, index: usize, speed: Option<f64>) {
         assert!(
             speed.is_none_or(|speed| speed >= 0.0 && speed.is_finite()),
-            "car {index} is to drive at {speed:?} m/s"
+            "the speed of car {index} is {speed:?} m/s, expected a finite number from 0 on"
         );
         self.cars[index].given = speed;
         self.cars[index].extend_path(&self.map);
@@ -213,7 +213,7 @@ impl Traffic {
     /// # Panics
     /// There is no car with this index, or the speed is not a finite number from 0 on.
     pub fn begin_at(&mut self, index: usize, speed: f64) {
-        assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to begin at {speed} m/s");
+        assert!(speed >= 0.0 && speed.is_finite(), "initial speed of car {index}: {speed} m/s, expected 0 or more");
         self.cars[index].speed = speed;
     }
 
@@ -236,7 +236,7 @@ impl Traffic {
     /// # Panics
     /// There is no car with this index, or the speed is not a finite number from 0 on.
     pub fn set_desired_speed(&mut self, index: usize, speed: f64) {
-        assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to want {speed} m/s");
+        assert!(speed >= 0.0 && speed.is_finite(), "desired speed of car {index}: {speed} m/s, expected 0 or more");
         self.cars[index].desired = speed;
     }
 
@@ -247,7 +247,7 @@ impl Traffic {
     /// # Panics
     /// There is no car with this index, or the duration is not a finite number above 0.
     pub fn change_lane(&mut self, index: usize, side: Side, duration: f64) -> bool {
-        assert!(duration > 0.0 && duration.is_finite(), "car {index} is to change lanes in {duration} s");
+        assert!(duration > 0.0 && duration.is_finite(), "lane change of car {index}: {duration} s, expected above 0");
         let car = &mut self.cars[index];
         let lane = self.map.network.lane(car.lane);
         let to = if side == Side::Left { lane.left } else { lane.right };

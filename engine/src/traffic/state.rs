@@ -65,7 +65,7 @@ pub(super) struct Car {
     pub braking: f64,
     /// The share of the comfortable speed in bends that the road allows.
     pub grip: f64,
-    /// How far to the left of the middle of its lane the car drives.
+    /// The distance in metres at which the car drives to the left of the middle of its lane.
     keeps: f64,
     pub desired: f64,
     /// The speed that is set from outside.

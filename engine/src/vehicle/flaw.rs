@@ -14,7 +14,7 @@ pub enum VehicleFlaw {
         value: f64,
     },
     /// A parameter is outside of its range.
-    #[error("the vehicle's {parameter} is {value}, expected 0 to less than {most}")]
+    #[error("the vehicle's {parameter} is {value}, expected a number from 0 to less than {most}")]
     OutOfRange {
         /// The name of the parameter: a field of [`Vehicle`](super::Vehicle).
         parameter: &'static str,
@@ -24,7 +24,7 @@ pub enum VehicleFlaw {
         most: f64,
     },
     /// An axle carries no more than the mass of its wheels.
-    #[error("the vehicle's {axle} axle carries {carried:.1} kg, expected more than its {wheels} kg of wheels")]
+    #[error("the vehicle's {axle} axle carries {carried:.1} kg, expected more than the {wheels} kg of its wheels")]
     Axle {
         /// The name of the axle: `front` or `rear`.
         axle: &'static str,
@@ -34,7 +34,7 @@ pub enum VehicleFlaw {
         wheels: f64,
     },
     /// The wheels have at least as much yaw inertia as the whole car.
-    #[error("the vehicle's yaw_inertia is {whole}, expected more than its wheels' {wheels:.1}")]
+    #[error("the vehicle's yaw_inertia is {whole} kg m², expected more than the {wheels:.1} kg m² of its wheels")]
     YawInertia {
         /// The yaw inertia of the whole car, in kg m².
         whole: f64,

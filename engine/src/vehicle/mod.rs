@@ -151,7 +151,7 @@ impl VehicleModel {
 
 /// The error that no model of a car has the given name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no vehicle is called `{name}`, expected `single-track` or `jointed`")]
+#[error("no vehicle model is called `{name}`, expected `single-track` or `jointed`")]
 pub struct UnknownModel {
     /// The name that was given.
     pub name: String,

@@ -1,4 +1,5 @@
-//! Traffic as scenarios use it: how cars follow, give way, change lanes and stop, and that they never touch nor get stuck.
+//! Traffic as scenarios use it: how cars follow, give way, change lanes and stop, and that they never touch nor get
+//! stuck.
 
 mod following;
 mod grids;

@@ -106,10 +106,10 @@ impl Driver for Teacher {
 
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         if observation.way.offset.abs() > LOST {
-            return Err(Fault::new("the car is lost, and the lesson over"));
+            return Err(Fault::new("the car is lost, and the lesson is over"));
         }
         if !observation.others.is_empty() && observation.others.iter().all(|other| other.position.x < -PAST) {
-            return Err(Fault::new("everybody is far behind, and the lesson over"));
+            return Err(Fault::new("all other road users are far behind the car, and the lesson is over"));
         }
         let right = self.expert.step(observation)?;
         if let Some(image) = self.seen.take() {

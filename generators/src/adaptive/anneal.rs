@@ -1,8 +1,10 @@
-//! Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983), by argmin: a walk that goes downhill, and uphill now and then.
+//! Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983), by argmin: a walk that goes downhill, and sometimes
+//! uphill.
 //!
-//! A step changes each coordinate with some probability, by a normally distributed number that shrinks with the temperature
-//! and stops at the ends of the axis, so that these are tested too; a word is drawn anew. The temperature starts at half the spread of the costs so
-//! far and falls as one over the number of steps. A walk that finds nothing better for long ends, and another starts.
+//! A step changes each coordinate with some probability. The change is a normally distributed number that shrinks
+//! with the temperature. It stops at the ends of the axis, so that these are tested too; a word is drawn again. The
+//! temperature starts at half the spread of the costs so far and falls as one over the number of steps. A walk that
+//! finds nothing better for a long time ends, and another starts.
 
 use super::Adaptive;
 use super::chains::{Chains, Start};
@@ -21,7 +23,7 @@ impl Strategy {
     /// Simulated annealing on the robustness.
     pub const ANNEAL: Self = Self::of(&Descriptor {
         name: "anneal",
-        about: "random walks towards failures, uphill now and then: rough robustness, cheap tests",
+        about: "random walks towards failures, uphill now and then: for a rough robustness and cheap tests",
         dims: ANY,
         look: Look::hollow(0xf0_8080, MarkShape::Tip),
         method: Method(MethodKind::Search {
@@ -31,14 +33,14 @@ impl Strategy {
     });
 }
 
-/// How many walks go on at a time.
+/// The number of walks at a time.
 const WALKS: usize = 4;
 
-/// Without anything better for so many steps a walk is heated up again, and then ends.
+/// The number of steps without anything better after which a walk is heated up again, and after which it ends.
 const REHEATED: u64 = 60;
 const STALLED: u64 = 150;
 
-/// The standard deviation of the first steps and that of the last.
+/// The standard deviation of the first steps and of the last steps.
 const FIRST_STEP: f64 = 0.3;
 const LAST_STEP: f64 = 0.01;
 
@@ -59,7 +61,7 @@ fn walk(start: Start) -> Solver {
         let solver = solver.with_temp_func(SATempFunc::TemperatureFast);
         let solver = solver.with_reannealing_best(REHEATED).with_stall_best(STALLED);
         let walk = Walk { cost, axes, temperature, steps };
-        // It ends by itself or with the generator; what it found has been tested.
+        // The run ends by itself or with the generator. Everything that it found has been tested.
         let _ = Executor::new(walk, solver).configure(|state: IterState<_, _, _, _, _, _>| state.param(at)).run();
     })
 }
@@ -106,7 +108,7 @@ impl Anneal for Walk {
             }
             match *axis {
                 Axis::Continuous => (x + length * normal(rng)).clamp(0.0, 1.0),
-                // To another level at least.
+                // At least to another level.
                 Axis::Ordered(levels) => {
                     let by = length.max(1.0 / levels as f64);
                     mirrored(x + by * normal(rng))

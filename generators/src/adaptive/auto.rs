@@ -1,15 +1,15 @@
-//! A portfolio: several searches side by side that learn from each other's tests. What to use where nothing is known.
+//! A portfolio of searches that learn from each other's tests, for systems about which nothing is known.
 //!
-//! No search is best everywhere. On our functions (experiments/strategies.md) CMA-ES with preselection needs the fewest tests
-//! nearly always, and it leads: the others choose tests in proportion to those that it has chosen, `bayes` half as many and
-//! `nelder-mead` a tenth. Where it is misled, by a second, flatter minimum, `bayes` finds in two thirds of the tests what it
-//! finds with restarts; simplices follow a valley that bends.
+//! No search is best everywhere. On our functions (experiments/strategies.md) CMA-ES with preselection nearly always
+//! needs the fewest tests, and it leads. The others choose tests in proportion to its tests: `bayes` half as many and
+//! `nelder-mead` a tenth. If a second, flatter minimum misleads the leader, `bayes` finds in two thirds of the tests
+//! what the leader finds with restarts. Simplices follow a valley that bends.
 //!
-//! The shares are fixed: which search will find the failure does not show in how it did before there was one. They were
-//! chosen with the seeds 1,000 to 1,029 and 2,000 to 2,029; from three tests of `bayes` for ten to ten for ten little
-//! changes. A leader that waits for outcomes is not made up for: tests that another would do in its place are better chosen
-//! when these outcomes are known, so a batch may be shorter than what was asked for. Before, each search was given its share
-//! of what was asked for, and since the leader tests few at a time the others had most of the tests.
+//! The shares are fixed, because results before the first failure do not show which search will find it. They were
+//! chosen with the seeds 1,000 to 1,029 and 2,000 to 2,029. Between three tests of `bayes` for ten of the leader and
+//! ten for ten little changes. If the leader waits for results, no other search takes its share: its tests are better
+//! chosen when these results are known, so a batch may be shorter than requested. In an earlier version each search
+//! got its share of each request; since the leader tests few at a time, the others had most of the tests.
 
 use super::bayes::Bayes;
 use super::cmaes::Cmaes;
@@ -25,10 +25,10 @@ use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
 
 impl Strategy {
-    /// Several strategies side by side: what to use where nothing is known.
+    /// Several strategies side by side, for systems about which nothing is known.
     pub const AUTO: Self = Self::of(&Descriptor {
         name: "auto",
-        about: "gp-cmaes, bayes and nelder-mead side by side, learning from each other: where nothing is known",
+        about: "gp-cmaes, bayes and nelder-mead side by side, learning from each other: for unknown systems",
         dims: ANY,
         look: Look::filled(0x7b_3294, MarkShape::Diamond),
         method: Method(MethodKind::Search {
@@ -45,21 +45,21 @@ impl Strategy {
 /// The searches with their shares of the tests.
 pub(super) struct Auto {
     members: Vec<Member>,
-    /// Of each proposal that is out, whose it is and which of its own.
+    /// For each proposal without a result, the member that proposed it and the member's own number for it.
     out: BTreeMap<usize, (usize, usize)>,
     proposals: usize,
 }
 
 struct Member {
     search: Box<dyn Optimiser>,
-    /// How many tests it chooses for each of the leader.
+    /// The number of tests that the member chooses for each test of the leader.
     share: f64,
     proposals: usize,
-    /// How many tests it is owed.
+    /// The number of tests that the member may still choose.
     owed: f64,
 }
 
-/// Of the members, the one that the others follow, and the one that never waits.
+/// The index of the member that the others follow, and of the member that never waits.
 const LEADER: usize = 0;
 const READY: usize = 1;
 
@@ -74,7 +74,7 @@ impl Auto {
         Self { members, out: BTreeMap::new(), proposals: 0 }
     }
 
-    /// What a member proposes, at most `n` places.
+    /// The proposals of a member, at most `n` places.
     fn of_member(&mut self, index: usize, n: usize) -> Vec<Vec<f64>> {
         if n == 0 {
             return Vec::new();

@@ -1,12 +1,13 @@
-//! Bayesian optimisation: the next test where it is expected to improve most on the best one.
+//! Bayesian optimisation: the next test is where the greatest improvement on the best test is expected.
 //!
-//! A Gaussian process (`process`, fitted by `fit`) stands for the robustness, and one for errors (`surrogate`); the worth
-//! of a test is the logarithm of its expected improvement (`log_ei`) times its probability to run; candidates come from a
-//! trust region (`region`) and some from everywhere. Frazier's tutorial (arXiv 1807.02811) has the method; Eriksson et
-//! al. (NeurIPS 2019) the region, Gelbart et al. (UAI 2014) the unknown constraint.
+//! A Gaussian process (`process`, fitted by `fit`) models the robustness, and another models errors (`surrogate`).
+//! The worth of a test is the logarithm of its expected improvement (`log_ei`) times its probability to run.
+//! Candidates come from a trust region (`region`), and some from everywhere. The method is in Frazier's tutorial
+//! (arXiv 1807.02811), the region in Eriksson et al. (NeurIPS 2019), the unknown constraint in Gelbart et al. (UAI
+//! 2014).
 //!
-//! Discrete coordinates are distances in the kernel, an order by its steps and a word by 0 or 1; candidates are
-//! always valid levels, never between two.
+//! The kernel measures discrete coordinates by distances: the steps of an ordered axis, and 0 or 1 for a word.
+//! Candidates are always valid levels, never between two levels.
 
 use super::Adaptive;
 use super::cube::Axis;
@@ -22,7 +23,7 @@ impl Strategy {
     /// Bayesian optimisation of the robustness in a trust region.
     pub const BAYES: Self = Self::of(&Descriptor {
         name: "bayes",
-        about: "a model of the robustness says which test is likely to fail: few, costly tests",
+        about: "a model of the robustness says which test is likely to fail: for few, costly tests",
         dims: ANY,
         look: Look::filled(0x7b_3294, MarkShape::Circle),
         method: Method(MethodKind::Search {
@@ -34,19 +35,19 @@ impl Strategy {
     });
 }
 
-/// So many candidates for each axis, within limits.
+/// The number of candidates for each axis, within limits.
 const CANDIDATES: usize = 80;
 
-/// So many candidates for the first places of a new region.
+/// The number of candidates for the first places of a new region.
 const DESIGNS: usize = 200;
 
 /// The search.
 pub(super) struct Bayes {
     surrogate: Surrogate,
     region: Region,
-    /// From which proposal on tests belong to the region.
+    /// The number of the first proposal that belongs to the region.
     since: usize,
-    /// How many tests the region's design still lacks.
+    /// The number of tests that the region's design still lacks.
     design: usize,
     batch: usize,
     rng: Pcg64,
@@ -57,14 +58,14 @@ impl Bayes {
         Self { surrogate: Surrogate::new(axes), region: Region::new(), since: 0, design: 0, batch: 0, rng }
     }
 
-    /// Places for a new region to begin with: those least known of some random ones.
+    /// The first places of a new region: the least known of some random places.
     fn design(&mut self, n: usize) -> Vec<Vec<f64>> {
         let axes = self.surrogate.axes();
         let candidates = (0..DESIGNS).map(|_| snapped(axes, anywhere(axes, &mut self.rng))).collect();
         let near = anywhere(axes, &mut self.rng);
         let n = n.min(self.design);
         let places = self.surrogate.choose(n, View::Near(&near), candidates, |_, _, deviation, runs| deviation * runs);
-        // A discrete space may have fewer left.
+        // A discrete space may have fewer places left.
         self.design = if places.len() < n { 0 } else { self.design - n };
         places
     }

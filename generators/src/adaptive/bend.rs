@@ -1,26 +1,27 @@
-//! How a robustness enters a model: bent, so that a Gaussian process fits.
+//! Transforms a robustness ("bends" it) so that a Gaussian process fits it.
 
-/// A robustness bent.
+/// A transformation of a robustness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Bend {
-    /// In multiples of the spread below the median; above it only its logarithm counts: what is worst need not be known well.
+    /// Multiples of the spread below the median, their logarithm above: the worst values need not be known well.
     Low { median: f64, scale: f64 },
-    /// Bent alike on both sides of 0, which stays 0.
+    /// The same transformation on both sides of 0, which maps 0 to 0.
     Signed { scale: f64 },
-    /// Flat beyond what is usual on its side of 0: from -1 to 1, whatever the two sides measure.
+    /// A scale from -1 to 1 that is flat beyond the usual values on each side of 0, whatever the two sides measure.
     Sides { below: f64, above: f64 },
-    /// Nothing but the verdict: -1 or 1.
+    /// The verdict only, as -1 or 1.
     Verdict,
 }
 
 impl Bend {
-    /// For what looks for low values.
+    /// Makes the transformation for a search for low values.
     pub(super) fn low(values: &[f64]) -> Self {
         let median = median(values.to_vec());
         Self::Low { median, scale: scale(values.iter().map(|value| (value - median).abs()).collect()) }
     }
 
-    /// For what looks for the sides of 0, from the one that keeps most to the one that keeps least.
+    /// Makes the transformations for a search for the sides of 0, from the one that keeps most to the one that keeps
+    /// least.
     pub(super) fn of_sides(values: &[f64]) -> [Self; 3] {
         let side = |failed: bool| {
             let side = values.iter().filter(|value| is_failure(**value) == failed);
@@ -43,7 +44,7 @@ impl Bend {
     }
 }
 
-/// Whether a robustness is that of a test that failed: -0 is violated, +0 is not.
+/// Returns `true` if a robustness is that of a failed test: -0 is a failure, +0 is not.
 pub(super) fn is_failure(robustness: f64) -> bool {
     robustness.is_sign_negative()
 }
@@ -53,7 +54,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The median of these, or their mean where that is 0, or 1.
+/// The median of the values; if it is 0 their mean, and if that is 0 too, 1.
 fn scale(values: Vec<f64>) -> f64 {
     if values.is_empty() {
         return 1.0;

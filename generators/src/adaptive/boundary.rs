@@ -1,10 +1,10 @@
-//! Level-set search: tests that tell where passing turns into failing, rather than one more failure.
+//! Level-set search: tests that show where passing turns into failing, instead of one more failure.
 //!
-//! The next test is where the model of the robustness is least sure on which side of 0 it is: the straddle
-//! heuristic, `1.96 deviation - |mean|` (Bryan et al., NIPS 2005). Candidates are places anywhere, places between a test that
-//! failed and one that passed, as a bisection would choose them, and places near tests that were close calls. What the model
-//! takes for an error is worth that much less. As long as nothing failed the same rule leads to where a failure is likely or
-//! little is known.
+//! The next test is where the model of the robustness is least sure on which side of 0 it is: the straddle heuristic,
+//! `1.96 deviation - |mean|` (Bryan et al., NIPS 2005). Candidates are random places, places between a failed and a
+//! passed test, as a bisection would choose them, and places near tests that were close calls. A place is worth less
+//! if the model expects an error there. As long as nothing failed, the same rule leads to places where a failure is
+//! likely or little is known.
 
 use super::Adaptive;
 use super::cube::Axis;
@@ -19,7 +19,7 @@ impl Strategy {
     /// The boundary between passing and failing, by a Gaussian process.
     pub const BOUNDARY: Self = Self::of(&Descriptor {
         name: "boundary",
-        about: "a model says where passing turns into failing: maps the border instead of one failure",
+        about: "a model says where passing turns into failing: maps the border instead of finding one failure",
         dims: ANY,
         look: Look::hollow(0x7b_3294, MarkShape::Circle),
         method: Method(MethodKind::Search {
@@ -31,19 +31,19 @@ impl Strategy {
     });
 }
 
-/// So many candidates for each axis, within limits.
+/// The number of candidates for each axis, within limits.
 const CANDIDATES: usize = 120;
 
-/// How many deviations make a place interesting: the 95 % interval.
+/// The number of deviations that make a place interesting: the 95 % interval.
 const DEVIATIONS: f64 = 1.96;
 
-/// What a place that will be in error for certain is worth less.
+/// The loss of worth of a place that is certain to be in error.
 const ERROR: f64 = 3.0;
 
-/// Of how many close calls the neighbourhood is looked at.
+/// The number of close calls near which candidates are placed.
 const CLOSE_CALLS: usize = 20;
 
-/// How near to them.
+/// The step from a close call to a candidate.
 const STEP: f64 = 0.1;
 
 /// The search.

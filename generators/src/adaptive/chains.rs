@@ -1,8 +1,10 @@
-//! Several solvers side by side, each from another start: what makes batches of methods that move one place at a time.
+//! Runs several solvers side by side from different starts, so that methods that move one place at a time fill
+//! batches.
 //!
-//! A solver is started only when those at work have nothing more to propose: asked for one test at a time a single
-//! one goes its way, asked for many up to a fixed number of them. One that has ended gives room to the next. The first start
-//! is at the best test so far, the second at the next best that is not near, and after a few of these at random.
+//! A solver is started only if the running solvers have nothing more to propose. If one test at a time is asked for,
+//! a single solver runs; if many are, up to a fixed number. When a solver has ended, the next takes its place. The
+//! first start is at the best test so far, the second at the next best test that is not near it. After a few of
+//! these, starts are random.
 
 use super::cube::Axis;
 use super::solver::Solver;
@@ -10,13 +12,13 @@ use super::{Evaluation, Optimiser, anywhere};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// From how many of the best tests solvers start, before they start at random.
+/// The number of solvers that start from the best tests, before solvers start at random.
 const BEST: usize = 3;
 
-/// Tests nearer than this on every axis are no two starts.
+/// Two tests that are nearer than this on every axis are not different starts.
 const NEAR: f64 = 0.1;
 
-/// What a solver starts from.
+/// The start of a solver.
 pub(super) struct Start<'a> {
     /// The kinds of the axes.
     pub axes: &'a [Axis],
@@ -24,14 +26,14 @@ pub(super) struct Start<'a> {
     pub at: Vec<f64>,
     /// All tests so far, the best ones first.
     pub trials: &'a [Evaluation],
-    /// A source of chance of its own.
+    /// A separate source of random numbers.
     pub rng: Pcg64,
 }
 
-/// How a solver is started.
+/// A function that starts a solver.
 pub(super) type Launch = fn(Start) -> Solver;
 
-/// The solvers at work.
+/// A set of running solvers.
 pub(super) struct Chains {
     axes: Vec<Axis>,
     launch: Launch,
@@ -47,14 +49,14 @@ pub(super) struct Chains {
 /// A solver with its batch.
 struct Chain {
     solver: Solver,
-    /// The places of the batch that are still to be proposed, the last one first.
+    /// The places of the batch that are still to be proposed, the last first.
     open: Vec<Vec<f64>>,
-    /// The proposals of the batch in order, with their costs once they are told.
+    /// The proposals of the batch in order, with their costs once they are known.
     costs: Vec<(usize, Option<f64>)>,
 }
 
 impl Chains {
-    /// At most so many solvers at a time.
+    /// Makes a set of at most `most` solvers at a time.
     pub(super) fn new(axes: Vec<Axis>, launch: Launch, most: usize, rng: Pcg64) -> Self {
         Self {
             axes,
@@ -84,7 +86,8 @@ impl Chains {
 }
 
 impl Chain {
-    /// Whether there is a place to propose or an outcome to wait for: it takes the next batch where the last is answered.
+    /// Returns `true` if there is a place to propose or a result to wait for. Takes the next batch if the last is
+    /// answered.
     fn goes_on(&mut self) -> bool {
         if self.open.is_empty() && self.costs.is_empty() {
             self.open = self.solver.batch().unwrap_or_default();

@@ -1,17 +1,18 @@
-//! CMA-ES with restarts of two kinds (BIPOP; Hansen, GECCO workshop 2009): a population at a time, robust on rough ground.
+//! CMA-ES with restarts of two kinds (BIPOP; Hansen, GECCO workshop 2009), which tests a population at a time and is
+//! robust on rough functions.
 //!
-//! The first run starts at the best test so far. After it runs alternate so that both kinds have spent as many tests: ones
-//! whose population is doubled each time, which see the coarse shape, and short ones of small populations and
-//! small steps, which look for a way in. Later starts are random.
+//! The first run starts at the best test so far. The later runs alternate so that both kinds spend equally many
+//! tests: runs whose population is doubled each time, which see the coarse shape, and short runs of small populations
+//! and small steps, which look for a way in. Later starts are random.
 //!
-//! A run begins with steps that move neighbouring pieces of a signal together (`signals`).
+//! The first steps of a run move neighbouring pieces of a signal together (`signals`).
 //!
 //! Continuous coordinates are sampled from the normal distribution (`evolution`) and moved to the nearest place of
-//! the cube, so that its corners are tested as such. Discrete ones are sampled from a probability of each level, which
-//! moves to the levels of the better half as the mean does and never falls below a floor (estimation of distribution,
-//! as in Hamano et al., "CatCMA", GECCO 2024, without its natural gradient).
+//! the cube, so that its corners are tested as such. Discrete coordinates are sampled from a probability of each
+//! level. The probabilities move to the levels of the better half, as the mean does, and never fall below a floor
+//! (estimation of distribution, as in Hamano et al., "CatCMA", GECCO 2024, without its natural gradient).
 //!
-//! Every sample is tested, or those that a model chooses (`preselection`).
+//! Either every sample is tested, or the samples that a model chooses (`preselection`).
 
 use super::cube::{Axis, level, middle};
 use super::evolution::{Evolution, default_lambda};
@@ -27,7 +28,7 @@ impl Strategy {
     /// CMA-ES with restarts (BIPOP) on the robustness.
     pub const CMAES: Self = Self::of(&Descriptor {
         name: "cmaes",
-        about: "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
+        about: "a distribution that learns where failures lie: for hundreds of tests and narrow valleys",
         dims: ANY,
         look: Look::filled(0xa0_1c1c, MarkShape::Diamond),
         method: Method(MethodKind::Search {
@@ -42,7 +43,7 @@ impl Strategy {
 }
 
 impl Strategy {
-    /// CMA-ES whose samples a Gaussian process chooses from.
+    /// CMA-ES in which a Gaussian process chooses the samples that are tested.
     pub const GP_CMAES: Self = Self::of(&Descriptor {
         name: "gp-cmaes",
         about: "cmaes with a model that chooses from its samples: the fewest tests to a failure nearly everywhere",
@@ -62,21 +63,21 @@ impl Strategy {
 /// The first step size.
 const SIGMA: f64 = 0.25;
 
-/// How fast the probabilities of levels follow.
+/// The rate at which the probabilities of levels change.
 const RATE: f64 = 0.3;
 
-/// How often a population is doubled at most.
+/// The greatest number of times that a population is doubled.
 const MOST_DOUBLED: u32 = 9;
 
 /// The search.
 pub(super) struct Cmaes {
     axes: Vec<Axis>,
     dims: usize,
-    /// How the first steps of a run vary along the continuous axes.
+    /// The covariance of the first steps of a run along the continuous axes.
     covariance: DMatrix<f64>,
     preselection: Option<Preselection>,
     run: Option<Run>,
-    /// How many runs had a large population, and what each kind has spent.
+    /// The number of runs with a large population, and the number of tests that each kind has spent.
     doubled: u32,
     spent: [usize; 2],
     best: Option<Evaluation>,
@@ -87,11 +88,11 @@ pub(super) struct Cmaes {
 /// One run.
 struct Run {
     evolution: Evolution,
-    /// For each discrete axis the probabilities of its levels.
+    /// For each discrete axis, the probabilities of its levels.
     levels: Vec<Vec<f64>>,
-    /// Small or large.
+    /// The kind of the run: 0 with a small population, 1 with a large one.
     kind: usize,
-    /// What it may spend.
+    /// The greatest number of tests of the run.
     most: usize,
     spent: usize,
     generation: Vec<Sample>,
@@ -119,7 +120,7 @@ impl Cmaes {
         }
     }
 
-    /// The search that tests those of its samples that a Gaussian process chooses.
+    /// Makes the search that tests only the samples that a Gaussian process chooses.
     pub(super) fn preselected(axes: Vec<Axis>, covariance: DMatrix<f64>, rng: Pcg64) -> Self {
         Self { preselection: Some(Preselection::new(axes.clone())), ..Self::new(axes, covariance, rng) }
     }
@@ -145,7 +146,7 @@ impl Cmaes {
             Axis::Ordered(levels) | Axis::Nominal(levels) => {
                 let mut all = vec![1.0 / levels as f64; levels];
                 if is_first && self.best.is_some() {
-                    // As if the best had been learnt from.
+                    // As if the search had learnt from the best test.
                     follow(&mut all, [(level(*u, levels), 1.0)].into_iter(), RATE);
                 }
                 Some(all)
@@ -183,7 +184,7 @@ impl Run {
         at
     }
 
-    /// Learns from a generation that has been told.
+    /// Learns from a generation whose results are all known.
     fn update(&mut self, dims: usize) {
         let mut told: Vec<Evaluation> = self.generation.drain(..).filter_map(|sample| sample.told).collect();
         told.sort_by(|a, b| a.cost().total_cmp(&b.cost()));

@@ -1,29 +1,29 @@
-//! The cube in which adaptive strategies search: every test of a mixed space as one vector.
+//! The cube in which adaptive strategies search: it represents every test of a mixed space as one vector.
 //!
-//! A discrete coordinate is an axis too, cut into slices of equal width, one for each level. So a search that knows only
-//! numbers moves in it, and one that knows better asks what kind an axis is: levels that are numbers in order are near to
-//! each other as their slices are, levels that are words are equally far from each other.
+//! A discrete coordinate is an axis too, cut into slices of equal width, one for each level. So a search that knows
+//! only numbers can move in it, and a better search asks for the kind of an axis. Levels that are ordered numbers are
+//! near to each other as their slices are. Levels that are words are equally far from each other.
 //!
-//! A row that the constraints exclude is repaired: parameter by parameter the level is kept, or replaced by the nearest one
-//! that a valid test has together with those before it. What is tested keeps all constraints; a search is told how
-//! the repaired test went as the outcome of what it proposed.
+//! A row that the constraints exclude is repaired. Parameter by parameter the level is kept, or replaced by the
+//! nearest level that a valid test has together with the levels before it. So every test satisfies all constraints. A
+//! search is told the result of the repaired test as the result of its proposal.
 
 use paracosm_space::rules::Rules;
 use paracosm_space::{Point, Space, Value};
 
-/// What the numbers along an axis mean.
+/// The meaning of the numbers along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
-    /// Themselves.
+    /// The numbers are the values themselves.
     Continuous,
-    /// So many levels in order.
+    /// The axis has this number of levels in order.
     Ordered(usize),
-    /// So many levels without an order.
+    /// The axis has this number of levels without an order.
     Nominal(usize),
 }
 
 impl Axis {
-    /// How far apart two places are along it; different words are all alike different.
+    /// The difference between two places along the axis. Different words all have the difference 1.
     pub(super) fn difference(self, a: f64, b: f64) -> f64 {
         match self {
             Self::Nominal(_) => f64::from(a != b),
@@ -54,7 +54,8 @@ impl Cube {
         self.dims
     }
 
-    /// The test at a place, moved to the nearest one of the cube and repaired where constraints exclude it.
+    /// The test at a place, which is moved to the nearest place of the cube, and repaired if the constraints exclude
+    /// it.
     pub(super) fn point(&self, at: &[f64]) -> Point {
         let (continuous, discrete) = at.split_at(self.dims);
         let row: Vec<usize> = discrete.iter().zip(self.rules.levels()).map(|(&u, &levels)| level(u, levels)).collect();
@@ -98,12 +99,12 @@ pub(super) fn place(axes: &[Axis], point: &Point) -> Vec<f64> {
 
 fn axis_of(levels: &[Value]) -> Axis {
     let numbers: Option<Vec<f64>> = levels.iter().map(Value::number).collect();
-    // Two levels have an order whatever they are.
+    // Two levels count as ordered, whatever they are.
     let is_ordered = levels.len() <= 2 || numbers.is_some_and(|numbers| numbers.is_sorted());
     if is_ordered { Axis::Ordered(levels.len()) } else { Axis::Nominal(levels.len()) }
 }
 
-/// The level in whose slice a number lies.
+/// The level whose slice contains a number.
 pub(super) fn level(u: f64, levels: usize) -> usize {
     ((u.max(0.0) * levels as f64) as usize).min(levels - 1)
 }

@@ -1,20 +1,22 @@
-//! One run of CMA-ES: a normal distribution that adapts its mean, step size and covariance to the better half of its samples.
+//! One run of CMA-ES: a normal distribution adapts its mean, step size and covariance to the better half of its
+//! samples.
 //!
-//! Hansen, "The CMA evolution strategy: a tutorial" (arXiv 1604.00772): positive weights, cumulative step size, rank-one
-//! and rank-mu updates, all constants as given there. It knows nothing of the cube: samples are moved into it by whoever
-//! tests them, and the places that were tested are what it learns from.
+//! The method is that of Hansen, "The CMA evolution strategy: a tutorial" (arXiv 1604.00772): positive weights,
+//! cumulative step size, rank-one and rank-mu updates, with all constants as given there. It knows nothing of the
+//! cube: the caller moves samples into the cube, and the run learns from the places that were tested.
 
 use super::{are_alike, normal};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::Rng;
 
-/// A step size below it, in shares of an axis, changes nothing that a test would notice.
+/// The least step size, in shares of an axis: a smaller step makes no noticeable difference to a test.
 const LEAST_STEP: f64 = 1e-9;
 
-/// A covariance longer by this factor than wide, squared, is one that rounding has spoilt.
+/// The greatest condition number of a covariance: beyond it rounding has spoilt the covariance.
 const MOST_CONDITION: f64 = 1e14;
 
-/// Over so many generations the best costs, and all of the last one, have to be alike for the run to end.
+/// The number of generations whose best costs, with all costs of the last generation, must be alike for the run to
+/// end.
 const WINDOW: usize = 10;
 
 /// The distribution with its paths.
@@ -25,7 +27,7 @@ pub(super) struct Evolution {
     mean: DVector<f64>,
     sigma: f64,
     covariance: DMatrix<f64>,
-    /// The covariance's axes, and the standard deviations along them.
+    /// The axes of the covariance; `scales` has the standard deviations along them.
     basis: DMatrix<f64>,
     scales: DVector<f64>,
     path_sigma: DVector<f64>,
@@ -36,13 +38,13 @@ pub(super) struct Evolution {
     over: bool,
 }
 
-/// How many samples a generation has by default in so many dimensions.
+/// The default number of samples in a generation.
 pub(super) fn default_lambda(dims: usize) -> usize {
     4 + (3.0 * libm::log(dims.max(1) as f64)) as usize
 }
 
 impl Evolution {
-    /// A distribution around a place; `covariance` is that of the first steps, in shares of `sigma` squared.
+    /// Makes a distribution around a place. `covariance` is that of the first steps, in units of `sigma` squared.
     pub(super) fn new(mean: Vec<f64>, sigma: f64, lambda: usize, covariance: DMatrix<f64>) -> Self {
         let n = mean.len();
         let mu = lambda / 2;
@@ -70,23 +72,23 @@ impl Evolution {
         evolution
     }
 
-    /// How many samples make a generation.
+    /// The number of samples in a generation.
     pub(super) fn lambda(&self) -> usize {
         self.lambda
     }
 
-    /// The weights of the better half, the best one's first.
+    /// The weights of the better half, the weight of the best sample first.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// A sample, not confined to the cube.
+    /// A sample, which may lie outside the cube.
     pub(super) fn sample(&self, rng: &mut impl Rng) -> Vec<f64> {
         let z = DVector::from_iterator(self.mean.len(), self.scales.iter().map(|scale| scale * normal(rng)));
         (&self.mean + &self.basis * z * self.sigma).data.into()
     }
 
-    /// Learns from a generation: places with their costs, the best first.
+    /// Learns from a generation of places with their costs, the best first.
     pub(super) fn update(&mut self, generation: &[(&[f64], f64)]) {
         let n = self.mean.len();
         let dims = n as f64;
@@ -119,7 +121,7 @@ impl Evolution {
         if moves {
             self.path_covariance += step * (c_path * (2.0 - c_path) * mu_eff).sqrt();
         }
-        // Where the path stood still its variance is made up for.
+        // If the path stood still, this makes up for its variance.
         let still = if moves { 0.0 } else { c_one * c_path * (2.0 - c_path) };
         self.covariance *= 1.0 - c_one - c_mu + still;
         self.covariance.ger(c_one, &self.path_covariance, &self.path_covariance, 1.0);
@@ -130,7 +132,8 @@ impl Evolution {
         self.decompose();
     }
 
-    /// Whether going on is of no use: the steps have become tiny, the covariance degenerate, or the costs all alike.
+    /// Returns `true` if the run should end: the steps have become tiny, the covariance is degenerate, or all costs
+    /// are alike.
     pub(super) fn is_over(&self) -> bool {
         self.over
     }
@@ -147,7 +150,7 @@ impl Evolution {
     fn decompose(&mut self) {
         let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(self.covariance.clone());
         let (least, most) = (eigenvalues.min(), eigenvalues.max());
-        // Written so that what is no number ends the run too.
+        // Written so that a NaN ends the run too.
         let sound = least > 0.0 && most / least < MOST_CONDITION && self.sigma * most.sqrt() > LEAST_STEP;
         if !sound {
             self.over = true;
@@ -168,7 +171,7 @@ mod tests {
         Evolution::new(start.to_vec(), sigma, default_lambda(n), DMatrix::identity(n, n))
     }
 
-    /// How many evaluations it takes to come below a cost; None if the run ends before.
+    /// The number of evaluations until the cost is below a bound; `None` if the run ends before.
     fn evaluations(f: impl Fn(&[f64]) -> f64, start: &[f64], sigma: f64, target: f64, seed: u64) -> Option<usize> {
         let mut rng = seeded(seed, Purpose::Search, 0);
         let mut evolution = new(start, sigma);

@@ -1,6 +1,6 @@
-//! What the tests so far say of all others: how probable it is that they fail.
+//! Estimates from the tests so far how probable it is that other tests fail.
 //!
-//! The model of `boundary` for everybody: [`FailureModel::fit`] takes the tests of any campaign.
+//! It is the model of `boundary`, open to every user: [`FailureModel::fit`] takes the tests of any campaign.
 
 use super::bend::is_failure;
 use super::cube::{Axis, axes, place};
@@ -15,66 +15,67 @@ use paracosm_space::{Point, Space};
 use rand::Rng;
 use std::ops::Range;
 
-/// So many tests the model sees.
+/// The greatest number of tests that the model sees.
 const MOST_TESTS: usize = 400;
 
-/// By at most so many other tests, evenly chosen, the model is calibrated.
+/// The greatest number of other tests, evenly chosen, that calibrate the model.
 const MOST_OTHERS: usize = 2048;
 
-/// So many times uncertain shares are drawn.
+/// The number of draws of uncertain shares.
 const DRAWS: usize = 128;
 
-/// By so many kernels they are drawn.
+/// The number of kernels for the draws.
 const KERNELS: usize = 8;
 
-/// So many places are looked at together.
+/// The number of places that are looked at together.
 const TOGETHER: usize = 1024;
 
-/// A Gaussian-process model of which tests fail.
+/// A Gaussian-process model that estimates which tests fail.
 ///
-/// It is a probabilistic least-squares classification (Rasmussen and Williams, "Gaussian Processes for Machine Learning",
-/// 2006, section 6.5) of the robustness, which is bent in one of three ways, whichever tells left-out tests best. Of more
-/// than 400 tests it sees 400, half of them where passing turns into failing and half spread over the space; how often tests
-/// fail of which it knows little, the others tell.
+/// It is a probabilistic least-squares classification (Rasmussen and Williams, "Gaussian Processes for Machine
+/// Learning", 2006, section 6.5) of the robustness. The robustness is transformed in one of three ways: the one that
+/// predicts left-out tests best. If there are more than 400 tests, the model sees 400: half of them spread over the
+/// space, half where passing turns into failing. The other tests then calibrate how often tests fail if the model
+/// knows little about them.
 pub struct FailureModel {
     axes: Vec<Axis>,
-    /// What the model has seen: places, and what became of them as the model takes it.
+    /// The places of the tests that the model has seen; `values` has their transformed robustness.
     seen: Vec<Vec<f64>>,
     values: Vec<f64>,
     verdicts: Verdicts,
-    /// How many tests there are, seen or not.
+    /// The number of all tests, seen or not.
     tests: usize,
 }
 
-/// One of the processes that are as plausible as the fitted one, with what is drawn by it.
+/// One of the processes that are as plausible as the fitted process, with its draws.
 struct Belief {
     process: Process,
     link: Link,
-    /// Which tests of a group it is asked of: one sample.
+    /// The tests of a group for which the process is used: one sample.
     tests: Range<usize>,
-    /// The draws, with a standard normal number for the error of sampling.
+    /// The draws; `errors` has a standard normal number for each, for the error of sampling.
     draws: Vec<Draw>,
     errors: Vec<f64>,
 }
 
-/// What is known of the share of some tests that fail.
+/// The estimate of the share of some tests that fail.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailingShare {
-    /// The expected share: the probability that one of them, chosen at random, fails.
+    /// The expected share, which is the probability that one of the tests, chosen at random, fails.
     pub mean: f64,
-    /// How far the share may be from it: one standard deviation.
+    /// The uncertainty of the share, as one standard deviation.
     pub deviation: f64,
-    /// The probability that it is more than one half. As the model itself may be wrong, it is no nearer to 0 or 1 than so many
-    /// tests can tell: each of them counts as one observation, and there is one more for either side (Laplace's rule of
-    /// succession). With less than 18 tests it is between 0.05 and 0.95.
+    /// The probability that the share is more than one half. As the model itself may be wrong, it is no nearer to 0
+    /// or 1 than the number of tests allows: each test counts as one observation, and there is one more for either
+    /// side (Laplace's rule of succession). With fewer than 18 tests it is between 0.05 and 0.95.
     pub above_half: f64,
 }
 
 impl FailureModel {
-    /// The model of tests of a space, given a robustness for each, whose sign is the verdict: a test with -0 has failed. What
-    /// is no number is left out.
+    /// Fits a model to tests of a space. `robustness` has a number for each test, and its sign is the verdict: a test
+    /// with -0 has failed. Tests whose robustness is NaN are left out.
     ///
-    /// `None` where there are less than two tests.
+    /// Returns `None` if fewer than two tests are left.
     pub fn fit(space: &Space, tests: &[Point], robustness: &[f64]) -> Option<Self> {
         let axes = axes(space);
         let known = tests.iter().zip(robustness).filter(|(_, robustness)| !robustness.is_nan());
@@ -100,7 +101,7 @@ impl FailureModel {
         Some(Self { axes, seen, values, verdicts, tests })
     }
 
-    /// The probability that each of these tests fails.
+    /// Returns the probability that each of these tests fails.
     pub fn probabilities(&self, tests: &[Point]) -> Vec<f64> {
         let mut probabilities = Vec::with_capacity(tests.len());
         for tests in tests.chunks(TOGETHER) {
@@ -112,16 +113,17 @@ impl FailureModel {
         probabilities
     }
 
-    /// What is known of the share of failures in each of some groups of tests of one size; nothing of groups without tests.
-    /// Every test has a weight, how much it counts.
+    /// Estimates the share of failures in each of several groups of tests. All groups have the same size; the result
+    /// is empty if they have no tests. Every test has a weight.
     ///
-    /// A group may consist of several samples of one size, one after the other, of the tests that it stands for. How much
-    /// their shares differ is the error of having taken samples (Owen, "Monte Carlo theory, methods and examples", section
-    /// 17.2), which is in the deviation too. With one sample the tests are all that there are.
+    /// A group may consist of several samples of one size, one after the other, of the tests that it represents. The
+    /// difference between their shares is the error of sampling (Owen, "Monte Carlo theory, methods and examples",
+    /// section 17.2), which is part of the deviation. With one sample the group is taken to be complete.
     ///
-    /// The mean is that of the fitted process. The deviation and what is above one half are of 128 draws, always by the same
-    /// chance, of eight processes whose lengths and links are as plausible as the fitted ones, with means and variances that
-    /// are no more certain than the tests make them: a few tests leave all of this open, and little is sure.
+    /// The mean is that of the fitted process. The deviation and the probability above one half come from about 128
+    /// draws, always with the same random numbers, of about eight processes. The lengths and links of these processes
+    /// are as plausible as the fitted ones, and their means and variances are as uncertain as the tests leave them:
+    /// with few tests little is sure.
     pub fn shares(&self, groups: &[Vec<(Point, f64)>], samples: usize) -> Vec<FailingShare> {
         let all = groups.first().map_or(0, Vec::len);
         if samples == 0 || all < samples {
@@ -148,7 +150,7 @@ impl FailureModel {
         shares
     }
 
-    /// Processes with plausible lengths, each for one sample of so many tests.
+    /// Processes with plausible lengths, each for one sample of `size` tests.
     fn beliefs(&self, samples: usize, size: usize) -> Vec<Belief> {
         let mut rng = seeded(0, Purpose::Draws, 0);
         let fitted = self.verdicts.process.kernel();
@@ -171,7 +173,7 @@ impl FailureModel {
         (0..count).filter_map(&mut belief).collect()
     }
 
-    /// What is known of the share in the group with this index among those that the processes are asked of.
+    /// The estimate of the share in a group. `index` is the group's position among the groups of the posteriors.
     fn share(&self, group: &Group, index: usize, beliefs: &[Belief], believed: &[Posterior]) -> FailingShare {
         let sampling = group.sampling();
         let (mut square, mut above, mut count) = (0.0, 0, 0);
@@ -196,8 +198,8 @@ impl FailureModel {
     }
 }
 
-/// How many times its most likely value a standard deviation may be that values with so many degrees of freedom tell: the
-/// root of n over a chi-squared number.
+/// A random factor between a standard deviation and its most likely value, after values with so many degrees of
+/// freedom: the root of n over a chi-squared number.
 fn spread(freedom: usize, rng: &mut impl Rng) -> f64 {
     let squares: f64 = (0..freedom).map(|_| normal(rng)).map(|x| x * x).sum();
     ((freedom + 1) as f64 / squares.max(f64::MIN_POSITIVE)).sqrt()
@@ -219,12 +221,12 @@ impl<'a> Group<'a> {
         Self { failures, weights, weight, samples, mean }
     }
 
-    /// What a sample says of the weighted mean of something.
+    /// The estimate that a sample gives of the weighted mean of a value.
     fn of(&self, sample: Range<usize>, value: &dyn Fn(usize) -> f64) -> f64 {
         sample.map(|i| self.weights[i] * value(i)).sum::<f64>() / self.weight * self.samples as f64
     }
 
-    /// The variance of the mean over all that the samples stand for.
+    /// The variance of the mean over all tests that the samples represent.
     fn sampling(&self) -> f64 {
         if self.samples < 2 {
             return 0.0;
@@ -236,7 +238,7 @@ impl<'a> Group<'a> {
     }
 }
 
-/// Evenly chosen ones of many.
+/// An even selection of at most `MOST_OTHERS` of the tests.
 fn thinned(all: Vec<usize>) -> Vec<usize> {
     let kept = all.len().min(MOST_OTHERS);
     (0..kept).map(|i| all[i * all.len() / kept]).collect()

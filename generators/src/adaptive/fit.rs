@@ -1,38 +1,38 @@
-//! The most probable lengths and noise of a Gaussian process: maximum likelihood, with a weak prior that keeps what
-//! few tests say nothing of at sensible values (as in Hvarfner et al., ICML 2024, lengths grow with the root of the
-//! number of axes).
+//! Finds the most probable lengths and noise of a Gaussian process. It maximises the likelihood with a weak prior,
+//! which keeps sensible values where few tests say nothing (as in Hvarfner et al., ICML 2024, lengths grow with the
+//! root of the number of axes).
 //!
-//! The climb is Rprop (Riedmiller and Braun 1993): a step of its own for each parameter, longer while the slope keeps
-//! its sign. It needs no line search, starts from the last fit, and looks at no more than the first hundred tests.
+//! The method is Rprop (Riedmiller and Braun 1993): each parameter has its own step, which grows while the slope
+//! keeps its sign. It needs no line search, starts from the last fit, and uses at most the first 96 tests.
 
 use super::cube::Axis;
 use super::process::{Kernel, Mean, Process};
 
-/// So many tests tell the lengths.
+/// The number of tests that determine the lengths.
 const MOST_TESTS: usize = 96;
 
-/// The prior: normal in the logarithms.
+/// The prior: normal distributions of the logarithms.
 const LENGTH: f64 = 0.5;
 const LENGTH_DEVIATION: f64 = 1.0;
 const NOISE: f64 = 1e-5;
 const NOISE_DEVIATION: f64 = 2.0;
 
-/// How a climb steps, in logarithms.
+/// The steps of the search, in logarithms.
 const FIRST_STEP: f64 = 0.2;
 const LONGEST_STEP: f64 = 1.0;
 const SHORTEST_STEP: f64 = 1e-3;
 
-/// The bounds.
+/// The bounds of the lengths and of the noise.
 const LENGTHS: (f64, f64) = (0.01, 30.0);
 const NOISES: (f64, f64) = (1e-8, 0.3);
 
-/// What is assumed before any test.
+/// The kernel that is assumed before any test.
 pub(super) fn prior(axes: &[Axis]) -> Kernel {
     let length = LENGTH * (axes.len() as f64).sqrt();
     Kernel { axes: axes.to_vec(), lengths: vec![length; axes.len()], noise: NOISE }
 }
 
-/// The logarithms of a kernel's lengths, and last of its noise: what is fitted.
+/// The logarithms of a kernel's lengths, and last of its noise: the fitted numbers.
 pub(super) fn logarithms(kernel: &Kernel) -> Vec<f64> {
     kernel.lengths.iter().chain([&kernel.noise]).map(|&x| libm::log(x)).collect()
 }
@@ -49,7 +49,7 @@ pub(super) fn bounds(axes: &[Axis], index: usize) -> (f64, f64) {
     (libm::log(least), libm::log(most))
 }
 
-/// How far each of the logarithms is from what is assumed of it, in deviations of that, and the deviation.
+/// For each logarithm, its distance from the prior's mean, in deviations of the prior, and that deviation.
 fn off(axes: &[Axis], at: &[f64]) -> Vec<(f64, f64)> {
     let middle = logarithms(&prior(axes));
     let deviation = |index: usize| if index < axes.len() { LENGTH_DEVIATION } else { NOISE_DEVIATION };
@@ -57,7 +57,7 @@ fn off(axes: &[Axis], at: &[f64]) -> Vec<(f64, f64)> {
     (0..at.len()).map(one).collect()
 }
 
-/// The logarithm of how probable these logarithms are after the values, up to a constant; the first places have to tell.
+/// The logarithm of the posterior probability of these logarithms, up to a constant. Only the first places count.
 pub(super) fn log_posterior(axes: &[Axis], at: &[f64], places: &[Vec<f64>], values: &[f64]) -> f64 {
     let n = places.len().min(MOST_TESTS);
     let process = Process::new(of_logarithms(axes, at), places[..n].to_vec(), &values[..n], Mean::Unknown);
@@ -65,7 +65,7 @@ pub(super) fn log_posterior(axes: &[Axis], at: &[f64], places: &[Vec<f64>], valu
     process.map_or(f64::NEG_INFINITY, |process| process.log_likelihood() + prior)
 }
 
-/// A better kernel than `from` for these values, by so many steps.
+/// A better kernel than `from` for these values, after `steps` steps.
 pub(super) fn fit(from: &Kernel, places: &[Vec<f64>], values: &[f64], steps: usize) -> Kernel {
     let n = places.len().min(MOST_TESTS);
     let (places, values) = (&places[..n], &values[..n]);
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn noise_is_seen_as_such() {
         let places = places(80);
-        // Chance for all that a length can tell: the last digits of a product.
+        // The last digits of a product look random for any length.
         let noise = |at: &[f64]| (at[0] * 9871.0 + at[1] * 7919.0).fract() - 0.5;
         let values: Vec<f64> = places.iter().map(|at| at[0] + noise(at)).collect();
         let fitted = fit(&prior(&[Axis::Continuous; 2]), &places, &values, 60);
@@ -137,7 +137,7 @@ mod tests {
     fn a_climb_leads_far_from_a_bad_start() {
         let places = places(30);
         let values: Vec<f64> = places.iter().map(|at| libm::cos(5.0 * at[0] * at[1])).collect();
-        // Far from what is true of such a smooth function.
+        // Far from the true length of such a smooth function.
         let start = Kernel { lengths: vec![0.05; 2], noise: 1e-2, ..prior(&[Axis::Continuous; 2]) };
         let likelihood = |steps| {
             let kernel = fit(&start, &places, &values, steps);

@@ -1,12 +1,13 @@
 //! The logarithm of the expected improvement (Ament et al., NeurIPS 2023, arXiv 2310.20708).
 //!
-//! The improvement itself underflows where it is small, and all places look alike; its logarithm does not. With
-//! `z = (best - mean) / deviation` it is `log(deviation) + log h(z)`, `h(z) = phi(z) + z Phi(z)`, computed by whichever of
-//! three forms cancels least.
+//! If the improvement is small, it underflows, and all places look alike; its logarithm does not underflow. With `z =
+//! (best - mean) / deviation` it is `log(deviation) + log h(z)`, `h(z) = phi(z) + z Phi(z)`. Three forms compute it;
+//! each is used where it cancels least.
 
 use std::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};
 
-/// Of how much less than `best` a normally distributed number is on average, counting 0 where it is more, the logarithm.
+/// The logarithm of the expected improvement: how far a normally distributed number is below `best` on average, 0 if
+/// above.
 pub(super) fn log_expected_improvement(best: f64, mean: f64, deviation: f64) -> f64 {
     libm::log(deviation) + log_h((best - mean) / deviation)
 }
@@ -50,7 +51,8 @@ fn scaled_erfc(x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The same by Simpson's rule: the improvement `s` has the density `phi(z - s)`; `phi(z)` is taken out.
+    /// Computes the same value by Simpson's rule. The improvement `s` has the density `phi(z - s)`; `phi(z)` is taken
+    /// out.
     fn integrated(z: f64) -> f64 {
         let weight = |s: f64| s * libm::exp(z * s - 0.5 * s * s);
         // Far to the right of the peak, where the weight has fallen by more than exp(-40).

@@ -1,15 +1,16 @@
-//! Strategies that learn: they are driven by the robustness of the tests so far, towards the tests that fail.
+//! Strategies that learn from the robustness of the tests so far, and move towards tests that fail.
 //!
-//! All begin with the same kind of opening (`opening`: corners and Halton points) and search in the same cube (`cube`),
-//! in which discrete parameters are axes too. What a strategy does on its own is a [`Optimiser`]: it proposes places, and is
-//! told how each test went. [`Adaptive`] makes a generator of it, and looks after what all have in common:
+//! All strategies begin with the same kind of opening (`opening`: corners and Halton points) and search in the same
+//! cube (`cube`), in which discrete parameters are axes too. The part that differs is an [`Optimiser`]: it proposes
+//! places, and is told the result of each test. [`Adaptive`] makes a generator of an optimiser, and does the common
+//! work:
 //!
-//! - A test is never proposed twice: a search that comes back to one is told what is known, at no cost.
-//! - A search that waits for outcomes does not hold up a campaign: where it has nothing to propose, the low-dispersion
-//!   points of the opening go on. So whoever asks always gets a test, until a space without continuous parameters has no
+//! - It never proposes a test twice: a search that returns to a known test is told the known result, at no cost.
+//! - A search that waits for results does not hold up a campaign: if it has nothing to propose, the low-dispersion
+//!   points of the opening go on. So a request always gets a test, until a space without continuous parameters has no
 //!   more.
-//! - What comes back may be anything: a test in error, or a robustness that is no number, is an *errored* test to the
-//!   search; infinities and very large numbers are cut off at a million.
+//! - A result may be anything. A test in error, or with a robustness that is not a number, is an *errored* test for
+//!   the search. Infinities and very large numbers are cut off at a million.
 
 mod anneal;
 mod auto;
@@ -65,74 +66,77 @@ pub(crate) const ALL: &[Strategy] = &[
     Strategy::AUTO,
 ];
 
-/// Beyond it a robustness says nothing more.
+/// The greatest absolute value of a robustness: larger values are cut off.
 const MOST_ROBUSTNESS: f64 = 1e6;
 
-/// What searches that only compare numbers take an errored test for: worse than any other.
+/// The cost of an errored test for searches that only compare numbers: worse than any other.
 const ERRORED: f64 = 1e9;
 
-/// Costs that differ by less than this share of the best are alike.
+/// Costs are alike if they differ by less than this share of the best cost.
 const ALIKE: f64 = 0.01;
 
-/// How often in a row a search may come back to tests whose outcomes are known.
+/// The number of times in a row that a search may propose only tests with known results.
 const MOST_ROUNDS: usize = 20;
 
-/// How many random rows are tried for one that was not tested, where there are too many to go through.
+/// The number of random rows that are tried to find an untested row, if there are too many rows to go through.
 const MOST_TRIES: usize = 1000;
 
 /// A search through the cube.
 trait Optimiser: Send {
-    /// The places to test next, at most `n`; none while it waits to be told. They are numbered in order, from 0.
+    /// Returns the places to test next, at most `n`; none while the search waits for results. Proposals are numbered
+    /// in order, from 0.
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>>;
 
-    /// How a test went: its own proposal of a number, or one from elsewhere.
+    /// Tells the result of a test, which is a proposal of the search with its number, or a test from elsewhere.
     fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation);
 }
 
-/// A test with its outcome.
+/// A test with its result.
 #[derive(Debug, Clone, PartialEq)]
 struct Evaluation {
-    /// Where in the cube it is, after all repairs.
+    /// The place of the test in the cube, after all repairs.
     at: Vec<f64>,
-    /// Its robustness, a finite number; `None` of an errored test.
+    /// The robustness of the test, a finite number; `None` for an errored test.
     robustness: Option<f64>,
 }
 
 impl Evaluation {
-    /// What there is to minimise.
+    /// The cost to minimise.
     fn cost(&self) -> f64 {
         self.robustness.unwrap_or(ERRORED)
     }
 }
 
-/// A test is known by its coordinates, to the last bit.
+/// The key of a test: its coordinates, to the last bit.
 type Key = (Vec<u64>, Vec<usize>);
 
-/// What is known of a test.
+/// The state of a test.
 enum State {
-    /// Proposed; these proposals of the search wait for it.
+    /// The test was proposed; these proposals of the search wait for its result.
     Asked(Vec<usize>),
-    /// Told.
+    /// The result of the test is known.
     Told(Evaluation),
 }
 
-/// A search as a generator.
+/// A search as a generator of tests.
 struct Adaptive {
     cube: Cube,
     opening: Opening,
     search: Box<dyn Optimiser>,
     proposals: usize,
     tests: BTreeMap<Key, State>,
-    /// Without continuous parameters, all rows where they are few, and how many of them have been gone through.
+    /// All rows of a space without continuous parameters, if they are few, and the number of rows gone through so
+    /// far.
     all: Option<(Family, u64)>,
     seed: u64,
 }
 
 impl Adaptive {
-    /// A generator of an adaptive strategy: its search through these axes, by these random numbers.
+    /// Makes a generator of an adaptive strategy. `search` makes its search from the axes and random numbers.
     ///
     /// # Errors
-    /// The family is too large, or the request asks for what only open-loop strategies give.
+    /// The family is too large, or the request has an epsilon or existing tests, which only open-loop strategies can
+    /// use.
     fn build(
         strategy: &Descriptor,
         request: &Request,
@@ -161,7 +165,7 @@ impl Adaptive {
         Ok(Box::new(Self { cube, opening, search, proposals: 0, tests: BTreeMap::new(), all, seed }))
     }
 
-    /// Proposals of the search that are new.
+    /// The new tests among the next proposals of the search.
     fn searched(&mut self, n: usize) -> Vec<Point> {
         let mut tests = Vec::new();
         for _ in 0..MOST_ROUNDS {
@@ -188,10 +192,10 @@ impl Adaptive {
         tests
     }
 
-    /// A test that nobody asked for, if there is one: the next of the opening, or a row that was not tested.
+    /// A test that the search did not propose, if there is one: the next of the opening, or an untested row.
     fn another(&mut self) -> Option<Point> {
         if self.cube.dims() > 0 || !self.opening.is_over() {
-            // Points of a sequence differ, but rows repeat, and a search may have been there.
+            // Points of a sequence differ, but rows repeat, and the search may have proposed the same test.
             while self.cube.dims() > 0 || !self.opening.is_over() {
                 let point = self.opening.next();
                 if self.insert(&point) {
@@ -201,7 +205,7 @@ impl Adaptive {
         }
         if let Some((family, next)) = &mut self.all {
             let tests = &self.tests;
-            // From a place that the seed decides, or the first levels would be tested first.
+            // From a place that the seed decides: otherwise the first levels would be tested first.
             let start = mix(self.seed) % family.len();
             let row = |index: u64| family.row((start + index) % family.len());
             let new = |index: &u64| !tests.contains_key(&(Vec::new(), row(*index)));
@@ -219,7 +223,7 @@ impl Adaptive {
         })
     }
 
-    /// Whether the test is new; then it counts as asked.
+    /// Returns `true` if the test is new, and then counts it as asked.
     fn insert(&mut self, point: &Point) -> bool {
         let new = !self.tests.contains_key(&key(point));
         if new {
@@ -254,7 +258,7 @@ impl Generator for Adaptive {
                 Some(State::Asked(proposals)) if !proposals.is_empty() => {
                     proposals.into_iter().for_each(|proposal| self.search.learn(Some(proposal), &trial));
                 }
-                // Told twice, it is the same test still.
+                // A second result for the same test is ignored by the search.
                 Some(State::Told(_)) => {}
                 _ => self.search.learn(None, &trial),
             }
@@ -266,7 +270,7 @@ fn key(point: &Point) -> Key {
     (point.continuous.iter().map(|u| u.to_bits()).collect(), point.discrete.clone())
 }
 
-/// Whether costs differ by less than they are away from 0, by far: then what is near them will hardly fail.
+/// Returns `true` if the costs differ far less than they are away from 0: places near them will then hardly fail.
 fn are_alike(costs: impl Iterator<Item = f64>) -> bool {
     let (least, most) = costs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), cost| (a.min(cost), b.max(cost)));
     most - least <= ALIKE * least.abs()

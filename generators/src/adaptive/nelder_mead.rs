@@ -1,10 +1,10 @@
-//! The simplex search of Nelder and Mead (1965), by argmin: quick where the robustness slopes towards the failure.
+//! The simplex search of Nelder and Mead (1965), by argmin: quick if the robustness slopes towards the failure.
 //!
-//! A simplex has a corner at its start and the others a quarter of the axis away, towards the middle. It may wander beyond
-//! the cube, which is mirrored there: the function stays continuous, and a failure in a corner of the box can be surrounded.
-//! A simplex whose costs have become alike, or that had its share of tests, gives way to the next. Discrete coordinates
-//! move along their axes like others; where they make steps a simplex ends early, and what finds the right level is the
-//! opening and the next start.
+//! A simplex has one corner at its start. The others are a quarter of an axis away, towards the middle. It may wander
+//! beyond the cube, which is mirrored there: the function stays continuous, and a failure in a corner of the box can
+//! be surrounded. A simplex gives way to the next when its costs have become alike or it has had its share of tests.
+//! Discrete coordinates move along their axes like others. If they make steps, a simplex ends early; the opening and
+//! the next start then find the right level.
 
 use super::Adaptive;
 use super::chains::{Chains, Start};
@@ -22,7 +22,7 @@ impl Strategy {
     /// Nelder and Mead's simplices on the robustness.
     pub const NELDER_MEAD: Self = Self::of(&Descriptor {
         name: "nelder-mead",
-        about: "simplices downhill to a failure: few parameters and a robustness that slopes",
+        about: "simplices move downhill to a failure: for few parameters and a robustness that slopes towards it",
         dims: ANY,
         look: Look::hollow(0xf0_8080, MarkShape::Triangle),
         method: Method(MethodKind::Search {
@@ -34,16 +34,16 @@ impl Strategy {
     });
 }
 
-/// How many simplices move at a time.
+/// The number of simplices that move at a time.
 const SIMPLICES: usize = 4;
 
-/// The first edge, as a share of the axis.
+/// The length of the first edges, as a share of the axis.
 const EDGE: f64 = 0.25;
 
-/// For how many tests, for each of its corners, costs may be alike before it ends.
+/// The number of tests, per corner, for which costs may be alike before the simplex ends.
 const PATIENCE: usize = 2;
 
-/// How often a simplex moves for each of its corners.
+/// The greatest number of moves of a simplex, per corner.
 const MOVES: u64 = 50;
 
 /// The search.
@@ -56,28 +56,28 @@ fn simplex(start: Start) -> Solver {
     let mut corners = vec![at.clone()];
     for axis in 0..at.len() {
         let mut corner = at.clone();
-        // A little chance, or simplices from neighbouring starts would see the same.
+        // A random factor, because simplices from neighbouring starts would otherwise see the same.
         let edge = EDGE * (0.8 + 0.4 * rng.random::<f64>());
         corner[axis] += if corner[axis] < 0.5 { edge } else { -edge };
         corners.push(corner);
     }
     let (moves, patience) = (MOVES * corners.len() as u64, PATIENCE * corners.len());
     Solver::start(move |cost| {
-        // All corners are one batch; the solver asks for them one by one.
+        // All corners are one batch. The solver asks for them one by one.
         let places: Vec<Vec<f64>> = corners.iter().map(|at| at.iter().copied().map(mirrored).collect()).collect();
         let Ok(known) = cost.bulk_cost(&places) else { return };
         let known = Mutex::new(known.into_iter());
-        // It ends by itself or with the generator; what it found has been tested.
+        // The run ends by itself or with the generator. Everything that it found has been tested.
         let cost = cost.with_patience(patience);
         let executor = Executor::new(Mirrored { cost, known }, NelderMead::new(corners));
         let _ = executor.configure(|state: IterState<Vec<f64>, (), (), (), (), f64>| state.max_iters(moves)).run();
     })
 }
 
-/// The cost function beyond the cube.
+/// The cost function, continued beyond the cube.
 struct Mirrored {
     cost: Cost,
-    /// What the first calls will ask for.
+    /// The costs that the first calls ask for.
     known: Mutex<IntoIter<f64>>,
 }
 
@@ -89,7 +89,7 @@ impl CostFunction for Mirrored {
         if let Some(known) = lock(&self.known).next() {
             return Ok(known);
         }
-        // The first calls are those where the solver takes no failure for an answer.
+        // Only in the first calls would the solver not accept an error.
         self.cost.cost(&at.iter().copied().map(mirrored).collect())
     }
 }

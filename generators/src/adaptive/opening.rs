@@ -1,18 +1,18 @@
 //! The first tests of every adaptive strategy: some corners of the box, then points of the Halton sequence.
 //!
 //! Several famous benchmarks fail at a corner: full throttle and no brake. A corner here has every continuous
-//! *parameter* at one of its ends, all coordinates of a signal at the same one. With up to three such parameters all
-//! corners are tested, with more eight of them: of an orthogonal array, so that any two of the first seven parameters
-//! meet all four combinations of their ends. Where there are fewer corners of that kind, as many others make up eight that have
-//! pieces of a signal at different ends, of an array of all coordinates; but only of up to seven of these, as of more eight
-//! corners tell too little. Which are tested first is up to the seed. Then follow points of the shifted
-//! Halton sequence, three more than there are continuous parameters but from 4 to 16, and as many more as it takes to see up
-//! to 32 rows of the discrete family, which the tests take in turn, in an order that the seed decides as well: a family
-//! begins with the first levels of all parameters, and failures may lie with the last. The opening is at most a third of the
-//! budget.
+//! *parameter* at one of its ends, with all coordinates of a signal at the same end. With up to three such parameters
+//! all corners are tested. With more, eight corners are tested, those of an orthogonal array, so that any two of the
+//! first seven parameters show all four combinations of their ends. If there are fewer than eight such corners,
+//! others make up eight, with pieces of a signal at different ends, from an orthogonal array of all coordinates. This
+//! is only done for up to seven coordinates, because eight corners of more coordinates show too little. The seed
+//! decides the order. Then points of the shifted Halton sequence follow: three more than there are continuous
+//! parameters, but from 4 to 16, and more if they are needed to see up to 32 rows of the discrete family. The tests
+//! take the rows in turn, in an order that the seed decides as well: a family begins with the first levels of all
+//! parameters, and failures may lie at the last levels. The opening takes at most a third of the budget.
 //!
-//! Signals count as one parameter here too: what many points in many coordinates tell a search of does not make up for the
-//! tests that they take (experiments/automatic-transmission.md).
+//! Signals count as one parameter here too: many points in many coordinates tell a search less than the tests that
+//! they take are worth (experiments/automatic-transmission.md).
 
 use crate::{
     Request,
@@ -23,16 +23,16 @@ use crate::{
 use paracosm_space::Point;
 use rand::Rng;
 
-/// At most so many corners.
+/// The greatest number of corners.
 const MOST_CORNERS: usize = 8;
 
-/// Of so many axes these corners show all pairs of ends.
+/// The greatest number of axes for which these corners show all pairs of ends.
 const MOST_PAIRED: usize = 7;
 
-/// Up to so many rows of the discrete family are part of the opening.
+/// The greatest number of rows of the discrete family that are part of the opening.
 const MOST_ROWS: usize = 32;
 
-/// The points to begin with, and the low-dispersion points that go on after them.
+/// The points of the opening, and the low-dispersion points after them.
 pub(super) struct Opening {
     family: Family,
     /// The first rows of the family, shuffled.
@@ -55,12 +55,12 @@ impl Opening {
         Self { family, rows, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
     }
 
-    /// Whether all of the opening has been proposed.
+    /// Returns `true` if all of the opening has been proposed.
     pub(super) fn is_over(&self) -> bool {
         self.next >= self.len
     }
 
-    /// The next point; beyond the opening the sequence goes on.
+    /// The next point. After the opening the sequence goes on.
     pub(super) fn next(&mut self) -> Point {
         let index = self.next;
         self.next += 1;
@@ -79,7 +79,7 @@ fn owners<'a>(request: &Request<'a>) -> Vec<&'a str> {
     request.space.continuous().map(|coordinate| coordinate.parameter.name.as_str()).collect()
 }
 
-/// The continuous parameters of these coordinates: those of one stand next to each other.
+/// The continuous parameters of these coordinates. The coordinates of a parameter stand next to each other.
 fn parameters<'a>(owners: &[&'a str]) -> Vec<&'a str> {
     let mut parameters = owners.to_vec();
     parameters.dedup();
@@ -107,15 +107,15 @@ fn corners(request: &Request, seed: u64) -> Vec<Vec<f64>> {
     corners
 }
 
-/// A random order (Fisher and Yates).
+/// Shuffles the elements (Fisher and Yates).
 fn shuffle<T>(all: &mut [T], rng: &mut impl Rng) {
     for last in (1..all.len()).rev() {
         all.swap(last, rng.random_range(0..=last));
     }
 }
 
-/// Whether a parameter is at its upper end: the columns are all sums modulo 2 of three that are independent. Beyond seven
-/// parameters they repeat, upside down every other time.
+/// Returns `true` if a parameter is at its upper end. The columns are all sums modulo 2 of three independent columns.
+/// Beyond seven parameters they repeat, and every other repetition is inverted.
 fn is_high(corner: usize, parameter: usize) -> bool {
     // The three independent columns first, then their sums.
     const COLUMNS: [usize; 7] = [1, 2, 4, 3, 5, 6, 7];
@@ -162,7 +162,7 @@ mod tests {
         let corners = corners_of(&Space::from_toml(text).unwrap(), 3);
         assert_eq!((corners.len(), corners[0].len()), (8, 4));
         assert!(corners.contains(&vec![false; 4]) && corners.contains(&vec![true; 4]));
-        // As when whoever is ahead brakes at once.
+        // As if the car ahead brakes at once.
         assert!(corners.iter().any(|corner| corner[0] && !corner[1]));
         assert_eq!(corners.iter().collect::<BTreeSet<_>>().len(), 8);
     }

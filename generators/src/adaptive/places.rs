@@ -1,10 +1,10 @@
-//! Places of a mixed cube: brought to the middle of their slices, and moved a little.
+//! Places of a mixed cube: moved to the middle of their slices, or moved a little.
 
 use super::cube::{Axis, level, middle};
 use super::normal;
 use rand::Rng;
 
-/// The same place with its discrete coordinates in the middle of their slices.
+/// The same place, with its discrete coordinates in the middle of their slices.
 pub(super) fn snapped(axes: &[Axis], mut at: Vec<f64>) -> Vec<f64> {
     for (u, axis) in at.iter_mut().zip(axes) {
         *u = match *axis {
@@ -15,7 +15,7 @@ pub(super) fn snapped(axes: &[Axis], mut at: Vec<f64>) -> Vec<f64> {
     at
 }
 
-/// A place near another: some axes moved by normally distributed steps, now and then a word replaced.
+/// A place near another place: some axes move by normally distributed steps, and now and then a word is replaced.
 pub(super) fn nudged(axes: &[Axis], from: &[f64], step: f64, rng: &mut impl Rng) -> Vec<f64> {
     let share = (3.0 / axes.len() as f64).clamp(0.3, 1.0);
     let one = rng.random_range(0..axes.len());

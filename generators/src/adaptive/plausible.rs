@@ -1,24 +1,24 @@
-//! Kernels that the tests leave as plausible as the most probable one.
+//! Draws kernels that, after the tests, are as plausible as the most probable kernel.
 //!
-//! A few tests say little of the lengths. Who takes the most probable ones for the truth is too sure of what no test has
-//! shown, above all along many axes; so what is said to be sure is to be so for lengths drawn from their posterior. They are
-//! drawn by slice sampling, one logarithm after the other (Neal, "Slice sampling", Annals of Statistics 2003; for the
-//! lengths of Gaussian processes Murray and Adams, NIPS 2010).
+//! A few tests say little about the lengths. If the most probable lengths are taken for the truth, the model is too
+//! sure of places without tests, above all along many axes. So a statement counts as sure only if it is sure for
+//! lengths drawn from their posterior. They are drawn by slice sampling, one logarithm after the other (Neal, "Slice
+//! sampling", Annals of Statistics 2003; for the lengths of Gaussian processes Murray and Adams, NIPS 2010).
 
 use super::fit::{bounds, log_posterior, logarithms, of_logarithms};
 use super::process::Kernel;
 use rand::Rng;
 
-/// How wide a slice is looked for, in logarithms: a few deviations of the prior.
+/// The width of the first slice, in logarithms: a few deviations of the prior.
 const WIDTH: f64 = 3.0;
 
-/// How often every logarithm is drawn anew from one kernel to the next.
+/// The number of times that every logarithm is drawn again from one kernel to the next.
 const SWEEPS: usize = 3;
 
-/// A slice shrinks no more often than this: then it is a point.
+/// The greatest number of times that a slice shrinks: after that it is a point.
 const MOST_SHRINKS: usize = 30;
 
-/// So many kernels from their distribution after these values, of which `from` is the most probable.
+/// Draws `count` kernels from their distribution given these values. `from` is the most probable kernel.
 pub(super) fn plausible(
     from: &Kernel,
     places: &[Vec<f64>],
@@ -64,7 +64,7 @@ mod tests {
     use crate::adaptive::fit::{fit, prior};
     use crate::seeded::{Purpose, seeded};
 
-    /// The deviation of the logarithms of the lengths that so many tests of a wave along one of two axes leave.
+    /// The deviation of the logarithms of the plausible lengths, after `n` tests of a wave along one of two axes.
     fn spread(n: usize) -> [f64; 2] {
         let places: Vec<Vec<f64>> =
             (0..n).map(|i| vec![(0.5 + i as f64 * 0.754_878).fract(), (0.5 + i as f64 * 0.569_840).fract()]).collect();
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn few_tests_leave_lengths_as_open_as_they_were_and_many_do_not() {
         let (few, many) = (spread(2), spread(60));
-        // The deviation that is assumed is 1.
+        // The assumed deviation is 1.
         assert!(few.iter().all(|spread| (0.75..1.25).contains(spread)), "{few:?}");
         assert!(many[0] < 0.3, "{many:?}");
     }

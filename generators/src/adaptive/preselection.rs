@@ -1,12 +1,13 @@
-//! Which samples of a distribution are worth a test: a Gaussian process chooses a few of many.
+//! Chooses the samples of a distribution that are worth a test, by a Gaussian process.
 //!
-//! An evolution strategy learns from the ranks of a generation, and most of its samples only tell it what tests nearby have
-//! told before. So it draws many times as many as it tests, and of these are tested those with the greatest logarithm of
-//! the expected improvement (`log_ei`) by the tests so far: individual-based evolution control, as in Jin, "A comprehensive
-//! survey of fitness approximation in evolutionary computation" (2005), and for CMA-ES Pitra, Bajer and Holeňa (PPSN 2016). The distribution keeps the model near what has been tested, the model the distribution from
-//! testing what it knows.
+//! An evolution strategy learns from the ranks of a generation, and most of its samples only repeat what tests nearby
+//! have shown. So it draws many times as many samples as it tests. Those with the greatest logarithm of the expected
+//! improvement (`log_ei`), given the tests so far, are tested: individual-based evolution control, as in Jin, "A
+//! comprehensive survey of fitness approximation in evolutionary computation" (2005), and for CMA-ES Pitra, Bajer and
+//! Holeňa (PPSN 2016). The distribution keeps the model near the tested places, and the model keeps the distribution
+//! from testing what is known.
 //!
-//! A generation is tested in parts, so that the later samples are chosen by what came of the earlier ones.
+//! A generation is tested in parts, so that the results of earlier samples help to choose the later ones.
 
 use super::Evaluation;
 use super::bend::Bend;
@@ -15,10 +16,10 @@ use super::log_ei::log_expected_improvement;
 use super::places::snapped;
 use super::surrogate::{Surrogate, View};
 
-/// How many samples are drawn for each that is tested.
+/// The number of samples that are drawn for each tested sample.
 const DRAWN: usize = 32;
 
-/// How many tests are out at a time.
+/// The greatest number of tests without a result at a time.
 const PART: usize = 4;
 
 /// The model that chooses.
@@ -32,13 +33,13 @@ impl Preselection {
         Self { surrogate: Surrogate::new(axes.clone()), axes }
     }
 
-    /// How many more tests there may be while so many are out.
+    /// The number of tests that may still be proposed while `out` tests have no result.
     pub(super) fn room(&self, out: usize) -> usize {
         PART.saturating_sub(out)
     }
 
-    /// The `n` samples from which most is expected beyond the best test so far; where nothing is known, or few
-    /// different ones are drawn, any.
+    /// The `n` samples with the greatest expected improvement on the best test so far. If nothing is known, or few
+    /// different samples are drawn, other samples fill up.
     pub(super) fn choose(
         &mut self,
         n: usize,
@@ -60,7 +61,7 @@ impl Preselection {
         places
     }
 
-    /// How a test went: its own of a number, or one from elsewhere.
+    /// Tells the result of a test: of its own proposal with a number, or of a test from elsewhere.
     pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         self.surrogate.learn(proposal, trial);
     }

@@ -1,11 +1,11 @@
-//! A Gaussian process through the tests so far: what the robustness elsewhere may be, and how sure that is.
+//! A Gaussian process through the tests so far: an estimate of the robustness elsewhere, with its uncertainty.
 //!
-//! Rasmussen and Williams, "Gaussian Processes for Machine Learning" (2006), chapter 2 and equation 2.42 for the unknown
-//! constant mean: a Matern 5/2 kernel with a length of its own for each axis; the levels of a word are all at distance
-//! 1. Mean and variance have their most likely values in closed form.
+//! The method is in Rasmussen and Williams, "Gaussian Processes for Machine Learning" (2006), chapter 2 and equation
+//! 2.42 for the unknown constant mean. It uses a Matern 5/2 kernel with a separate length for each axis; the levels
+//! of a word are all at distance 1. Mean and variance have their most likely values in closed form.
 //!
-//! The algebra is faer's. It uses the vector units that it finds, so the last bits of a posterior, unlike all else in this
-//! crate, may differ from one kind of processor to another.
+//! The algebra is that of the crate faer, which uses the available vector units. Unlike all else in this crate, the
+//! last bits of a posterior may therefore differ between kinds of processors.
 
 use super::cube::Axis;
 use faer::linalg::solvers::{Llt, Solve};
@@ -13,20 +13,21 @@ use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
 
-/// The smallest variance, in shares of the process's, that is told from 0.
+/// The least variance that is told from 0, as a share of the process's variance.
 const LEAST_VARIANCE: f64 = 1e-12;
 
-/// What is added to variances, in the same shares, so that draws at places that are almost one have a factor.
+/// An addition to variances, in the same shares, so that draws at places that are almost equal have a Cholesky
+/// factor.
 const DRAW_NOISE: f64 = 1e-8;
 
-/// How alike two places are.
+/// The kernel of a process: how similar two places are.
 #[derive(Debug, Clone)]
 pub(super) struct Kernel {
     /// The kinds of the axes.
     pub axes: Vec<Axis>,
-    /// Along each axis how far places are alike.
+    /// For each axis, the distance over which places are similar.
     pub lengths: Vec<f64>,
-    /// The variance of what no place explains, in shares of the process's.
+    /// The variance that no place explains, as a share of the process's variance.
     pub noise: f64,
 }
 
@@ -37,7 +38,7 @@ impl Kernel {
         scaled * scaled
     }
 
-    /// `sqrt(5) r`, r being the distance.
+    /// `sqrt(5) r`, where r is the distance of two places.
     pub(super) fn scaled_distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let squares = self.axes.iter().zip(&self.lengths).zip(a.iter().zip(b));
         let squares = squares.map(|((axis, length), (a, b))| {
@@ -52,7 +53,7 @@ impl Kernel {
         Pair::of(self, a, b).correlation()
     }
 
-    /// The pairs of different places: for each those before it.
+    /// The pairs of different places: for each place, the pairs with all places before it.
     fn pairs(&self, places: &[Vec<f64>]) -> Vec<Pair> {
         let before = |i: usize| (0..i).map(move |j| Pair::of(self, &places[i], &places[j]));
         (0..places.len()).flat_map(before).collect()
@@ -62,9 +63,9 @@ impl Kernel {
 /// Two places.
 #[derive(Debug, Clone, Copy)]
 struct Pair {
-    /// `sqrt(5)` times their distance.
+    /// `sqrt(5)` times the distance of the two places.
     distance: f64,
-    /// `exp` of minus that, which takes longer than all else.
+    /// `exp` of minus that distance, which takes longer than everything else.
     decay: f64,
 }
 
@@ -80,17 +81,17 @@ impl Pair {
     }
 }
 
-/// Where the pair of two places is, the second before the first.
+/// The position of the pair of places `i` and `j`, where `j` is before `i`.
 fn pair(i: usize, j: usize) -> usize {
     i * i.saturating_sub(1) / 2 + j
 }
 
-/// What is known of the mean far from all tests.
+/// The mean of the process far from all tests.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Mean {
-    /// Nothing: it is estimated.
+    /// The mean is unknown and is estimated.
     Unknown,
-    /// It is this.
+    /// The mean is known.
     Known(f64),
 }
 
@@ -100,35 +101,36 @@ pub(super) struct Process {
     places: Vec<Vec<f64>>,
     pairs: Vec<Pair>,
     factor: Llt<f64>,
-    /// The inverse of the correlations times what the mean leaves.
+    /// The inverse of the correlations times the differences between the values and the mean.
     pull: Vec<f64>,
     /// The inverse of the correlations times ones.
     ones: Vec<f64>,
     mean: f64,
-    /// The variance of the mean, in shares of the process's.
+    /// The variance of the mean, as a share of the process's variance.
     mean_share: f64,
     variance: f64,
 }
 
-/// What a draw of the process is left to chance.
+/// The random numbers of a draw from the process.
 pub(super) struct Draw {
     /// A standard normal number for each place.
     pub values: Vec<f64>,
-    /// One for the mean.
+    /// A standard normal number for the mean.
     pub mean: f64,
-    /// How many times the deviation is what it most likely is.
+    /// The ratio of the drawn deviation to the most likely deviation.
     pub spread: f64,
 }
 
 impl Process {
-    /// The process through values at places; `None` where the correlations have no Cholesky factor, or there is no place.
+    /// Makes the process through values at places; `None` if the correlations have no Cholesky factor or there is no
+    /// place.
     pub(super) fn new(kernel: Kernel, places: Vec<Vec<f64>>, values: &[f64], mean: Mean) -> Option<Self> {
         let n = places.len();
         if n == 0 {
             return None;
         }
         let pairs = kernel.pairs(&places);
-        // The correlations, noise included, as far as they are needed: from the diagonal down.
+        // The correlations with noise. Only the lower triangle is needed.
         let entry = |i: usize, j: usize| match i.cmp(&j) {
             std::cmp::Ordering::Less => 0.0,
             std::cmp::Ordering::Equal => 1.0 + kernel.noise,
@@ -158,8 +160,8 @@ impl Process {
         })
     }
 
-    /// The process through values at places, with as much noise as it takes: without any, places that are almost one have
-    /// no factor.
+    /// Makes the process through values at places, with as much noise as necessary: without noise, places that are
+    /// almost equal have no Cholesky factor.
     pub(super) fn with_noise(kernel: &Kernel, places: &[Vec<f64>], values: &[f64]) -> Option<Self> {
         [1.0, 1e2, 1e4].into_iter().find_map(|more| {
             let kernel = Kernel { noise: kernel.noise * more, ..kernel.clone() };
@@ -167,16 +169,16 @@ impl Process {
         })
     }
 
-    /// How alike it takes places to be.
+    /// The kernel, which says how similar places are.
     pub(super) fn kernel(&self) -> &Kernel {
         &self.kernel
     }
 
-    /// Mean and deviation at each place if the value there were not known, but mean, variance and kernel were (Rasmussen
-    /// and Williams, equation 5.12).
+    /// The mean and deviation at each place if its own value were unknown, but mean, variance and kernel known
+    /// (Rasmussen and Williams, equation 5.12).
     pub(super) fn leave_one_out(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let n = self.places.len();
-        // Of the inverse only the diagonal is needed: the squares in the columns of the inverse of the factor.
+        // Only the diagonal of the inverse is needed: the squares in the columns of the inverse of the factor.
         let mut inverse = Mat::<f64>::zeros(n, n);
         invert_lower_triangular(inverse.as_mut(), self.factor.L(), Par::Seq);
         let one = |i: usize| {
@@ -186,7 +188,7 @@ impl Process {
         (0..n).map(one).collect()
     }
 
-    /// The logarithm of the likelihood of the values, mean and variance being the most likely ones, up to a constant.
+    /// The logarithm of the likelihood of the values for the most likely mean and variance, up to a constant.
     pub(super) fn log_likelihood(&self) -> f64 {
         let n = self.places.len();
         let factor = self.factor.L();
@@ -194,7 +196,7 @@ impl Process {
         -0.5 * n as f64 * libm::log(self.variance) - half_log_determinant
     }
 
-    /// Its derivatives by the logarithms of the lengths, and last of the noise.
+    /// The derivatives of the log-likelihood by the logarithms of the lengths, and last of the noise.
     pub(super) fn log_likelihood_gradient(&self) -> Vec<f64> {
         let (n, axes) = (self.places.len(), self.kernel.lengths.len());
         let inverse = self.factor.solve(Mat::<f64>::identity(n, n));
@@ -218,7 +220,7 @@ impl Process {
         gradient
     }
 
-    /// What it says of places.
+    /// The estimate of the process at places.
     pub(super) fn posterior(&self, places: Vec<Vec<f64>>) -> Posterior<'_> {
         let n = self.places.len();
         let mut whitened = Mat::from_fn(n, places.len(), |i, j| self.kernel.correlation(&self.places[i], &places[j]));
@@ -232,21 +234,21 @@ impl Process {
     }
 }
 
-/// Mean and variance at some places.
+/// The mean and variance at some places.
 pub(super) struct Posterior<'a> {
     process: &'a Process,
     places: Vec<Vec<f64>>,
     mean: Vec<f64>,
-    /// How much of the process's mean is in those, beside what the tests say.
+    /// The part of the process's mean at the places that the tests do not determine.
     unexplained: Vec<f64>,
-    /// The variances, in shares of the process's.
+    /// The variances, as shares of the process's variance.
     share: Vec<f64>,
     whitened: Mat<f64>,
     believed: Vec<Vec<f64>>,
 }
 
 impl Posterior<'_> {
-    /// How many places there are.
+    /// The number of places.
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
@@ -263,9 +265,10 @@ impl Posterior<'_> {
         (self.share[index] * self.process.variance).sqrt()
     }
 
-    /// Values at some of the places together, by the process: one list for each draw.
+    /// Draws values at some of the places together: one list for each draw.
     ///
-    /// The mean is no more certain than the tests make it (Rasmussen and Williams, equation 2.42), nor is the deviation.
+    /// The mean is as uncertain as the tests leave it (Rasmussen and Williams, equation 2.42), and so is the
+    /// deviation.
     pub(super) fn draws(&self, at: &[usize], draws: &[Draw]) -> Vec<Vec<f64>> {
         let kernel = &self.process.kernel;
         let share = |i: usize, j: usize| {
@@ -282,7 +285,7 @@ impl Posterior<'_> {
         let value = |draw: &Draw, i: usize| {
             let step: f64 = match &factor {
                 Some(factor) => (0..=i).map(|j| factor.L()[(i, j)] * draw.values[j]).sum(),
-                // Rounding errors have made it no covariance: then they vary as one.
+                // Rounding errors have spoilt the covariance: the values then vary together.
                 None => self.share[at[i]].sqrt() * draw.values[0],
             };
             let of_mean = self.unexplained[at[i]] * self.process.mean_share.sqrt() * draw.mean;
@@ -291,8 +294,8 @@ impl Posterior<'_> {
         draws.iter().map(|draw| (0..at.len()).map(|i| value(draw, i)).collect()).collect()
     }
 
-    /// Believes that a test at one of the places comes out as expected (kriging believer; Ginsbourger et al. 2010): no mean
-    /// changes, but all variances do.
+    /// Assumes that a test at one of the places has the expected value (kriging believer; Ginsbourger et al. 2010).
+    /// No mean changes, but all variances do.
     pub(super) fn believe(&mut self, index: usize) {
         let kernel = &self.process.kernel;
         let length = (self.share[index] + kernel.noise).sqrt();
@@ -312,13 +315,13 @@ impl Posterior<'_> {
     }
 }
 
-/// The products of a column with every column. Four at a time are added up, each in the order of its terms: one alone would
-/// have to wait for itself.
+/// The products of a column with every column. Four sums run at a time, each in the order of its terms: a single sum
+/// would have to wait for itself.
 fn products(columns: &Mat<f64>, column: usize) -> Vec<f64> {
     let known = columns.col_as_slice(column);
     let mut all = Vec::with_capacity(columns.ncols());
     for first in (0..columns.ncols()).step_by(4) {
-        // At the end the last one stands in for those that are missing.
+        // At the end the last column replaces missing ones.
         let four = [0, 1, 2, 3].map(|i| columns.col_as_slice((first + i).min(columns.ncols() - 1)));
         let mut sums = [0.0; 4];
         for (row, value) in known.iter().enumerate() {

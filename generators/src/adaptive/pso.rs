@@ -1,8 +1,9 @@
 //! Particle swarm optimisation (Kennedy and Eberhart 1995; the weights of Clerc's standard), by argmin.
 //!
-//! Every particle is drawn to the best place it has seen and to the best that any has; a whole swarm is one batch. A swarm
-//! starts at the best tests so far, which are not tested again. One
-//! whose moves bring nothing better gives way to the next, later ones at random places. A discrete coordinate flies along its axis, and is the level whose slice it is in.
+//! Every particle is drawn to the best place that it has seen and to the best place that any particle has seen. A
+//! whole swarm is one batch. The first swarm starts at the best tests so far, which are not tested again. A swarm
+//! whose moves bring nothing better gives way to the next; later swarms start at random places. A discrete coordinate
+//! moves along its axis, and its value is the level whose slice it is in.
 
 use super::Adaptive;
 use super::chains::{Chains, Start};
@@ -18,7 +19,7 @@ impl Strategy {
     /// Particle swarms on the robustness.
     pub const PSO: Self = Self::of(&Descriptor {
         name: "pso",
-        about: "swarms drawn to the worst tests so far: rough robustness, many tests at a time",
+        about: "swarms drawn to the worst tests so far: for a rough robustness and many tests at a time",
         dims: ANY,
         look: Look::hollow(0xf0_8080, MarkShape::Square),
         method: Method(MethodKind::Search {
@@ -28,16 +29,16 @@ impl Strategy {
     });
 }
 
-/// How often a swarm moves before the next one starts: by then it has come to rest or never will.
+/// The number of moves of a swarm before the next starts: by then it has come to rest or never will.
 const MOVES: u64 = 40;
 
-/// For how many moves the best costs may be alike before it does.
+/// The number of moves for which the best costs may be alike before the next swarm starts.
 const PATIENCE: usize = 5;
 
 /// The standard deviation of the first velocities.
 const FIRST_STEP: f64 = 0.2;
 
-/// The search: one swarm at a time, as large as `10 + 2 sqrt(d)`, of which 16 are about a batch.
+/// The search: one swarm at a time, of `10 + 2 sqrt(d)` particles, of which 16 are about a batch.
 pub(super) fn pso(axes: Vec<Axis>, rng: Pcg64) -> Chains {
     Chains::new(axes, swarm, 1, rng)
 }
@@ -46,7 +47,7 @@ fn swarm(start: Start) -> Solver {
     let Start { axes, at, trials, mut rng } = start;
     let size = 10 + (2.0 * (axes.len() as f64).sqrt()) as usize;
     let mut velocity = || -> Vec<f64> { axes.iter().map(|_| FIRST_STEP * normal(&mut rng)).collect() };
-    // The first swarms start where the tests are that went best; a later one's start is a random place.
+    // The first swarm starts at the best tests. The start of a later swarm is a random place.
     let is_first = trials.first().is_some_and(|best| best.at == at);
     let known = trials.iter().filter(|_| is_first).take(size);
     let known: Vec<_> = known.map(|trial| Particle::new(trial.at.clone(), trial.cost(), velocity())).collect();
@@ -61,7 +62,7 @@ fn swarm(start: Start) -> Solver {
             particles.extend(new.map(|((at, cost), velocity)| Particle::new(at, cost, velocity)));
         }
         let solver = ParticleSwarm::new(bounds, size).with_rng_generator(rng);
-        // It ends by itself or with the generator; what it found has been tested.
+        // The run ends by itself or with the generator. Everything that it found has been tested.
         let executor = Executor::new(cost.with_patience(PATIENCE), solver);
         let _ = executor.configure(|state: PopulationState<_, _>| state.population(particles).max_iters(MOVES)).run();
     })

@@ -1,26 +1,26 @@
-//! A trust region: a box around the best test, as large as the model there has proved right.
+//! A trust region: a box around the best test, whose size follows the success of the model.
 //!
-//! TuRBO (Eriksson et al., NeurIPS 2019): its sides are in proportion to the lengths of the model; batches that improve on the
-//! best make it larger, batches in a row that do not make it smaller, and where it has become tiny the search goes
-//! elsewhere, from a design of its own.
+//! The method is TuRBO (Eriksson et al., NeurIPS 2019). The sides are in proportion to the lengths of the model.
+//! Batches that improve on the best test make the box larger, and batches in a row that do not improve make it
+//! smaller. When the box has become tiny, the search goes elsewhere and begins with a new design.
 
 use super::cube::Axis;
 use super::places::{nudged, snapped};
 use super::{Evaluation, anywhere};
 use rand::Rng;
 
-/// The first side, the longest and the shortest.
+/// The first length of a side, the greatest length and the least length.
 const FIRST: f64 = 0.8;
 const LONGEST: f64 = 1.6;
 const SHORTEST: f64 = 1.0 / 128.0;
 
-/// So many batches in a row that improve make it larger.
+/// The number of improving batches in a row that make the box larger.
 const SUCCESSES: usize = 3;
 
-/// By how much, in shares of the best, a batch has to improve on it.
+/// The least improvement of a batch on the best test, as a share of the best cost.
 const IMPROVEMENT: f64 = 1e-3;
 
-/// So much a side reaches beyond its ends, so that ends of the axes are among the candidates.
+/// The distance by which a side reaches beyond its ends, so that ends of the axes are among the candidates.
 const BEYOND: f64 = 0.03;
 
 /// The box with the best test in it.
@@ -37,7 +37,7 @@ impl Region {
         Self { best: None, side: FIRST, successes: 0, failures: 0, improved: false }
     }
 
-    /// The best test since the search came here.
+    /// The best test since the search came to this region.
     pub(super) fn best(&self) -> Option<&Evaluation> {
         self.best.as_ref()
     }
@@ -55,7 +55,7 @@ impl Region {
         }
     }
 
-    /// Takes note that a batch of so many tests is over, and says whether there is still something to be found here.
+    /// Takes note that a batch of this size is over. Returns `false` if nothing more can be expected in this region.
     pub(super) fn is_worth_it_after(&mut self, batch: usize, axes: usize) -> bool {
         if self.improved {
             (self.successes, self.failures) = (self.successes + 1, 0);
@@ -71,7 +71,7 @@ impl Region {
         self.side >= SHORTEST
     }
 
-    /// Places to choose from: most in the box, some near the best, some on edges, some anywhere.
+    /// Candidates for the next tests: most in the box, some near the best test, some on edges, some anywhere.
     pub(super) fn candidates(&self, n: usize, axes: &[Axis], lengths: &[f64], rng: &mut impl Rng) -> Vec<Vec<f64>> {
         let Some(best) = &self.best else { return Vec::new() };
         let mean_log = lengths.iter().map(|&length| libm::log(length)).sum::<f64>() / lengths.len() as f64;
@@ -98,7 +98,8 @@ impl Region {
     }
 }
 
-/// A place with some of its continuous coordinates, any share of them, at the nearer end: failures like corners and edges.
+/// A place with a random share of its continuous coordinates moved to the nearer end, because failures are often at
+/// corners and edges.
 fn to_ends(axes: &[Axis], mut at: Vec<f64>, rng: &mut impl Rng) -> Vec<f64> {
     let share: f64 = rng.random();
     for (u, _) in at.iter_mut().zip(axes).filter(|(_, axis)| **axis == Axis::Continuous) {
@@ -109,7 +110,7 @@ fn to_ends(axes: &[Axis], mut at: Vec<f64>, rng: &mut impl Rng) -> Vec<f64> {
     snapped(axes, at)
 }
 
-/// A coordinate within a side, or as it is.
+/// A random coordinate within a side, or the unchanged middle.
 fn in_side(axis: Axis, middle: f64, side: f64, share: f64, rng: &mut impl Rng) -> f64 {
     let changes = rng.random::<f64>() < share;
     let random: f64 = rng.random();

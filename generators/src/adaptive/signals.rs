@@ -1,17 +1,17 @@
-//! What is believed of signals before the first test: that pieces which are neighbours in time go together.
+//! The assumption about signals before the first test: neighbouring pieces are correlated.
 //!
-//! A signal of seven pieces is seven axes, and a search that takes each by itself begins with jagged ones. What makes systems
-//! fail often is a level or a trend that lasts. So the first steps run through a signal as an autoregressive process would: the
-//! correlation of two pieces falls exponentially with how many lie between them. It is where a search begins; what it learns
-//! can be anything.
+//! A signal of seven pieces is seven axes, and a search that treats each axis separately begins with jagged signals.
+//! But systems often fail at a level or a trend that lasts. So the first steps change a signal as an autoregressive
+//! process would: the correlation of two pieces falls exponentially with their distance. This is only the start of a
+//! search, which can learn any shape.
 
 use nalgebra::DMatrix;
 use paracosm_space::Space;
 
-/// The correlation of two pieces that are neighbours.
+/// The correlation of two neighbouring pieces.
 const NEIGHBOURS: f64 = 0.9;
 
-/// The covariance of steps along the continuous coordinates of a space, each of variance 1.
+/// The covariance of the steps along the continuous coordinates of a space. Each step has variance 1.
 pub(super) fn covariance(space: &Space) -> DMatrix<f64> {
     let owners: Vec<&str> = space.continuous().map(|coordinate| coordinate.parameter.name.as_str()).collect();
     DMatrix::from_fn(owners.len(), owners.len(), |i, j| {

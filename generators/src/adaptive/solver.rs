@@ -1,8 +1,10 @@
-//! Solvers that own their loop: each on its own thread, exchanging batches of places for their costs over channels.
+//! Runs solvers with a loop of their own: each on its own thread, exchanging batches of places for costs over
+//! channels.
 //!
-//! The solver sees a cost function that happens to be slow. Asking for the next batch waits until the solver has made
-//! up its mind, which takes microseconds and no outcome; so what is proposed depends on what was told and never on time.
-//! Dropped, it lets the cost function fail, which ends the solver, and waits for its thread.
+//! To the solver, the tests are a cost function that is slow. A request for the next batch waits only until the
+//! solver has decided, which takes microseconds and needs no result; so proposals depend on the results and never on
+//! time. When a `Solver` is dropped, its cost function fails, which ends the solver, and the drop waits for the
+//! thread.
 
 use super::are_alike;
 use argmin::core::{CostFunction, Error};
@@ -12,34 +14,34 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
-/// A solver at work.
+/// A running solver.
 pub(super) struct Solver {
     batches: Receiver<Vec<Vec<f64>>>,
-    /// None only while it is being dropped.
+    /// The sender of costs; `None` only during the drop.
     costs: Option<Sender<Vec<f64>>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Solver {
-    /// Starts a solver, which ends when `run` does or the cost function fails.
+    /// Starts a solver, which ends when `run` ends or the cost function fails.
     pub(super) fn start(run: impl FnOnce(Cost) + Send + 'static) -> Self {
         let (to_us, batches) = channel();
         let (costs, from_us) = channel();
         let cost = Cost { batches: to_us, costs: from_us, patience: None };
-        // Where no thread can be had, its end of the channels is gone: a solver that has nothing to propose.
+        // Without a thread, the other ends of the channels are gone: the solver then has nothing to propose.
         let thread = Builder::new().name("solver".to_owned()).spawn(move || run(cost)).ok();
         Self { batches, costs: Some(costs), thread }
     }
 
-    /// The batch of places whose costs it wants next; none when it has ended. Every batch has to be answered before the
-    /// next is asked for.
+    /// The batch of places whose costs the solver needs next; `None` when it has ended. Every batch must be answered
+    /// before the next is requested.
     pub(super) fn batch(&self) -> Option<Vec<Vec<f64>>> {
         self.batches.recv().ok()
     }
 
-    /// The costs of the last batch.
+    /// Answers the last batch with its costs.
     pub(super) fn answer(&self, costs: Vec<f64>) {
-        // One that has ended does not listen.
+        // A solver that has ended does not listen.
         let _ = self.costs.as_ref().map(|sender| sender.send(costs));
     }
 }
@@ -48,7 +50,7 @@ impl Drop for Solver {
     fn drop(&mut self) {
         self.costs = None;
         if let Some(thread) = self.thread.take() {
-            // A panic of the solver is its end like any other.
+            // A panic ends the solver like anything else.
             let _ = thread.join();
         }
     }
@@ -61,7 +63,7 @@ pub(super) struct Cost {
     patience: Option<Mutex<Patience>>,
 }
 
-/// When a solver has been given long enough.
+/// Decides when a solver has had enough time.
 struct Patience {
     batches: usize,
     /// The best costs of the last batches.
@@ -69,7 +71,8 @@ struct Patience {
 }
 
 impl Cost {
-    /// Fails as soon as the best costs of so many batches in a row are alike, which ends the solver.
+    /// Makes the cost function fail, which ends the solver, as soon as the best costs of `batches` batches in a row
+    /// are alike.
     pub(super) fn with_patience(self, batches: usize) -> Self {
         Self { patience: Some(Mutex::new(Patience { batches, recent: VecDeque::new() })), ..self }
     }
@@ -100,7 +103,7 @@ impl Patience {
     }
 }
 
-/// What a mutex guards, also where a thread broke while it held it.
+/// The content of a mutex, even if a thread panicked while it held the mutex.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

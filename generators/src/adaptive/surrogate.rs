@@ -1,11 +1,13 @@
-//! What strategies with a model have in common: the tests so far, the model of them, and the choice of a batch.
+//! The common part of strategies with a model: the tests so far, the model of them, and the choice of a batch.
 //!
-//! Two Gaussian processes: one through the robustness, bent so that it fits (`Bend`), and, once tests ended in errors,
-//! one through 0 where a test ran and 1 where it did not, with lengths that are not fitted: the hidden constraint. Far from all
-//! errors it expects none. The model sees the few hundred tests that matter most to whoever asks, so a proposal costs the
-//! same after a thousand tests as after three hundred.
+//! There are two Gaussian processes. One goes through the robustness, transformed so that it fits (`Bend`). Once
+//! tests have ended in errors, the other goes through 0 for each test that ran and 1 for each error, with lengths
+//! that are not fitted: the hidden constraint. Far from all errors it expects none. The model sees the few hundred
+//! tests that matter most for the request, so that a proposal costs the same after a thousand tests as after three
+//! hundred.
 //!
-//! The tests of a batch, and those that are still out, are believed to come out as the model expects: so a batch spreads.
+//! The tests of a batch, and tests without a result, are assumed to have the expected result, so that a batch
+//! spreads.
 
 use super::Evaluation;
 use super::bend::{Bend, is_failure};
@@ -17,31 +19,31 @@ use super::telling::telling;
 use super::verdicts::Fitter;
 use std::collections::BTreeMap;
 
-/// So many tests the model sees.
+/// The greatest number of tests that the model sees.
 const MOST_TESTS: usize = 220;
 
-/// How many steps the first fit takes, and those after it.
+/// The number of steps of the first fit, and of the later fits.
 const FIRST_FIT: usize = 40;
 const LATER_FIT: usize = 8;
 
-/// What the process of errors leaves to chance.
+/// The noise of the process of errors.
 const ERROR_NOISE: f64 = 1e-2;
 
-/// A test that runs with less probability is not chosen where there is another: deep in a region of errors much is unknown
-/// and nothing to be learnt.
+/// The least probability to run of a chosen test, if there is another: deep in a region of errors much is unknown,
+/// but nothing can be learnt.
 const WORTH_TRYING: f64 = 0.25;
 
-/// Less probable than this makes no difference.
+/// The least probability that makes a difference.
 const LEAST_PROBABLE: f64 = 1e-12;
 
-/// How many tests a batch has at most: those beyond it would be chosen by nothing but beliefs.
+/// The greatest number of tests of a batch: further tests would be chosen by assumptions only.
 const MOST_BATCH: usize = 32;
 
-/// Which tests matter, and how.
+/// The tests that matter, and their purpose.
 pub(super) enum View<'a> {
-    /// Low values, near a place.
+    /// Low values near a place.
     Near(&'a [f64]),
-    /// Which side of 0 values are on.
+    /// The side of 0 on which values are.
     Sides,
 }
 
@@ -52,9 +54,9 @@ pub(super) struct Surrogate {
     is_fitted: bool,
     sides: Fitter,
     trials: Vec<Evaluation>,
-    /// The proposals that are out.
+    /// The proposals without a result.
     out: BTreeMap<usize, Vec<f64>>,
-    /// Places whose tests are those of other places.
+    /// Places that were repaired, so that their tests are those of other places.
     repaired: Vec<Vec<f64>>,
     proposals: usize,
 }
@@ -74,12 +76,12 @@ impl Surrogate {
         &self.trials
     }
 
-    /// Along each axis how far places are alike.
+    /// For each axis, the distance over which places are similar.
     pub(super) fn lengths(&self) -> &[f64] {
         &self.kernel.lengths
     }
 
-    /// Whether no proposal is out.
+    /// Returns `true` if all proposals have results.
     pub(super) fn is_idle(&self) -> bool {
         self.out.is_empty()
     }
@@ -100,7 +102,7 @@ impl Surrogate {
         }
     }
 
-    /// Whether a test there would be one that is known or out.
+    /// Returns `true` if a test at this place is already known or proposed.
     fn is_known(&self, at: &[f64]) -> bool {
         let known = self.trials.iter().map(|trial| &trial.at).chain(self.out.values()).chain(&self.repaired);
         known.into_iter().any(|known| known == at)
@@ -114,10 +116,11 @@ impl Surrogate {
         }
     }
 
-    /// The candidates with the greatest worth, one after the other, at most `n`; none before two tests have come out.
+    /// Chooses the candidates with the greatest worth, one after the other, at most `n`; none before two tests have
+    /// run.
     ///
-    /// `worth` is given how the robustness was bent, the expected value, its deviation, and the probability that the test
-    /// runs.
+    /// `worth` receives the transformation of the robustness, the expected value, its deviation, and the probability
+    /// that the test runs.
     pub(super) fn choose(
         &mut self,
         n: usize,
@@ -147,7 +150,7 @@ impl Surrogate {
         while chosen.len() < n.min(MOST_BATCH) && !open.is_empty() {
             let value = |index: usize| worth(bend, posterior.mean(index), posterior.deviation(index), runs[index]);
             let values = open.iter().map(|&index| value(index)).enumerate();
-            // Of equal worth the first.
+            // The first among equals.
             let best = values.rev().max_by(|a, b| a.1.total_cmp(&b.1));
             let Some((best, _)) = best else { break };
             let index = open.swap_remove(best);
@@ -160,7 +163,7 @@ impl Surrogate {
         chosen
     }
 
-    /// The bend, the process of robustness and that of errors.
+    /// The transformation, the process of the robustness, and the process of errors.
     fn model(&mut self, view: View) -> Option<(Bend, Process, Option<Process>)> {
         let (mut errored, ran): (Vec<&Evaluation>, Vec<&Evaluation>) =
             self.trials.iter().partition(|t| t.robustness.is_none());
@@ -204,7 +207,7 @@ impl Surrogate {
     }
 }
 
-/// The process of errors, once there are some.
+/// The process of errors, once there are errors.
 fn errors(axes: &[Axis], ran: &[Vec<f64>], errored: &[&Evaluation]) -> Option<Process> {
     let most = MOST_TESTS / 2;
     let ran = ran.iter().take(most).map(|at| (at.clone(), 0.0));
@@ -215,7 +218,8 @@ fn errors(axes: &[Axis], ran: &[Vec<f64>], errored: &[&Evaluation]) -> Option<Pr
     some.then(|| Process::new(kernel, places, &labels, Mean::Known(0.0))).flatten()
 }
 
-/// The probability that a label, 0 where a test runs and 1 where it does not, is the former's side of a half.
+/// The probability that a test runs, from a label that is 0 for a run and 1 for an error: that the label is below a
+/// half.
 fn runs(mean: f64, deviation: f64) -> f64 {
     normal_below((0.5 - mean) / deviation.max(ERROR_NOISE)).max(LEAST_PROBABLE)
 }

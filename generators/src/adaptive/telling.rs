@@ -1,21 +1,22 @@
-//! Which of many tests a model sees: those that tell most, as many as it has room for.
+//! Selects the most informative tests, as many as a model has room for.
 //!
-//! The first half of them fill the space: always the test that is farthest from all chosen ones (the k-centre greedy of
-//! Gonzalez 1985). The others lie where passing turns into failing, on both sides in turn: of the tests of a verdict that
-//! have the other near by, always the one farthest from those of its verdict that are chosen. So the first hundred, by
-//! which lengths are fitted, tell of the whole: where a search has put its tests, all at the edge, a process takes what it
-//! sees for noise or for very short lengths.
+//! The first half of them fill the space: each is the test that is farthest from all chosen tests (the k-centre
+//! greedy of Gonzalez 1985). The others lie where passing turns into failing, on both sides in turn. Among the tests
+//! of a verdict that have tests of the other verdict near by, each is the test farthest from the chosen tests of its
+//! verdict. So the first hundred tests, to which lengths are fitted, represent the whole space. If a search has put
+//! all its tests at the edge of failing, a process would otherwise see noise or very short lengths.
 
 use super::process::Kernel;
 
-/// So many tests of one verdict are looked at, evenly from first to last; else a choice takes too long.
+/// The greatest number of tests of one verdict to look at, evenly chosen from first to last: more would take too
+/// long.
 const MOST_OF_A_VERDICT: usize = 2048;
 
-/// The indices of the most telling tests, at most `most`, by the kernel's distance.
+/// The indices of the most informative tests, at most `most`, by the kernel's distance.
 pub(super) fn telling(kernel: &Kernel, places: &[&[f64]], failed: &[bool], most: usize) -> Vec<usize> {
     let distance = |a: usize, b: usize| kernel.scaled_distance(places[a], places[b]);
     let sides = [true, false].map(|side| thinned((0..places.len()).filter(|&i| failed[i] == side).collect()));
-    // Twice as many are close as are taken for that.
+    // Each side offers about twice as many close tests as are taken from it.
     let close = |side: &[usize], others: &[usize]| {
         let nearest = |i: usize| others.iter().map(|&j| distance(i, j)).min_by(f64::total_cmp);
         let mut close: Vec<(f64, usize)> = side.iter().filter_map(|&i| Some((nearest(i)?, i))).collect();
@@ -30,7 +31,7 @@ pub(super) fn telling(kernel: &Kernel, places: &[&[f64]], failed: &[bool], most:
     while chosen.len() < most {
         let turn = if chosen.len() < most.div_ceil(2) { 2 } else { chosen.len() % 2 };
         let Some(next) = turns[turn].farthest().or_else(|| turns[2].farthest()) else { break };
-        // At the boundary tests of the other verdict are no neighbours.
+        // At the boundary, tests of the other verdict do not count as neighbours.
         turns[usize::from(!failed[next])].take(next, distance);
         turns[2].take(next, distance);
         chosen.push(next);
@@ -38,13 +39,13 @@ pub(super) fn telling(kernel: &Kernel, places: &[&[f64]], failed: &[bool], most:
     chosen
 }
 
-/// Evenly chosen ones of many.
+/// An even selection of at most `MOST_OF_A_VERDICT` of the tests.
 fn thinned(all: Vec<usize>) -> Vec<usize> {
     let kept = all.len().min(MOST_OF_A_VERDICT);
     (0..kept).map(|i| all[i * all.len() / kept]).collect()
 }
 
-/// Tests with their distances to what was taken.
+/// Tests with their distances to the nearest test that was taken.
 struct Spread {
     tests: Vec<usize>,
     distances: Vec<f64>,
@@ -55,7 +56,7 @@ impl Spread {
         Self { distances: vec![f64::INFINITY; tests.len()], tests }
     }
 
-    /// The test farthest from all that were taken, itself none of them; the first of equals.
+    /// The test farthest from all tests that were taken, and not one of them; the first among equals.
     fn farthest(&self) -> Option<usize> {
         let (tests, distances) = (&self.tests, &self.distances);
         let best = (0..tests.len()).rev().max_by(|&a, &b| distances[a].total_cmp(&distances[b]))?;
@@ -64,7 +65,7 @@ impl Spread {
 
     fn take(&mut self, test: usize, distance: impl Fn(usize, usize) -> f64) {
         for (&other, nearest) in self.tests.iter().zip(&mut self.distances) {
-            // One that is taken is marked by a distance that no other has.
+            // A negative distance marks a test that was taken.
             *nearest = if other == test { -1.0 } else { nearest.min(distance(test, other)) };
         }
     }

@@ -1,18 +1,19 @@
-//! A model of which tests fail: which side of 0 the robustness is on, and how sure that is.
+//! A model that predicts which tests fail: it estimates on which side of 0 the robustness is, and how sure that is.
 //!
-//! Probabilistic least-squares classification (Rasmussen and Williams 2006, section 6.5): a Gaussian process goes through
-//! the robustness as it is bent, and the probability of a failure is `Phi(-(slope m + offset) / sqrt(1 + slope^2 v))` for its
-//! mean m and variance v (their equation 6.41), where slope and offset make the verdicts of left-out tests most likely. Which
-//! model is believed is told without the offset; it matters to who asks how many tests fail ([`Verdicts::calibrated`]).
+//! The model is a probabilistic least-squares classification (Rasmussen and Williams 2006, section 6.5). A Gaussian
+//! process goes through the transformed robustness. The probability of a failure is `Phi(-(slope m + offset) / sqrt(1
+//! + slope^2 v))` for its mean m and variance v (their equation 6.41). Slope and offset make the verdicts of left-out
+//! tests most likely. The choice among models ignores the offset, which matters only for the number of tests that
+//! fail ([`Verdicts::calibrated`]).
 //!
-//! How to bend depends on the system under test. Where the robustness goes steadily through 0 it tells more than the
-//! verdict does; where it jumps there, from some centimetres of clearance to metres of missing braking distance, say,
-//! a process takes the jump for short lengths, and the bare verdicts -1 and 1 are the better values. So there are three
-//! bends, and the one by which the left-out tests are told best is believed.
+//! The best transformation (`Bend`) depends on the system under test. If the robustness passes steadily through 0, it
+//! tells more than the verdict does. If it jumps there, say from some centimetres of clearance to metres of missing
+//! braking distance, a process takes the jump for short lengths, and the bare verdicts -1 and 1 are the better
+//! values. So there are three transformations, and the one that predicts left-out tests best is used.
 //!
-//! A left-out test counts as much as the part of the space that is nearer to it than to any other. Otherwise the tests that a
-//! search has put where nothing is sure would make the model doubt what it knows everywhere else (the weights of Shimodaira
-//! 2000 for a sample that is not drawn like what it stands for).
+//! A left-out test counts as much as the part of the space that is nearer to it than to any other test. Otherwise the
+//! tests that a search has put where nothing is sure would make the model doubt what it knows everywhere else (the
+//! weights of Shimodaira 2000 for a sample whose distribution differs from that of its population).
 
 use super::anywhere;
 use super::bend::{Bend, is_failure};
@@ -24,38 +25,38 @@ use super::process::{Kernel, Process};
 use crate::seeded::{Purpose, seeded};
 use rand::Rng;
 
-/// The slopes that are tried, as logarithms: from -2 to 8 in steps of a half.
+/// The slopes to try, as logarithms: from -2 to 8 in steps of a half.
 const LEAST_SLOPE: f64 = -2.0;
 const SLOPES: usize = 21;
 
-/// So many places are looked at together.
+/// The number of places that are looked at together.
 const TOGETHER: usize = 1024;
 
-/// By so many random places it is told how much of the space a test stands for.
+/// The number of random places that determine how much of the space each test represents.
 const PLACES: usize = 1024;
 
-/// How many steps the first fit takes, and those after it: fewer along many axes, where a step takes longer, within these
-/// limits.
+/// The number of steps of the first fit, and the limits for later fits: fewer along many axes, where a step takes
+/// longer.
 const FIRST_FIT: usize = 40;
 const LATER_FIT: (usize, usize) = (4, 8);
 
-/// Where the offset is looked for, on both sides of 0, and how often what remains is cut to two thirds.
+/// The greatest offset, on both sides of 0, and the number of times that its interval is cut to two thirds.
 const MOST_OFFSET: f64 = 4.0;
 const CUTS: usize = 18;
 
-/// Among so many offsets plausible ones are drawn.
+/// The number of offsets from which plausible ones are drawn.
 const OFFSETS: usize = 33;
 
-/// No verdict is less probable than this: one surprise is no end of the world.
+/// The least probability of a verdict, so that a single surprise does not decide everything.
 const LEAST_PROBABLE: f64 = 1e-6;
 
-/// The kernels of the three bends, which every fit goes on from.
+/// The kernels of the three transformations; each fit continues from them.
 pub(super) struct Fitter {
     kernels: [Kernel; 3],
     is_fitted: bool,
 }
 
-/// What a fit found.
+/// The result of a fit.
 pub(super) struct Verdicts {
     pub bend: Bend,
     pub process: Process,
@@ -63,15 +64,15 @@ pub(super) struct Verdicts {
     left_out: LeftOut,
 }
 
-/// What became of tests, and what a process says of each that has not seen it.
+/// The results of tests, and the prediction for each by a process that has not seen it.
 struct LeftOut {
     values: Vec<f64>,
-    /// Mean and deviation.
+    /// The mean and deviation of each prediction.
     told: Vec<(f64, f64)>,
     weights: Vec<f64>,
 }
 
-/// How a value of the process becomes a probability.
+/// The function from a value of the process to a probability.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     slope: f64,
@@ -83,13 +84,13 @@ impl Fitter {
         Self { kernels: [(); 3].map(|()| prior(axes)), is_fitted: false }
     }
 
-    /// The best of the three models; the first places have to tell the lengths. `None` where there is no place.
+    /// Fits the best of the three models. The first places determine the lengths. `None` if there is no place.
     pub(super) fn fit(&mut self, places: &[Vec<f64>], robustness: &[f64]) -> Option<Verdicts> {
         let later = (FIRST_FIT / self.kernels[0].axes.len().max(1)).clamp(LATER_FIT.0, LATER_FIT.1);
         let steps = if self.is_fitted { later } else { FIRST_FIT };
         self.is_fitted = true;
         let bends = Bend::of_sides(robustness);
-        // Of one verdict alone nothing is to be told apart, and where the other may be only the robustness knows.
+        // With one verdict only, there is nothing to classify, and only the robustness shows where the other may be.
         let failures = robustness.iter().filter(|robustness| is_failure(**robustness)).count();
         let bends = &bends[..if (1..robustness.len()).contains(&failures) { 3 } else { 1 }];
         let weights = weights(&self.kernels[0].axes, places);
@@ -110,12 +111,13 @@ impl Fitter {
 }
 
 impl Verdicts {
-    /// A link that left-out tests leave as plausible as the best one, offsets being a priori standard normal.
+    /// A link that, after the left-out tests, is as plausible as the best link. The prior of the offset is standard
+    /// normal.
     pub(super) fn plausible_link(&self, rng: &mut impl Rng) -> Link {
         let offset = |i: usize| MOST_OFFSET * (2.0 * i as f64 / (OFFSETS - 1) as f64 - 1.0);
         let links = slopes().flat_map(|slope| (0..OFFSETS).map(move |i| Link { slope, offset: offset(i) }));
         let links: Vec<Link> = links.collect();
-        // A weight tells of the whole space; together they count as many as there are tests.
+        // A weight measures a part of the whole space; together the weights count as many as there are tests.
         let share = self.left_out.values.len() as f64 / self.left_out.weights.iter().sum::<f64>();
         let log = |link: &Link| share * self.left_out.likelihood(*link) - 0.5 * link.offset * link.offset;
         let logs: Vec<f64> = links.iter().map(log).collect();
@@ -129,16 +131,16 @@ impl Verdicts {
         drawn.map_or(self.link, |drawn| links[drawn])
     }
 
-    /// The probability that a test fails whose robustness, bent, has this mean and deviation.
+    /// The probability that a test fails if its transformed robustness has this mean and deviation.
     pub(super) fn failure(&self, mean: f64, deviation: f64) -> f64 {
         normal_below(-self.link.of(mean, deviation))
     }
 
-    /// The same with the link that makes the verdicts of all these tests most likely, each left out of what the process has
-    /// seen: the first `seen` of them.
+    /// Returns the same model with the link that makes the verdicts of all these tests most likely. The process has
+    /// seen the first `seen` tests; each of them is left out when it is predicted.
     ///
-    /// The process sees the tests that tell most, which are more often at the boundary, and fail more often, than tests do;
-    /// so the others have to say how many fail.
+    /// The process sees the most informative tests, which are at the boundary more often, and fail more often, than
+    /// other tests. So the other tests must show how many fail.
     pub(super) fn calibrated(mut self, places: &[Vec<f64>], robustness: &[f64], seen: usize) -> Self {
         let values: Vec<f64> = robustness.iter().map(|&value| self.bend.apply(value)).collect();
         let mut told = self.process.leave_one_out(&values[..seen]);
@@ -154,19 +156,20 @@ impl Verdicts {
 }
 
 impl Link {
-    /// The probability that a test fails whose robustness, bent, is this.
+    /// The probability that a test with this transformed robustness fails.
     pub(super) fn of_value(self, value: f64) -> f64 {
         normal_below(-self.of(value, 0.0))
     }
 
-    /// What is below 0 is rather a failure: the mean and deviation of a value, in standard deviations of what is to be known.
+    /// The mean of a value in standard deviations of the unknown verdict: below 0 means that a failure is more
+    /// likely.
     fn of(self, mean: f64, deviation: f64) -> f64 {
         let spread = self.slope * deviation;
         (self.slope * mean + self.offset) / (1.0 + spread * spread).sqrt()
     }
 }
 
-/// How much of the space each of the places stands for: how many random ones are nearest to it, and half a one more.
+/// The share of the space that each place represents: the number of random places nearest to it, plus a half.
 fn weights(axes: &[Axis], places: &[Vec<f64>]) -> Vec<f64> {
     let mut rng = seeded(0, Purpose::Draws, 1);
     let mut weights = vec![0.5; places.len()];
@@ -183,7 +186,7 @@ fn weights(axes: &[Axis], places: &[Vec<f64>]) -> Vec<f64> {
     weights
 }
 
-/// The squared distance of two places if it is below a bound; most are far apart along few axes already.
+/// The squared distance of two places if it is below a bound; most places are far apart after a few axes.
 fn squared_distance_below(bound: f64, axes: &[Axis], a: &[f64], b: &[f64]) -> Option<f64> {
     let mut sum = 0.0;
     for (axis, (a, b)) in axes.iter().zip(a.iter().zip(b)) {
@@ -196,13 +199,13 @@ fn squared_distance_below(bound: f64, axes: &[Axis], a: &[f64], b: &[f64]) -> Op
     Some(sum)
 }
 
-/// The slopes that are tried.
+/// The slopes to try.
 fn slopes() -> impl Iterator<Item = f64> {
     (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.5 * i as f64))
 }
 
 impl LeftOut {
-    /// How likely the verdicts are by a link: the logarithm.
+    /// The logarithm of the likelihood of the verdicts with a link.
     fn likelihood(&self, link: Link) -> f64 {
         let one = |(&value, &(mean, deviation)): (&f64, &(f64, f64))| {
             let right = normal_below(1.0_f64.copysign(value) * link.of(mean, deviation));
@@ -211,8 +214,8 @@ impl LeftOut {
         self.values.iter().zip(&self.told).map(one).zip(&self.weights).map(|(log, weight)| weight * log).sum()
     }
 
-    /// By which link they are most likely, and how likely. For each slope `offset` finds the offset, given the likelihood of
-    /// one.
+    /// The link with the greatest likelihood, after that likelihood. For each slope, `offset` chooses the offset,
+    /// given the likelihood of an offset.
     fn best_link(&self, offset: impl Fn(&dyn Fn(f64) -> f64) -> f64) -> (f64, Link) {
         let best = |slope: f64| offset(&|offset| self.likelihood(Link { slope, offset }));
         let links = slopes().map(|slope| Link { slope, offset: best(slope) });
@@ -221,8 +224,8 @@ impl LeftOut {
     }
 }
 
-/// The most probable offset for this logarithm of a likelihood, which has one peak, with a standard normal prior: where the
-/// verdicts are told apart anyhow it stays near 0.
+/// The most probable offset for this logarithm of a likelihood, which has one peak, with a standard normal prior: if
+/// the verdicts are told apart anyway, the offset stays near 0.
 fn best_offset(likelihood: &dyn Fn(f64) -> f64) -> f64 {
     let posterior = |offset: f64| likelihood(offset) - 0.5 * offset * offset;
     let (mut low, mut high) = (-MOST_OFFSET, MOST_OFFSET);

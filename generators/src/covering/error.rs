@@ -1,76 +1,76 @@
-//! Why a covering array cannot be constructed.
+//! Errors of the construction of a covering array.
 
 use paracosm_space::plural;
 use thiserror::Error;
 
-/// Why a covering array cannot be constructed.
+/// The reason why a covering array cannot be constructed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CoveringError {
-    /// There are no sets of k parameters.
-    #[error("k is {k}, expected 1 to {parameters}, the number of discrete parameters")]
+    /// k is 0 or more than the number of parameters.
+    #[error("k is {k}, expected a number from 1 to {parameters}, the number of discrete parameters")]
     Strength {
-        /// The k asked for.
+        /// The requested k.
         k: usize,
-        /// The number of parameters.
+        /// The number of discrete parameters.
         parameters: usize,
     },
-    /// A parameter that no test can have.
-    #[error("parameter {0} has no level")]
+    /// A parameter has no level, so that no test exists.
+    #[error("parameter {0} has no level, expected at least one")]
     NoLevel(usize),
-    /// There are no sets of so many parameters in a group.
-    #[error("group {group} has strength {strength}, expected 1 to {parameters}, the number of its parameters")]
+    /// The strength of a group is 0 or more than the number of its parameters.
+    #[error("group {group} has strength {strength}, expected 1 to {parameters}, the number of the group's parameters")]
     GroupStrength {
-        /// The group's position, from 0.
+        /// The position of the group, from 0.
         group: usize,
-        /// The strength asked for.
+        /// The requested strength of the group.
         strength: usize,
         /// The number of parameters of the group.
         parameters: usize,
     },
-    /// A group with a parameter that does not exist, or with one twice.
-    #[error("group {group} names parameter {found}, expected each once, below {parameters}")]
+    /// A group names a parameter that does not exist, or names a parameter twice.
+    #[error("group {group} names parameter {found}, expected different parameters below {parameters}")]
     GroupMember {
-        /// The group's position, from 0.
+        /// The position of the group, from 0.
         group: usize,
         /// The position of the parameter.
         found: usize,
         /// The number of parameters.
         parameters: usize,
     },
-    /// An existing test with too many or too few levels.
+    /// An existing test has too many or too few levels.
     #[error("test {index} has {}, expected {expected}", plural(*found, "level"))]
     Ragged {
-        /// The test's position, from 0.
+        /// The position of the test, from 0.
         index: usize,
-        /// How many levels it has.
+        /// The number of levels of the test.
         found: usize,
         /// The number of parameters.
         expected: usize,
     },
-    /// A level that the parameter does not have.
-    #[error("test {index}, parameter {parameter}: level {found}, expected one below {levels}")]
+    /// An existing test has a level that the parameter does not have.
+    #[error("test {index}, parameter {parameter}: found level {found}, expected a level below {levels}")]
     Level {
-        /// The test's position, from 0.
+        /// The position of the test, from 0.
         index: usize,
-        /// The parameter's position, from 0.
+        /// The position of the parameter, from 0.
         parameter: usize,
-        /// The level found.
+        /// The level of the test.
         found: usize,
-        /// How many levels the parameter has.
+        /// The number of levels of the parameter.
         levels: usize,
     },
-    /// The construction was given up.
-    #[error("the covering array was not complete in time")]
+    /// The deadline passed before the array was complete.
+    #[error("the covering array was not complete at the deadline; allow more time or lower the strength")]
     OutOfTime,
-    /// More tests than can be run.
-    #[error("at least {rows} tests are needed, more than {}; lower the strength", Self::MOST_ROWS)]
+    /// The array needs more tests than can be run.
+    #[error("the covering array needs at least {rows} tests, more than {}; lower the strength", Self::MOST_ROWS)]
     TooLarge {
-        /// The lower bound.
+        /// The lower bound on the number of tests.
         rows: u128,
     },
 }
 
 impl CoveringError {
-    /// The largest lower bound of an array that is constructed.
+    /// The greatest lower bound for which an array is constructed.
     pub const MOST_ROWS: u128 = 10_000_000;
 }

@@ -1,6 +1,6 @@
 //! Finite fields, as tables.
 
-/// The field with so many elements, numbered from 0 = zero and 1 = one.
+/// The finite field with `order` elements, which are numbered from 0 = zero and 1 = one.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     order: usize,
@@ -9,7 +9,7 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// The field of that order; none if it is no power of a prime.
+    /// Makes the field of this order; `None` if the order is not a power of a prime.
     pub(super) fn new(order: usize) -> Option<Self> {
         let prime = (2..=order).find(|factor| order.is_multiple_of(*factor))?;
         let degree = (1..).find(|&degree| power(prime, degree) >= order)?;
@@ -21,8 +21,8 @@ impl Field {
         let pairs = || (0..order * order).map(|pair| (pair / order, pair % order));
         let sum = |(a, b)| number(&digits(a).zip(digits(b)).map(|(a, b)| (a + b) % prime).collect::<Vec<_>>());
         let sums = pairs().map(sum).collect();
-        // Elements are polynomials over the integers modulo the prime, modulo one of that degree; the first such
-        // modulus without zero divisors is irreducible.
+        // Elements are polynomials over the integers modulo the prime, modulo a polynomial of this degree. The first
+        // such modulus without zero divisors is irreducible.
         let products = (0..order).map(|tail| digits(tail).collect::<Vec<_>>()).find_map(|tail| {
             let product = |(a, b): (usize, usize)| {
                 let mut product = vec![0; 2 * degree];

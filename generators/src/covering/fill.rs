@@ -1,16 +1,16 @@
-//! Levels for the entries that no combination needs.
+//! Chooses levels for the entries that no combination needs.
 //!
-//! They are free, so they are chosen to make the rows differ: each gets the level that stood least often beside
-//! the rest of its row. A prefix of the rows then covers more, and so does the whole of combinations of more
-//! parameters than were asked for.
+//! These entries are free, so they are chosen to make the rows differ: each gets the level that stood least often
+//! beside the rest of its row. The beginning of the list of rows then covers more, and the whole covers more
+//! combinations of higher strength.
 
 use super::rows::{Columns, OPEN, Rows};
 use paracosm_coverage::Deadline;
 
-/// With more levels altogether, the pairs of them are not counted, only the levels.
+/// The greatest number of all levels for which pairs of levels are counted; beyond it only single levels are counted.
 const MOST_LEVELS: usize = 1 << 11;
 
-/// Gives every open entry a level that constraints allow, unless the deadline passes.
+/// Gives every open entry a level that the constraints allow. Stops if the deadline passes.
 pub(super) fn fill(columns: &Columns, rows: &mut Rows, deadline: Deadline) {
     let mut seen = Seen::new(&columns.levels);
     for index in 0..rows.len() {
@@ -31,7 +31,7 @@ pub(super) fn fill(columns: &Columns, rows: &mut Rows, deadline: Deadline) {
     }
 }
 
-/// How often levels, or pairs of them, have been seen.
+/// Counts how often levels, or pairs of levels, have been seen.
 struct Seen {
     first: Vec<usize>,
     all: usize,
@@ -50,7 +50,7 @@ impl Seen {
         Self { first: first.collect(), all, pairs, counts: vec![0; if pairs { all * all } else { all }] }
     }
 
-    /// How often a level stood beside the fixed entries of a row.
+    /// The number of times that a level stood beside the fixed entries of a row.
     fn beside(&self, row: &[u32], column: usize, level: usize) -> u64 {
         let entry = self.first[column] + level;
         if !self.pairs {

@@ -1,15 +1,15 @@
 //! The combinations with a level of the newest column that no row contains yet.
 //!
-//! Growing column by column, an array needs to remember only the combinations of the newest column with the
-//! ones before it. The t - 2 last of the other columns, the *head*, have a mixed-radix number; for each head,
-//! level of the newest column and level of an earlier column there is a bit. Since the levels of all earlier
-//! columns stand side by side, what a row would cover is counted a machine word at a time.
+//! While an array grows column by column, it needs to remember only the combinations of the newest column with
+//! earlier columns. Of the other columns, the last t - 2 are the *head*, whose levels have a mixed-radix number. For
+//! each head, level of the newest column and level of an earlier column there is a bit. Since the levels of all
+//! earlier columns stand side by side, the combinations that a row would cover are counted a machine word at a time.
 
 use super::rows::{Columns, OPEN};
 use paracosm_coverage::Deadline;
 use paracosm_space::rules::Companions;
 
-/// Columns whose combinations of so many are to be covered.
+/// Columns whose combinations of `strength` columns have to be covered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Family {
     /// The columns, in ascending order.
@@ -17,20 +17,20 @@ pub(super) struct Family {
     pub(super) strength: usize,
 }
 
-/// The heads that one choice of columns has.
+/// The heads of one choice of columns.
 #[derive(Debug)]
 struct Block {
     /// The columns, in ascending order.
     head: Vec<usize>,
-    /// Where its bits begin, and how many words each head has for each level.
+    /// The position of the block's bits, and the number of words that each head has for each level.
     begin: usize,
     words: usize,
-    /// How many of its combinations are left.
+    /// The number of combinations of the block that are left.
     left: u64,
 }
 
 impl Block {
-    /// Where the bits of a row's head begin; none where an entry is open.
+    /// The number of a row's head; `None` if an entry of the head is open.
     #[inline(always)]
     fn at(&self, row: &[u32], columns: &Columns) -> Option<usize> {
         let mut head = 0;
@@ -53,19 +53,19 @@ pub(super) struct Front {
     column: usize,
     levels: usize,
     strength: usize,
-    /// The other columns that the family has before the newest.
+    /// The other columns of the family before the newest column.
     others: Vec<usize>,
     first: Vec<usize>,
     blocks: Vec<Block>,
     /// For each block, head and word of bits, a word for each level.
     bits: Vec<u64>,
-    /// How many combinations are left of each level.
+    /// The number of combinations that are left for each level.
     left: Vec<u64>,
 }
 
 impl Front {
-    /// The front of a family at one of its columns; none where there are too few columns before. After the deadline it
-    /// is of no use.
+    /// Makes the front of a family at one of its columns; `None` if there are too few columns before it. After the
+    /// deadline the front is incomplete and must not be used.
     pub(super) fn new(
         columns: &Columns,
         companions: &mut Companions,
@@ -102,7 +102,7 @@ impl Front {
 
     /// Adds the valid combinations of a head.
     fn open(&mut self, columns: &Columns, companions: &mut Companions, head: Vec<usize>) {
-        // Those before the head are the bits; strength 1 has a single bit that every row has.
+        // The bits are the columns before the head. Strength 1 has a single bit, which every row has.
         let mut mask = vec![1u64];
         if self.strength > 1 {
             let end = head.first().copied().unwrap_or(self.column);
@@ -142,12 +142,12 @@ impl Front {
         self.blocks.push(block);
     }
 
-    /// How many combinations with a level are left.
+    /// The number of combinations with a level that are left.
     pub(super) fn left_of(&self, level: usize) -> u64 {
         self.left[level]
     }
 
-    /// The entries of a row that the front asks for, as bits.
+    /// The entries of a row in the columns of the front, as bits.
     #[inline(always)]
     pub(super) fn bits_of(&self, row: &[u32], bits: &mut Bits) {
         bits.clear();
@@ -165,7 +165,7 @@ impl Front {
         }
     }
 
-    /// Adds to `gains` how many combinations a row would cover with each level.
+    /// Adds to `gains` the number of combinations that a row would cover with each level.
     #[inline(always)]
     pub(super) fn gains(&self, columns: &Columns, row: &[u32], bits: &Bits, gains: &mut [u32]) {
         for block in self.blocks.iter().filter(|block| block.left > 0) {
@@ -181,7 +181,7 @@ impl Front {
         }
     }
 
-    /// Takes away what a row covers with its level of the newest column.
+    /// Removes the combinations that a row covers with its level of the newest column.
     #[inline(always)]
     pub(super) fn cover(&mut self, columns: &Columns, row: &[u32], bits: &Bits) {
         let level = row[self.column] as usize;
@@ -202,8 +202,8 @@ impl Front {
         }
     }
 
-    /// The first combination that is left with a level, from a position on: its entries before the newest column
-    /// are put in `entries`, and its position is returned.
+    /// Finds the first combination with a level that is left, from a position on. Puts its entries before the newest
+    /// column into `entries`, and returns its position.
     pub(super) fn next_left(
         &self,
         columns: &Columns,
@@ -243,14 +243,14 @@ impl Front {
     }
 }
 
-/// Where a combination stands in a front.
+/// The position of a combination in a front.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Position {
     block: usize,
     word: usize,
 }
 
-/// The choices of so many of the columns, in lexicographic order.
+/// All choices of `k` of the columns, in lexicographic order.
 pub(super) fn choices(columns: &[usize], k: usize) -> Vec<Vec<usize>> {
     match (k, columns) {
         (0, _) => vec![vec![]],

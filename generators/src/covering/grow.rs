@@ -1,9 +1,9 @@
-//! IPOG: an array grows a column at a time, first to the right, then downwards.
+//! Grows an array by IPOG, a column at a time, first to the right, then downwards.
 //!
-//! Lei, Kacker, Kuhn, Okun, Lawrence, *IPOG/IPOG-D: efficient test generation for multi-way combinatorial
-//! testing*, Software Testing, Verification and Reliability 18, 2008. Each row gets the level of the newest
-//! column with which it covers most; what is left then is put into entries that are still open, and into new
-//! rows. An entry with which nothing new would be covered stays open.
+//! Lei, Kacker, Kuhn, Okun, Lawrence, *IPOG/IPOG-D: efficient test generation for multi-way combinatorial testing*,
+//! Software Testing, Verification and Reliability 18, 2008. Each row gets the level of the newest column with which
+//! it covers most. The combinations that are left are put into entries that are still open, and into new rows. An
+//! entry that would cover nothing new stays open.
 
 use super::front::{Bits, Family, Front, Position};
 use super::open_rows::OpenRows;
@@ -15,14 +15,14 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// With more rows than these, a row may be next that covers half as much as another seems to: rows are looked at
-/// anew some five times less often, for 4 % more of them.
+/// The number of rows beyond which a row may come next if it covers half as much as another seems to. Rows are then
+/// examined some five times less often, for 4 % more rows.
 const HURRY: usize = 4000;
 
-/// With so many rows, all cores look at them first.
+/// The number of rows from which on all cores examine the rows first.
 const ROWS_FOR_ALL_CORES: usize = 5000;
 
-/// What a row gets and then covers.
+/// The level that a row gets, and the number of combinations that it then covers.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Choice {
     gain: u32,
@@ -36,7 +36,7 @@ impl Choice {
     }
 }
 
-/// Grows rows, whose first columns may cover already what they have to, until all families are covered.
+/// Grows rows until all families are covered. The first columns may already be covered.
 pub(super) struct Growth<'a> {
     pub(super) columns: &'a Columns<'a>,
     pub(super) families: &'a [Family],
@@ -45,7 +45,7 @@ pub(super) struct Growth<'a> {
 }
 
 impl Growth<'_> {
-    /// Grows the columns from `begin` on, unless the deadline passes: then the rows are not of use.
+    /// Grows the columns from `begin` on. If the deadline passes, the rows are incomplete and must not be used.
     pub(super) fn grow(&self, rows: &mut Rows, companions: &mut Companions, begin: usize) {
         for column in begin..self.columns.len() {
             let with_column = self.families.iter().filter(|family| family.members.contains(&column));
@@ -59,11 +59,10 @@ impl Growth<'_> {
         }
     }
 
-    /// Gives rows the levels with which they cover most, always the row next that then covers most.
+    /// Gives rows the levels with which they cover most. The next row is always the row that then covers most.
     ///
-    /// What a row would cover only ever falls while others are chosen. So the rows wait by what they would have
-    /// covered when last looked at, and only the first is looked at anew (Minoux, *Accelerated greedy algorithms*,
-    /// 1978).
+    /// The gain of a row never grows while others are chosen. So the rows wait in the order of the gains that they
+    /// had when last examined, and only the first is examined again (Minoux, *Accelerated greedy algorithms*, 1978).
     #[inline(always)]
     fn grow_right(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
         let mut bits: Vec<Bits> = vec![Vec::new(); fronts.len()];
@@ -106,7 +105,7 @@ impl Growth<'_> {
         }
     }
 
-    /// The level with which a row covers most; none if it covers nothing.
+    /// The level with which a row covers most; `None` if it covers nothing.
     #[inline(always)]
     fn choice(
         &self,
@@ -134,7 +133,7 @@ impl Growth<'_> {
         Some(Choice { gain, row: Reverse(index), level })
     }
 
-    /// Puts what is left into open entries and new rows.
+    /// Puts the combinations that are left into open entries and new rows.
     fn grow_down(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
         let mut bits = Vec::new();
         let mut entries = Vec::new();

@@ -1,8 +1,8 @@
 //! Covering arrays: few tests that contain every valid combination of levels of any k parameters.
 //!
-//! The array grows by IPOG, column by column, and keeps entries open as long as nothing needs them. Which
-//! combinations are valid and what can still be completed, [`Rules`] decide exactly. The same request gives the
-//! same array on every machine.
+//! The array grows by IPOG, column by column, and keeps entries open as long as nothing needs them. [`Rules`] decides
+//! exactly which combinations are valid and which rows can still be completed. The same request gives the same array
+//! on every machine.
 //!
 //! ```
 //! use paracosm_space::rules::Rules;
@@ -36,56 +36,56 @@ use paracosm_space::demand::TestKind;
 use paracosm_space::rules::Rules;
 use task::Task;
 
-/// What a covering array has to cover.
+/// A request for a covering array.
 #[derive(Debug, Clone)]
 pub struct CoveringRequest<'a> {
     /// The parameters and the constraints on them.
     pub rules: &'a Rules,
-    /// The kinds of tests, where negative values set them apart: what is covered by tests of one kind is not by those of
-    /// another. None where all tests are of one.
+    /// The kinds of tests, if negative values divide them. Tests of one kind do not cover the combinations of another
+    /// kind. Empty if all tests are of one kind.
     pub kinds: &'a [TestKind],
-    /// Of how many parameters all valid combinations are covered.
+    /// The strength k of the array, which covers all valid combinations of any k parameters.
     pub k: usize,
-    /// Parameters among which combinations of more are covered: their positions, and of how many.
+    /// The groups of parameters that need a higher strength, as positions of the parameters and the strength.
     pub groups: &'a [(Vec<usize>, usize)],
-    /// Tests there are already, a level or nothing yet for each parameter. They come first, completed.
+    /// Existing tests, with a level or `None` for each parameter. They come first in the array, completed.
     pub existing: &'a [Vec<Option<usize>>],
-    /// Where chance starts from.
+    /// The seed of all chance.
     pub seed: u64,
-    /// When the construction is given up.
+    /// The deadline at which the construction is given up.
     pub deadline: Deadline,
 }
 
 impl<'a> CoveringRequest<'a> {
-    /// All valid combinations of `k` parameters, from nothing.
+    /// Makes a request for all valid combinations of `k` parameters, without existing tests.
     pub fn new(rules: &'a Rules, k: usize) -> Self {
         Self { rules, kinds: &[], k, groups: &[], existing: &[], seed: 0, deadline: Deadline::never() }
     }
 }
 
-/// Tests that contain every valid combination that was asked for.
+/// Tests that contain every valid combination that the request demands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CoveringArray {
-    /// The tests, a level for each parameter: the existing ones that can be kept, then new ones. All keep the
+    /// The tests, with a level for each parameter. The existing tests that can be kept come first. All satisfy the
     /// constraints.
     pub rows: Vec<Vec<usize>>,
-    /// How many of the rows existed.
+    /// The number of rows that are existing tests.
     pub kept: usize,
-    /// The positions of existing tests that violate a constraint and so are not among the rows.
+    /// The positions of existing tests that violate a constraint, and so are not among the rows.
     pub invalid: Vec<usize>,
-    /// A number of tests below which nothing covers as much: the largest number of valid combinations that some
-    /// parameters have among themselves, any k or those of a group, or what
-    /// [`fewest_rows`](paracosm_coverage::theory::covering::fewest_rows) proves of parameters that no constraint speaks of.
-    /// Those of several kinds of tests are added up.
+    /// A lower bound on the number of tests that cover as much. It is the largest number of valid combinations that
+    /// any k parameters, or the parameters of a group, have among themselves, or the bound that
+    /// [`fewest_rows`](paracosm_coverage::theory::covering::fewest_rows) proves for parameters without constraints.
+    /// The bounds of several kinds of tests are added up.
     pub lower_bound: u64,
 }
 
 /// Constructs a covering array.
 ///
 /// # Errors
-/// A strength is 0 or more than there are parameters to combine, a parameter has no level, a group names a parameter that does not exist
-/// or one twice, an existing test is none of this space, the array would be too large, or the deadline has passed before
-/// it was complete.
+/// A strength is 0 or more than the number of parameters that it combines, a parameter has no level, a group names a
+/// parameter that does not exist or names a parameter twice, an existing test does not belong to this space, the
+/// array would be too large, or the deadline passed before the array was complete.
 pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, CoveringError> {
     request.check()?;
     let (tasks, invalid) = Task::all(request);
@@ -98,12 +98,12 @@ pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, Coveri
     Ok(CoveringArray { rows, kept, invalid, lower_bound: lower_bound as u64 })
 }
 
-/// The number of tests that all tasks need at least: no test is of two kinds.
+/// The number of tests that all tasks need at least. It is a sum, because no test is of two kinds.
 fn bound(tasks: &[Task]) -> u128 {
     tasks.iter().map(Task::lower_bound).fold(0, u128::saturating_add)
 }
 
-/// The rows of all tasks, in order, from those of each with the number of its existing ones, which come first.
+/// The rows of all tasks, in order. Each part has the rows of a task, the existing ones first, and their number.
 fn joined(tasks: &[Task], parts: Vec<(Vec<Vec<usize>>, usize)>) -> (Vec<Vec<usize>>, usize) {
     let (mut rows, mut new) = (Vec::new(), Vec::new());
     for (mut part, kept) in parts {
@@ -148,20 +148,20 @@ impl CoveringRequest<'_> {
         Ok(())
     }
 
-    /// The number of tests below which nothing covers as much, as [`CoveringArray::lower_bound`] says it, without an
-    /// array; what exceeds `u128` saturates.
+    /// Computes a lower bound on the number of tests, as in [`CoveringArray::lower_bound`], without an array. A
+    /// number beyond `u128` saturates.
     ///
     /// # Errors
-    /// As [`covering_array`], but for the size.
+    /// As [`covering_array`], except for the size.
     pub fn lower_bound(&self) -> Result<u128, CoveringError> {
         self.check()?;
         Ok(bound(&Task::all(self).0))
     }
 
-    /// How many combinations an array has to have; what exceeds `u128` saturates.
+    /// Computes the number of combinations that an array must contain. A number beyond `u128` saturates.
     ///
     /// # Errors
-    /// As [`covering_array`], but for the size.
+    /// As [`covering_array`], except for the size.
     pub fn combinations(&self) -> Result<u128, CoveringError> {
         self.check()?;
         let (tasks, _) = Task::all(self);

@@ -1,19 +1,20 @@
-//! Finding a row that has room for a combination.
+//! Finds a row that has room for a combination.
 //!
-//! For each entry there is a set of the rows that have it, for each column one of the rows in which it is open, a bit
-//! each: the rows with room for a combination are those in either set for all its entries.
+//! For each entry there is a set of the rows that have it, and for each column a set of the rows in which it is open,
+//! with a bit for each row. A row has room for a combination if it is in one of the two sets for each entry of the
+//! combination.
 
 use super::rows::{Columns, OPEN, Rows};
 
-/// How many bits the sets have together at most; rows beyond, the oldest, are full or nearly so.
+/// The greatest number of bits of all sets. Older rows beyond it are left out, because they are full or nearly full.
 const MOST_BITS: usize = 1 << 26;
 
-/// The rows with open entries that have or may get a level in the newest column.
+/// The rows with open entries that have, or may get, a given level in the newest column.
 #[derive(Debug)]
 pub(super) struct OpenRows {
     columns: usize,
     first: Vec<usize>,
-    /// Positions of rows.
+    /// The positions of the rows.
     rows: Vec<usize>,
     /// For each entry, the rows that have it.
     has: Vec<Vec<u64>>,
@@ -56,7 +57,7 @@ impl OpenRows {
         }
     }
 
-    /// Puts a combination into the first row with room, or into a new one; returns the row's position.
+    /// Puts a combination into the first row with room, or into a new row. Returns the row's position.
     pub(super) fn place(&mut self, columns: &Columns, rows: &mut Rows, combination: &[(usize, u32)]) -> usize {
         if let Some(place) = self.find(columns, rows, combination) {
             let index = self.rows[place];
@@ -79,7 +80,7 @@ impl OpenRows {
         rows.len() - 1
     }
 
-    /// The first row with room.
+    /// The first row with room for a combination.
     fn find(&self, columns: &Columns, rows: &Rows, combination: &[(usize, u32)]) -> Option<usize> {
         let sets =
             |&(column, level): &(usize, u32)| (&self.has[self.first[column] + level as usize], &self.open[column]);
@@ -98,7 +99,7 @@ impl OpenRows {
     }
 }
 
-/// Whether a row with a combination put into it can be completed.
+/// Returns `true` if a row can still be completed with a combination put into it.
 fn keeps(columns: &Columns, row: &[u32], combination: &[(usize, u32)]) -> bool {
     let mut groups: Vec<usize> =
         combination.iter().filter(|pair| row[pair.0] == OPEN).filter_map(|pair| columns.group(pair.0)).collect();

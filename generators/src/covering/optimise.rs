@@ -1,4 +1,4 @@
-//! Making an array smaller for as long as there is time.
+//! Makes an array smaller for as long as there is time.
 
 use super::search::{Annealing, Cells};
 use super::symmetric::{Symmetric, symmetric_searches};
@@ -9,23 +9,23 @@ use paracosm_coverage::Deadline;
 use std::sync::Mutex;
 use std::thread;
 
-/// How many steps are taken between looks at the clock.
+/// The number of steps between two looks at the clock.
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
-/// How many cells all searches have together, four bytes each, unless already one has more.
+/// The number of cells of all searches together, four bytes each, unless a single search has more.
 const CELLS_AT_ONCE: usize = 12_000_000;
 
-/// With more cells there is no search for symmetric arrays.
+/// The number of cells beyond which there is no search for symmetric arrays.
 const CELLS_OF_SYMMETRIC: usize = 1_000_000;
 
-/// After how many looks at the clock another kind of symmetry is tried.
+/// The number of looks at the clock after which another kind of symmetry is tried.
 const LOOKS_IN_TURN: usize = 256;
 
 /// Shrinks an array that [`covering_array`](super::covering_array) constructed for the same request, until the
-/// deadline or the lower bound. Existing rows stay. `progress` is told each new size.
+/// deadline or the lower bound. Existing rows stay. `progress` is called with each new size.
 ///
-/// All cores search, each from the best array found so far. What is found depends on the time there is; what is
-/// returned covers as much as the array given, and is never larger.
+/// All cores search, each from the best array found so far. The result depends on the available time. It covers as
+/// much as the given array and is never larger.
 pub fn optimise(
     request: &CoveringRequest,
     array: CoveringArray,
@@ -76,7 +76,7 @@ fn smaller(
         let seed = mix(task.seed ^ mix(chain as u64));
         best.search_rows(|rows| Annealing::new(&task.rules, cells.clone(), rows, kept, seed));
     };
-    // Threads of their own: on a single core, too, the searches share the time.
+    // Uses separate threads, so that the searches share the time on a single core, too.
     thread::scope(|scope| {
         let rows_search = &rows_search;
         for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(1) {
@@ -100,7 +100,7 @@ impl Best<'_> {
         self.rows.lock().expect("no search panics").len()
     }
 
-    /// Whether a search is to go on.
+    /// Returns `true` if a search must go on.
     fn wanted(&self) -> bool {
         !self.deadline.passed() && self.len() > self.goal
     }

@@ -1,19 +1,19 @@
-//! The order of the rows: a campaign that is stopped early has covered as much as possible.
+//! Orders the rows so that a campaign that is stopped early has covered as much as possible.
 //!
-//! Next comes always the row that covers most of what is left. What a row would cover only falls, so rows are
-//! looked at anew only while they lead (Minoux, *Accelerated greedy algorithms*, 1978).
+//! The next row is always the row that covers most of the rest. The gain of a row never grows, so rows are examined
+//! again only while they lead (Minoux, *Accelerated greedy algorithms*, 1978).
 
 use super::task::Task;
 use paracosm_coverage::kwise::KwiseCounter;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How much may be looked at for each family of a task, in choices of parameters for pairs of rows. Where that does not
-/// suffice for combinations of so many levels as the family asks for, the order is by combinations of fewer; with very
-/// many rows it stays as it is.
+/// The limit of the work for each family of a task, in choices of parameters for pairs of rows. If it is too small
+/// for combinations of the family's strength, combinations of fewer levels decide the order. With very many rows the
+/// order stays as it is.
 const MOST_LOOKS: usize = 20_000_000;
 
-/// What the rows of a task cover of all that it asks for.
+/// Counts how much of a task's combinations the rows cover.
 struct Counters(Vec<KwiseCounter>);
 
 impl Counters {
@@ -30,7 +30,7 @@ impl Counters {
         Self(counters.collect())
     }
 
-    /// How many combinations a row would add.
+    /// The number of combinations that a row would add.
     fn gain(&self, row: &[usize]) -> u64 {
         self.0.iter().map(|counter| counter.gain(row).expect("rows are tests of the space")).sum()
     }
@@ -42,7 +42,7 @@ impl Counters {
     }
 }
 
-/// Orders the rows from `kept` on. A row is looked at for the task that it is of.
+/// Orders the rows from `kept` on. Each row is judged by the task that it belongs to.
 pub(super) fn order(tasks: &[Task], rows: Vec<Vec<usize>>, kept: usize) -> Vec<Vec<usize>> {
     let own: Vec<usize> = rows.iter().map(|row| Task::of_row(tasks, row)).collect();
     let mut sizes = vec![0; tasks.len()];

@@ -1,9 +1,9 @@
-//! Orthogonal arrays: every combination of t levels exactly once.
+//! Orthogonal arrays, which contain every combination of t levels exactly once.
 //!
-//! The rows are the polynomials of degree below t over a finite field of q elements, the columns their values at
-//! all points, and their highest coefficient: t columns determine the polynomial (Bush, *Orthogonal arrays of
-//! index unity*, Annals of Mathematical Statistics 23, 1952). Where t is 3 and q even, the middle coefficient is
-//! one more column.
+//! The rows are the polynomials of degree below t over a finite field of q elements. The columns are the polynomials'
+//! values at all points, and their highest coefficient: any t columns determine the polynomial (Bush, *Orthogonal
+//! arrays of index unity*, Annals of Mathematical Statistics 23, 1952). If t is 3 and q is even, the middle
+//! coefficient is another column.
 
 use super::field::Field;
 use super::rows::{Columns, OPEN, Rows};
@@ -11,17 +11,17 @@ use super::rows::{Columns, OPEN, Rows};
 /// The largest field that is tried.
 const LARGEST_FIELD: usize = 64;
 
-/// How many times the rows that t columns need at least an orthogonal array may have to be worth it.
+/// The greatest size of a useful orthogonal array, as a multiple of the rows that t columns need at least.
 const MOST_TIMES: usize = 3;
 
-/// Rows that cover the combinations of t of the first columns, and how many columns these are.
+/// Rows that cover the combinations of t of the first columns, and the number of these columns.
 pub(super) struct Base {
     pub(super) rows: Rows,
     pub(super) columns: usize,
 }
 
-/// The orthogonal arrays that fit the first columns, those of equally many levels, each with more of them than the one before; entries beyond
-/// a column's levels are left open.
+/// The orthogonal arrays that fit the first columns, which have equally many levels. Each array has more of these
+/// columns than the array before. An entry beyond the levels of its column is left open.
 pub(super) fn bases(columns: &Columns, t: usize) -> Vec<Base> {
     let alike = |&column: &usize| columns.group(column).is_none() && columns.levels[column] == columns.levels[0];
     let free = (0..columns.len()).take_while(alike).count();

@@ -1,13 +1,14 @@
-//! Rows whose entries may still be open.
+//! Rows of an array whose entries may still be open.
 
 use paracosm_space::rules::Rules;
 
-/// An entry that no combination needs yet.
+/// The mark of an open entry, which no combination needs yet.
 pub(super) const OPEN: u32 = u32::MAX;
 
 /// The columns of an array: the parameters, those with most levels first.
 ///
-/// Later columns find the rows that the earlier ones need; with the many levels first, these are almost enough.
+/// Later columns find the rows that the earlier columns need. If columns with many levels come first, these rows are
+/// almost enough.
 #[derive(Debug)]
 pub(super) struct Columns<'r> {
     pub(super) rules: &'r Rules,
@@ -42,29 +43,29 @@ impl<'r> Columns<'r> {
         self.rules.group_of(self.order[column])
     }
 
-    /// A row's entries by parameter.
+    /// The levels of a row's entries by parameter; `None` for an open entry.
     fn fixed<'a>(&'a self, row: &'a [u32]) -> impl Fn(usize) -> Option<usize> + 'a {
         |parameter| Some(row[self.column[parameter]]).filter(|&level| level != OPEN).map(|level| level as usize)
     }
 
-    /// Whether the open entries of a row's group can be chosen so that its constraints are kept.
+    /// Returns `true` if the open entries of a row's group can be chosen so that the constraints hold.
     pub(super) fn holds(&self, group: usize, row: &[u32]) -> bool {
         self.rules.holds(group, self.fixed(row))
     }
 
-    /// Which levels an open entry of a row may get; none where it may get any.
+    /// The levels that an open entry of a row may get; `None` if it may get any level.
     pub(super) fn allowed(&self, column: usize, row: &[u32]) -> Option<Vec<bool>> {
         self.group(column)?;
         Some(self.rules.supported_at(self.order[column], self.fixed(row)))
     }
 
-    /// A complete row as levels by parameter.
+    /// The levels of a complete row, by parameter.
     pub(super) fn test(&self, row: &[u32]) -> Vec<usize> {
         self.column.iter().map(|&column| row[column] as usize).collect()
     }
 }
 
-/// Rows of the same length in one piece.
+/// Rows of the same length in one allocation.
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
     columns: usize,

@@ -1,12 +1,12 @@
-//! Arrays that permutations of the levels map to themselves.
+//! Searches for arrays that permutations of the levels map to themselves.
 //!
-//! Where all parameters have the same levels, permute the levels of all of them at once: an array is then made
-//! of a few rows, the *starters*, and their images, and covers everything if among the starters each choice of
-//! parameters shows every *orbit* of combinations (Chateauneuf, Colbourn, Kreher, *Covering arrays of strength
-//! three*, Designs, Codes and Cryptography 16, 1999; Meagher, Stevens, *Group construction of covering arrays*,
-//! Journal of Combinatorial Designs 13, 2005). There are far fewer starters than rows, so the same local search
-//! finds arrays that it would not find row by row. Rows of a single level, with few images, are added where they
-//! come cheaper than a starter.
+//! If all parameters have the same levels, permute the levels of all of them at once. An array then consists of a few
+//! rows, the *starters*, and their images. It covers everything if, for each choice of parameters, the starters show
+//! every *orbit* of combinations (Chateauneuf, Colbourn, Kreher, *Covering arrays of strength three*, Designs, Codes
+//! and Cryptography 16, 1999; Meagher, Stevens, *Group construction of covering arrays*, Journal of Combinatorial
+//! Designs 13, 2005). There are far fewer starters than rows, so that the same local search finds arrays that it
+//! would not find row by row. Rows of a single level, which have few images, are added if they cost less than a
+//! starter.
 
 use super::field::Field;
 use super::search::{Annealing, Cells, Orbits};
@@ -15,7 +15,7 @@ use crate::seeded::mix;
 use paracosm_space::rules::Rules;
 use std::collections::BTreeSet;
 
-/// Permutations of levels that form a group.
+/// A group of permutations of levels.
 type Group = Vec<Vec<usize>>;
 
 /// The largest number of combinations of t levels that is sorted into orbits.
@@ -28,13 +28,13 @@ pub(super) struct Symmetric {
     strength: usize,
     /// The rows of a single level, one of each orbit.
     constant: Vec<Vec<usize>>,
-    /// How many rows these are with their images.
+    /// The number of these rows with their images.
     constants: usize,
     seed: u64,
     search: Option<Annealing>,
 }
 
-/// A search for each group of permutations that suits the model; none where parameters differ.
+/// Makes a search for each suitable group of permutations; none if the parameters differ.
 pub(super) fn symmetric_searches(task: &Task) -> Vec<Symmetric> {
     let levels = task.rules.levels();
     let v = levels[0];
@@ -48,8 +48,8 @@ pub(super) fn symmetric_searches(task: &Task) -> Vec<Symmetric> {
     groups.map(|(i, group)| Symmetric::new(task, strength, group, mix(task.seed ^ mix(i as u64)))).collect()
 }
 
-/// Groups of permutations of `v` levels: the shifts of all levels or of all but one or two, and the affine maps
-/// where the levels, or all but one, are a field.
+/// Groups of permutations of `v` levels: the shifts of all levels or of all but one or two, and the affine maps if
+/// all levels, or all but one, are a field.
 fn groups(v: usize) -> Vec<Group> {
     let with_fixed = |permutation: Vec<usize>| {
         let moved = permutation.len();
@@ -106,7 +106,8 @@ impl Symmetric {
         Self { group, rules: task.rules.clone(), strength, constant, constants, seed, search: None }
     }
 
-    /// Drops starters, or begins with as many, that the array is smaller than `size`; false if that is impossible.
+    /// Drops starters until the array is smaller than `size`, or begins with so few. Returns `false` if that is
+    /// impossible.
     pub(super) fn shrink_below(&mut self, size: usize) -> bool {
         let starters = size.saturating_sub(self.constants + 1) / self.group.len();
         let goal = self.constant.len() + starters;
@@ -125,7 +126,7 @@ impl Symmetric {
         starters > 0
     }
 
-    /// Takes so many steps; the rows of an array if one is found.
+    /// Takes `steps` steps. Returns the rows of an array if one is found.
     pub(super) fn steps(&mut self, steps: usize) -> Option<Vec<Vec<usize>>> {
         let search = self.search.as_mut()?;
         search.steps(steps);

@@ -1,4 +1,4 @@
-//! What tests of one kind have to cover, and the array that does it.
+//! The combinations that tests of one kind have to cover, and the array that covers them.
 
 use super::front::Family;
 use super::grow::Growth;
@@ -10,20 +10,20 @@ use paracosm_coverage::theory::covering::fewest_rows;
 use paracosm_space::demand::TestKind;
 use paracosm_space::rules::{Companions, Rules};
 
-/// With so many rows, only one way to begin is tried.
+/// The number of rows beyond which only one way to begin is tried.
 const MANY_ROWS: usize = 500;
 
-/// The work of a step beside its visits of cells and its look at the rows.
+/// The work of a step apart from its visits of cells and its examination of the rows.
 const STEP_WORK: usize = 300;
 
 /// The work of polishing, in visits of cells: well below 0.1 s.
 const POLISH_WORK: usize = 3_800_000;
 
-/// The part of a request that tests of one kind answer.
+/// The part of a request that falls to tests of one kind.
 #[derive(Debug)]
 pub(super) struct Task<'a> {
     pub(super) rules: Rules,
-    /// Parameters in ascending order, and of how many of them all valid combinations are covered.
+    /// Parameters in ascending order, and the strength at which their valid combinations are covered.
     pub(super) families: Vec<(Vec<usize>, usize)>,
     /// The existing tests of this kind, which can be completed.
     pub(super) existing: Vec<&'a [Option<usize>]>,
@@ -31,7 +31,7 @@ pub(super) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// The tasks of a request, and the positions of existing tests that are of no kind.
+    /// The tasks of a request, and the positions of existing tests that fit no kind.
     pub(super) fn all(request: &CoveringRequest<'a>) -> (Vec<Self>, Vec<usize>) {
         let whole = [TestKind::of(request.rules)];
         let kinds = if request.kinds.is_empty() { &whole } else { request.kinds };
@@ -49,19 +49,19 @@ impl<'a> Task<'a> {
         (tasks, invalid)
     }
 
-    /// Which of the tasks of one request a row is of.
+    /// The position of the task that a row belongs to.
     pub(super) fn of_row(tasks: &[Self], row: &[usize]) -> usize {
         tasks.iter().position(|task| task.rules.allows(row)).expect("every row is of some kind")
     }
 
-    /// The task of a kind. Groups that combine no more than all parameters do add nothing.
+    /// The task of a kind. A group whose strength is at most that of all parameters adds nothing.
     fn of(request: &CoveringRequest, kind: &TestKind) -> Self {
         let all: Vec<usize> = (0..request.rules.levels().len()).collect();
         let groups = request.groups.iter().filter(|(_, strength)| *strength > request.k);
         let asked = std::iter::once((&all, request.k)).chain(groups.map(|(members, strength)| (members, *strength)));
         let shares = asked.filter_map(|(members, strength)| kind.share(members, strength));
         let families = shares.map(|(mut members, strength)| match kind.negative() {
-            // The negative value with nothing beside it: that value itself.
+            // The negative value without other values: only that value is demanded.
             Some((own, _)) if strength == 0 => (vec![own], 1),
             _ => {
                 members.sort_unstable();
@@ -72,8 +72,8 @@ impl<'a> Task<'a> {
         Self { rules, families, existing: Vec::new(), seed: request.seed }
     }
 
-    /// The largest number of valid combinations that some parameters have among themselves, or what theory proves of those
-    /// that no constraint speaks of.
+    /// The largest number of valid combinations that parameters of a family have among themselves, or the bound that
+    /// theory proves for the parameters without constraints, if it is larger.
     pub(super) fn lower_bound(&self) -> u128 {
         let needed = |(members, strength): &(Vec<usize>, usize)| {
             let free = members.iter().filter(|&&member| self.rules.group_of(member).is_none());
@@ -90,18 +90,18 @@ impl<'a> Task<'a> {
         valid.fold(0, u128::saturating_add)
     }
 
-    /// What is to be covered, numbered; none where there is too much of it.
+    /// The numbered cells that have to be covered; `None` if there are too many.
     pub(super) fn cells(&self) -> Option<Vec<Cells>> {
         let numbered = |(members, strength): &(Vec<usize>, usize)| Cells::new(self.rules.levels(), members, *strength);
         self.families.iter().map(numbered).collect()
     }
 
-    /// Rows that cover everything, the existing ones first.
+    /// Makes rows that cover everything, the existing rows first.
     ///
     /// # Errors
-    /// The deadline has passed before they did.
+    /// The deadline passed before the rows were complete.
     pub(super) fn rows(&self, deadline: Deadline) -> Result<Vec<Vec<usize>>, CoveringError> {
-        // What is past the deadline leaves its work unfinished.
+        // After the deadline, functions leave their work unfinished.
         let in_time = || if deadline.passed() { Err(CoveringError::OutOfTime) } else { Ok(()) };
         let columns = Columns::new(&self.rules);
         let families = self.families.iter().map(|(members, strength)| {
@@ -133,7 +133,7 @@ fn grown(growth: &Growth, existing: Rows, companions: &mut Companions) -> Rows {
     if existing.len() == 0 && growth.families.len() == 1 {
         bases = orthogonal::bases(growth.columns, growth.families[0].strength);
     }
-    // With many rows the widest serves best.
+    // With many rows the widest array is the best beginning.
     if let Some(base) = bases.pop_if(|base| base.rows.len() > MANY_ROWS) {
         let mut rows = base.rows;
         growth.grow(&mut rows, companions, base.columns);
@@ -149,8 +149,8 @@ fn grown(growth: &Growth, existing: Rows, companions: &mut Companions) -> Rows {
     grown.min_by_key(Rows::len).expect("there is one way to begin")
 }
 
-/// Shrinks rows with a short search by the rules of [`optimise`](super::optimise), the same on every machine. The work is bounded;
-/// arrays for which it would not suffice stay as they are.
+/// Shrinks rows with a short search by the rules of [`optimise`](super::optimise), the same on every machine. The
+/// work is bounded; an array that needs more work stays as it is.
 fn polish(task: &Task, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
     let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
     let start: usize = cells.iter().map(|cells| cells.in_row() * rows.len()).sum();

@@ -46,7 +46,7 @@ impl Strategy {
     /// Points that each break the largest empty boxes.
     pub const GREEDY: Self = Self::of(&Descriptor {
         name: "greedy",
-        about: "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
+        about: "puts every test into the largest holes: the lowest dispersion, for some milliseconds a test",
         dims: 1..=MOST_DIMS,
         look: Look::filled(0x00_0000, MarkShape::Triangle),
         method: Method(MethodKind::Holes),
@@ -167,7 +167,7 @@ mod tests {
         dispersion(&PointSet::new(dims, points).unwrap(), Deadline::never()).volume.lower
     }
 
-    /// The dispersion over that of Halton's points.
+    /// The dispersion, divided by that of Halton's points.
     fn ratio(dims: usize, seed: u64, n: usize) -> f64 {
         let space = Space::unit_cube(dims);
         let mut halton = Strategy::HALTON.build(&Request::new(&space, n)).unwrap();

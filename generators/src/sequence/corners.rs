@@ -8,10 +8,10 @@ use super::uniform::Uniform;
 use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// Independent random corners of the cube, which repeat: a baseline for searches.
+    /// Independent random corners of the cube, which repeat, as a baseline for searches.
     pub const RANDOM_CORNERS: Self = Self::of(&Descriptor {
         name: "random-corners",
-        about: "every parameter at a random end: the control that a search for failures should beat",
+        about: "every parameter at a random end: the baseline that a search for failures should beat",
         dims: ANY,
         look: Look::hollow(0x99_9999, MarkShape::Triangle),
         method: Method(MethodKind::Sequence(Endless {

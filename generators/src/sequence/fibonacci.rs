@@ -17,7 +17,7 @@ impl Strategy {
     /// The Fibonacci lattice in two dimensions; a seed shifts it.
     pub const FIBONACCI: Self = Self::of(&Descriptor {
         name: "fibonacci",
-        about: "the most even lattice for just two parameters, by exactly the budget of tests",
+        about: "the most even lattice for exactly two parameters, made for exactly the budget",
         dims: 2..=2,
         look: Look::hollow(0x8c_510a, MarkShape::Tip),
         method: Method(MethodKind::Sets {

@@ -20,7 +20,7 @@ impl Strategy {
     /// The Halton sequence with random permutations of its digits.
     pub const HALTON_SCRAMBLED: Self = Self::of(&Descriptor {
         name: "halton-scrambled",
-        about: "halton with random digits: without its stripes in ten parameters and more",
+        about: "halton with random digits: avoids halton's stripes in ten parameters and more",
         dims: 1..=MOST_DIMS,
         look: Look::filled(0x56_b4e9, MarkShape::Tip),
         method: Method(MethodKind::Sequence(Endless {

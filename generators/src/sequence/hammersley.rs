@@ -15,7 +15,7 @@ impl Strategy {
     /// The Hammersley set; a seed shifts it.
     pub const HAMMERSLEY: Self = Self::of(&Descriptor {
         name: "hammersley",
-        about: "halton with one axis evenly spaced: more even than halton, by exactly the budget",
+        about: "halton with one axis evenly spaced: more even than halton, but made for exactly the budget",
         dims: ANY,
         look: Look::filled(0xcc_79a7, MarkShape::Triangle),
         method: Method(MethodKind::Sets {

@@ -19,7 +19,7 @@ impl Strategy {
     /// A random Latin hypercube.
     pub const LHS: Self = Self::of(&Descriptor {
         name: "lhs",
-        about: "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
+        about: "Latin hypercube: covers each single parameter evenly, made for exactly the budget",
         dims: ANY,
         look: Look::filled(0x99_9999, MarkShape::Square),
         method: Method(MethodKind::Sets {
@@ -33,7 +33,7 @@ impl Strategy {
     /// A Latin hypercube whose points are at the centres of their cells.
     pub const LHS_CENTRED: Self = Self::of(&Descriptor {
         name: "lhs-centred",
-        about: "Latin hypercube with tests in the middle of their cells: no two close on any axis",
+        about: "Latin hypercube with tests in the middle of their cells: no two tests are close on any axis",
         dims: ANY,
         look: Look::filled(0x99_9999, MarkShape::Diamond),
         method: Method(MethodKind::Sets {

@@ -151,7 +151,7 @@ struct Sets {
     strategy: Strategy,
     dims: usize,
     seed: u64,
-    /// The sequence of which every row has a block that no other row uses.
+    /// The sequence, in which every row has its own block.
     plain: Arc<dyn Sequence>,
     first: u64,
     block: u64,

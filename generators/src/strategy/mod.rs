@@ -14,8 +14,8 @@ use paracosm_space::rules::Rules;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-/// A method that chooses tests: a handle to the [`Descriptor`] of a strategy. Two strategies with the same name are
-/// equal.
+/// A method that chooses tests, as a handle to the [`Descriptor`] of a strategy. Two strategies with the same name
+/// are equal.
 #[derive(Clone, Copy)]
 pub struct Strategy(&'static Descriptor);
 
@@ -24,7 +24,7 @@ pub struct Strategy(&'static Descriptor);
 pub struct Descriptor {
     /// The name by which users ask for the strategy. No two strategies have the same name.
     pub name: &'static str,
-    /// When to use the strategy, in one line.
+    /// The use of the strategy, in one line.
     pub about: &'static str,
     /// The numbers of continuous coordinates that the strategy covers, if the space has continuous coordinates.
     pub dims: RangeInclusive<usize>,

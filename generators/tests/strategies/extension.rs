@@ -97,7 +97,7 @@ fn what_cannot_be_extended_or_aimed_is_refused_by_name() {
         ),
         (
             "k-wise".parse::<Aim>().expect_err("no aim").to_string(),
-            "greedy cannot aim at `k-wise`; it can at dispersion and k-wise-dispersion",
+            "greedy cannot aim at `k-wise`; it can aim at dispersion and k-wise-dispersion",
         ),
     ];
     for (found, expected) in cases {

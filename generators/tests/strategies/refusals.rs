@@ -100,5 +100,8 @@ fn names_are_read_back_and_unknown_ones_meet_a_suggestion() {
     assert_eq!(error("haltom"), "no strategy is called `haltom` (did you mean `halton`?)");
     assert_eq!(error("zzz"), "no strategy is called `zzz`");
     let family = "crss".parse::<DiscreteFamily>().expect_err("an unknown name").to_string();
-    assert_eq!(family, "no discrete family is called `crss` (did you mean `cross`?); there are ipog, random and cross");
+    assert_eq!(
+        family,
+        "no discrete family is called `crss` (did you mean `cross`?); the families are ipog, random and cross"
+    );
 }

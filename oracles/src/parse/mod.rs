@@ -157,7 +157,7 @@ impl Parser<'_> {
         if is_reserved(previous) || !value {
             return None;
         }
-        nearest(previous, WORDS).map(|word| format!("did you mean `{word}` before it?"))
+        nearest(previous, WORDS).map(|word| format!("did you mean `{word}` instead of `{previous}`?"))
     }
 
     /// Parses a value whose operators bind at least as strongly as `least`.
@@ -186,7 +186,7 @@ impl Parser<'_> {
     }
 
     fn too_deep(&self) -> ParseError {
-        self.refuse(&format!("a formula nested no deeper than {DEEPEST}"), None)
+        self.refuse(&format!("a formula with at most {DEEPEST} levels of nesting"), None)
     }
 
     /// Returns the depth of a value that joins two parts of these depths.
@@ -246,7 +246,7 @@ impl Parser<'_> {
         match value {
             Value::Number(number, depth) => Ok((number, depth)),
             Value::Formula(formula, _) => {
-                let help = format!("`{formula}` is true or false and no number");
+                let help = format!("`{formula}` is true or false, not a number");
                 Err(self.refuse("an operator between formulas or the end", Some(help)))
             }
         }
@@ -321,7 +321,7 @@ impl Parser<'_> {
             let near = nearest(&name, signals.iter().copied());
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!("its signals are {}", signals.join(", ")),
+                None => format!("the signals of the trace are {}", signals.join(", ")),
             };
             return Err(self.refuse("a signal of the trace", Some(help)));
         }
@@ -368,7 +368,7 @@ impl Parser<'_> {
         let interval = Interval { start, end, outward };
         if !interval.is_valid() {
             self.at = at;
-            return Err(self.refuse(&format!("a time no earlier than {start}"), None));
+            return Err(self.refuse(&format!("a time of at least {start} s"), None));
         }
         self.expect("]")?;
         Ok(interval)
@@ -388,5 +388,5 @@ impl Parser<'_> {
 }
 
 fn quotes(word: &str) -> String {
-    format!("`{word}` is a word of the language; a signal of that name stands in quotes")
+    format!("`{word}` is a word of the language; write a signal of this name in quotes")
 }

@@ -90,13 +90,13 @@ fn token(text: &str, first: char, column: usize) -> Result<(Token, usize), Parse
             column,
             found: format!("`{foreign}`"),
             expected: format!("`{ours}`"),
-            help: Some("that is how it is written here".to_owned()),
+            help: Some("formulas use this operator".to_owned()),
         }),
         (None, None) => Err(ParseError {
             column,
             found: format!("`{}`", first.escape_debug()),
             expected: "a formula".to_owned(),
-            help: Some("names with other characters than letters, digits, `_` and `.` stand in quotes".to_owned()),
+            help: Some("write names with characters other than letters, digits, `_` and `.` in quotes".to_owned()),
         }),
     }
 }
@@ -147,7 +147,7 @@ fn quoted(text: &str, mark: char, column: usize) -> Result<(Token, usize), Parse
     }
     Err(ParseError {
         column,
-        found: "a name without an end".to_owned(),
+        found: "a name without a closing quotation mark".to_owned(),
         expected: format!("a closing `{mark}`"),
         help: None,
     })

@@ -38,8 +38,8 @@ impl Curve {
         curve
     }
 
-    /// Appends what the values between two instants come to: one piece, or what is found on both sides of where the lines
-    /// at the two ends meet.
+    /// Appends what the values between two instants come to: one piece, or what is found on both sides of where the
+    /// lines at the two ends meet.
     fn discover(&mut self, value: &impl Fn(f64) -> f64, [from, to]: [f64; 2], depth: usize) {
         let at = |share: f64| from + (to - from) * share;
         let line = |a: f64, b: f64| {

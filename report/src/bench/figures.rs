@@ -44,7 +44,7 @@ fn survival(benched: &Benched, scenario: &str) -> Survivals {
             cross: None,
         },
         axes: ["tests".into(), "share of runs without a failure".into()],
-        numbers: "runs without a failure after so many tests".into(),
+        numbers: "runs that are without a failure after this number of tests".into(),
         horizon: budget as f64,
         curves: ranked(benched, scenario, rank).into_iter().map(curve).collect(),
     }
@@ -74,7 +74,7 @@ fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
             cross: None,
         },
         x: "dispersion: volume of the largest box without a test".into(),
-        y: "recall: share of where tests fail that the run's tests tell".into(),
+        y: "recall: share of the failing region that the run's tests predict".into(),
         range,
         series: all,
     })

@@ -48,7 +48,7 @@ fn first_failures(benched: &Benched, text: &mut String, scenario: &str) {
         let (strategy, of) = (cell.strategy, cell.runs);
         let _ = writeln!(
             text,
-            "  {strategy}: {} of {of} runs had nothing more to test, and no failure to find; they count as {budget} tests",
+            "  {strategy}: {} of {of} runs tried every test that the strategy can propose and found no failure; each of these runs counts as {budget} tests",
             cell.exhausted
         );
     }
@@ -89,7 +89,7 @@ fn after_all(benched: &Benched, text: &mut String, scenario: &str) {
 }
 
 fn over_all(benched: &Benched, text: &mut String) {
-    text.push_str("restricted means over those of the best single strategy\n");
+    text.push_str("restricted means, divided by the restricted mean of the best single strategy\n");
     let _ = writeln!(text, "  {:<17}{:>8}  {:<32}{:>15}", "strategy", "worst", "on", "geometric mean");
     for standing in &benched.standings {
         let (worst, mean) = (format!("{:.2}", standing.worst), format!("{:.2}", standing.geometric_mean));

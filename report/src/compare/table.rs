@@ -41,7 +41,7 @@ fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) 
         }
         let slope = compared.slope(measure, dims, strategy).map_or("-".into(), |slope| format!("{:.2}", slope.slope));
         let versus = compared.cell(measure, dims, most, strategy).and_then(|cell| cell.versus.as_ref());
-        let none = if strategy == compared.comparison.baseline { "the baseline" } else { "no order known" };
+        let none = if strategy == compared.comparison.baseline { "the baseline" } else { "order unknown" };
         let versus = versus.map_or(none.into(), |versus| {
             let [low, high] = versus.interval.map(|end| format!("{end:.3}"));
             let ratio = format!("{:.3} ({low} to {high})", versus.ratio);
@@ -50,7 +50,8 @@ fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) 
         let _ = writeln!(text, "{}", format!("{slope:>8}   {versus}").trim_end());
     }
     if cut_short {
-        let _ = writeln!(text, "  * cut short by the time limit: the lower ends of brackets");
+        let _ =
+            writeln!(text, "  * cut short by the time limit: the value is the median of the lower ends of brackets");
     }
     text.push('\n');
 }

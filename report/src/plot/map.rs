@@ -124,8 +124,8 @@ impl FailureMap {
         let others = self.others.join(", ");
         match (self.others.is_empty(), &self.estimate) {
             (true, _) => self.note.clone(),
-            (false, None) => format!("{}; not shown, but varied too: {others}", self.note),
-            (false, Some(_)) => format!("{}; varied too, and averaged over: {others}", self.note),
+            (false, None) => format!("{}; these coordinates vary too, but are not shown: {others}", self.note),
+            (false, Some(_)) => format!("{}; averaged over the coordinates that vary too: {others}", self.note),
         }
     }
 

@@ -25,10 +25,10 @@ pub enum CameraFileFlaw {
     #[error("{}", .0.message())]
     Syntax(toml::de::Error),
     /// The file describes no camera.
-    #[error("found no camera, expected a table [camera.NAME]")]
+    #[error("the file describes no camera, expected at least one table [camera.NAME]")]
     NoCamera,
     /// A key at the top level of the file is unknown.
-    #[error("there is no key `{key}`, expected `seed` or tables [camera.NAME]{}", did_you_mean(.nearest))]
+    #[error("unknown key `{key}` in a file of cameras, expected `seed` or tables [camera.NAME]{}", did_you_mean(.nearest))]
     TopKey {
         /// The unknown key.
         key: String,
@@ -36,7 +36,7 @@ pub enum CameraFileFlaw {
         nearest: Option<&'static str>,
     },
     /// The name of a camera is not valid as the name of a folder on every system.
-    #[error("camera `{camera}`: expected a name of letters, digits, - and _, which becomes that of a folder")]
+    #[error("camera `{camera}`: expected a name of letters, digits, - and _, because a folder gets the same name")]
     Name {
         /// The name of the camera.
         camera: String,
@@ -224,10 +224,16 @@ impl Reader<'_> {
             return Err(self.flaw(value, &what, &format!("a number{unit}, or a range such as \"1..2\"")));
         };
         if ALWAYS_THE_SAME.contains(&setting.key) {
-            return Err(self.flaw(value, &what, &format!("a number{unit}: it cannot vary from test to test")));
+            return Err(self.flaw(
+                value,
+                &what,
+                &format!("one number{unit}, because this setting cannot vary from test to test"),
+            ));
         }
         domain(range).map(Given::Varied).ok_or_else(|| {
-            let expected = format!("\"LO..HI\" or \"A,B,C\", numbers{unit}, the lower end first and no number twice");
+            let expected = format!(
+                "\"LO..HI\" with the lower number first, or \"A,B,C\" with no number twice; all are numbers{unit}"
+            );
             self.flaw(value, &what, &expected)
         })
     }
@@ -241,7 +247,7 @@ impl Reader<'_> {
             self.flaw(
                 value,
                 &format!("camera `{camera}`: `{RESOLUTION}`"),
-                "whole numbers of pixels across and down, such as [640, 480]",
+                "two whole numbers, the width and the height in pixels, such as [640, 480]",
             )
         })
     }
@@ -259,7 +265,7 @@ fn is_required(key: &str) -> bool {
 /// Returns the meaning of a key, with an example.
 fn expected(key: &str) -> String {
     if key == RESOLUTION {
-        return format!("pixels across and down, such as `{RESOLUTION} = [640, 480]`");
+        return format!("width and height in pixels, such as `{RESOLUTION} = [640, 480]`");
     }
     let settings: Vec<_> = camera_settings().iter().filter(|setting| setting.key == key).collect();
     let about: Vec<_> = settings.iter().map(|setting| setting.about).collect();

@@ -226,7 +226,7 @@ impl Clip {
 
     /// Fails with the reason why there is nothing to see.
     fn nothing(&self, film: &Film, missing: &mut Missing<'_>) -> Result<(), Error> {
-        let thing = film.shots[0].first().map(|_| "it is inside something at all times".to_owned());
+        let thing = film.shots[0].first().map(|_| "the camera is inside something at all times".to_owned());
         let why = thing.or_else(|| missing.notes().into_iter().next()).unwrap_or_default();
         Err(self.failed(NothingSeen { why }.into()))
     }

@@ -65,10 +65,10 @@ const NAMES: [&str; 5] = ["rgb", "semantic", "depth", "instance", "boxes"];
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OutputsFlaw {
     /// The list is empty.
-    #[error("found no output, expected some of {}", NAMES.join(", "))]
+    #[error("the list of outputs is empty, expected some of {}", NAMES.join(", "))]
     Nothing,
     /// An output has an unknown name.
-    #[error("there is no output `{name}`, expected some of {}{}", NAMES.join(", "), did_you_mean(.nearest))]
+    #[error("unknown output `{name}`, expected some of {}{}", NAMES.join(", "), did_you_mean(.nearest))]
     Unknown {
         /// The unknown name.
         name: String,
@@ -80,7 +80,7 @@ pub enum OutputsFlaw {
 /// The folder holds a recording with other cameras, outputs or colours, so that the recording cannot be continued.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "{} holds a recording with other cameras, outputs or colours; repeat the command that began it, or write elsewhere \
+    "{} holds a recording with other cameras, outputs or colours; repeat the command that began the recording, or choose another folder \
      with --out", path.display()
 )]
 pub struct OtherRecording {

@@ -88,7 +88,9 @@ impl Notes {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FilmFlaw {
     /// The test ended with an error, or its world cannot be built.
-    #[error("test {index} ended as {verdict}, so that there is nothing to see")]
+    #[error(
+        "test {index} ended as {verdict}, so there is nothing to film; choose a test that ended as pass, fail or inconclusive"
+    )]
     Nothing {
         /// The index of the test.
         index: usize,
@@ -96,7 +98,9 @@ pub enum FilmFlaw {
         verdict: Verdict,
     },
     /// The run differs from the run that was logged.
-    #[error("test {index} is not the one that was logged: its trace has another hash")]
+    #[error(
+        "test {index} runs differently now than when it was logged: its trace has another hash; use the same software and the same driver as the campaign"
+    )]
     Another {
         /// The index of the test.
         index: usize,
@@ -163,7 +167,7 @@ impl Film {
         Self { shots: self.shots.iter().map(sample).collect(), ..self.clone() }
     }
 
-    /// Paints all cars, trucks, bicycles and pedestrians except the car under test in random colours. The colours
+    /// Paints all cars, trucks, bicycles and pedestrians except the ego vehicle in random colours. The colours
     /// follow from the seed and the test. They should not matter to a driver.
     pub fn repaint(&mut self, seed: u64, trial: usize) {
         let painted = |class| matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian);

@@ -36,7 +36,7 @@ impl<'a> Missing<'a> {
         let (name, CameraSpec { dropped, latency, .. }) = self.camera;
         if self.shots == 0 {
             let why = format!(
-                "each was lost (`dropped` is {dropped}) or would have come too late (`latency` is {latency} s)"
+                "every image was lost (`dropped` is {dropped}) or would have come too late (`latency` is {latency} s)"
             );
             return vec![format!("camera `{name}` has no image: {why}")];
         }

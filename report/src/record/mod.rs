@@ -1,4 +1,4 @@
-//! Camera recordings: what the cameras on the car under test see in a test, as films and as labelled data sets.
+//! Camera recordings: what the cameras on the ego vehicle see in a test, as films and as labelled data sets.
 //!
 //! A test is run, and a [`Film`] keeps the state of the world at each exposure of its cameras; a [`Projector`] draws
 //! these moments afterwards, many at once. The driver does not see these images, so nothing is lost by drawing them

@@ -30,7 +30,7 @@ impl ConstraintError {
 #[non_exhaustive]
 pub enum ConstraintFlaw {
     /// Text that begins like a number is not a finite number.
-    #[error("found `{written}`, expected a number; a name like it stands in brackets")]
+    #[error("found `{written}`, expected a finite number; write a name that begins like a number in brackets")]
     NoNumber {
         /// The text as it is written.
         written: String,
@@ -54,7 +54,7 @@ pub enum ConstraintFlaw {
     },
     /// A character belongs neither to this language nor to another known language.
     #[error(
-        "found `{sign}`, which is no sign of the language; names with other signs than letters, digits, `_` and `.` \
+        "found `{sign}`, which has no meaning here; names with other characters than letters, digits, `_` and `.` \
          stand in brackets: [road surface]"
     )]
     UnknownSign {
@@ -75,13 +75,13 @@ pub enum ConstraintFlaw {
     #[error("comparisons do not chain: join two of them with `and`")]
     Chained,
     /// A closing parenthesis has no opening parenthesis.
-    #[error("found `)`, which closes nothing")]
+    #[error("found `)` without an opening `(`")]
     ClosesNothing,
     /// An opening parenthesis has no closing parenthesis.
-    #[error("the `(` here is never closed")]
+    #[error("the `(` here has no closing `)`")]
     NeverClosed,
     /// Parentheses, `not` and `implies` are nested too deeply.
-    #[error("the constraint is nested more than {most} deep")]
+    #[error("the constraint has more than {most} levels of nesting; divide it into several constraints")]
     TooDeep {
         /// The greatest depth of nesting.
         most: usize,
@@ -93,7 +93,7 @@ pub enum ConstraintFlaw {
         found: String,
     },
     /// Both sides of a comparison are values.
-    #[error("found values on both sides, expected a parameter on one of them")]
+    #[error("found values on both sides of the comparison, expected a parameter on one side")]
     OnlyValues,
     /// No parameter has the given name.
     #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
@@ -116,7 +116,7 @@ pub enum ConstraintFlaw {
         name: String,
     },
     /// A name cannot be a parameter, but it is a level of the parameter on the other side.
-    #[error("{flaw}; the level of `{}` is written {}", Name(.parameter), Written(.level))]
+    #[error("{flaw}; to compare with the level of `{}`, write {}", Name(.parameter), Written(.level))]
     Level {
         /// The reason why the name cannot be a parameter.
         flaw: Box<ConstraintFlaw>,
@@ -126,11 +126,11 @@ pub enum ConstraintFlaw {
         level: Value,
     },
     /// The parameter never takes this value.
-    #[error("`{}` is never {}, expected one of {}{}", Name(.parameter), Written(.value), listed(.levels), hint(.meant))]
+    #[error("`{}` never has the value {}, expected one of {}{}", Name(.parameter), Written(.value), listed(.levels), hint(.meant))]
     Never {
         /// The name of the parameter.
         parameter: String,
-        /// The value.
+        /// The value that the parameter never takes.
         value: Value,
         /// All levels of the parameter.
         levels: Vec<Value>,
@@ -163,8 +163,8 @@ pub enum ConstraintFlaw {
     },
     /// The constraint needs too many clauses, or clauses that are too large.
     #[error(
-        "the constraint takes too many clauses, for it chooses between too many combinations; write its parts that are \
-         joined by `and` as constraints of their own, or add a parameter that says which of its alternatives holds"
+        "the constraint needs too many clauses, since it combines too many alternatives; write its parts that are \
+         joined by `and` as separate constraints, or add a parameter that says which alternative holds"
     )]
     TooManyClauses,
 }

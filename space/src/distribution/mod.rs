@@ -21,9 +21,9 @@ use thiserror::Error;
 /// The names of all distributions, with the numbers that they take, in words.
 const NAMES: [(&str, &str); 5] = [
     ("uniform", "no numbers"),
-    ("beta", "two numbers above 0, its shape"),
-    ("normal", "two numbers, its mean and its standard deviation"),
-    ("triangular", "one number, its mode"),
+    ("beta", "two numbers above 0 (its shapes)"),
+    ("normal", "two numbers (its mean and its standard deviation)"),
+    ("triangular", "one number (its mode)"),
     ("weights", "a number for each value of a choice"),
 ];
 
@@ -42,7 +42,7 @@ const WIDEST: f64 = 100.0;
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum DistributionError {
     /// No distribution has this name.
-    #[error("no distribution is called `{name}`{}; there are {}", did_you_mean(.nearest), NAMES.map(|(name, _)| name).join(", "))]
+    #[error("no distribution is called `{name}`{}; the distributions are {}", did_you_mean(.nearest), NAMES.map(|(name, _)| name).join(", "))]
     Unknown {
         /// The unknown name.
         name: String,
@@ -50,7 +50,7 @@ pub enum DistributionError {
         nearest: Option<&'static str>,
     },
     /// A distribution has too many or too few numbers.
-    #[error("the distribution {name} takes {takes}, found {found} of them")]
+    #[error("the distribution {name} takes {takes}, found {found}")]
     Numbers {
         /// The name of the distribution.
         name: &'static str,
@@ -68,12 +68,12 @@ pub enum DistributionError {
         within: String,
     },
     /// An entry of a file names no distribution, or several distributions.
-    #[error("expected one distribution, such as {{ beta = [2.0, 5.0] }}")]
+    #[error("found no distribution or several, expected exactly one, such as {{ beta = [2.0, 5.0] }}")]
     NotOne,
     /// A distribution has a number that is not finite.
     #[error("distribution {distribution}: found {number}, expected finite numbers")]
     Infinite {
-        /// The distribution.
+        /// The distribution that is refused.
         distribution: Distribution,
         /// The number that is not finite.
         number: f64,
@@ -87,32 +87,34 @@ pub enum DistributionError {
         expected: usize,
     },
     /// A weight is below 0, or no weight is above 0, or the sum of the weights is not finite.
-    #[error("distribution {0}: expected weights of at least 0, not all of them 0")]
+    #[error("distribution {0}: expected weights of at least 0, with a finite sum above 0")]
     Weights(Distribution),
     /// A choice has a distribution that is only for intervals.
     #[error("found the distribution {0}, expected uniform or weights for the values of a choice")]
     ForInterval(Distribution),
     /// An interval has weights, which are only for choices.
-    #[error("found weights, which are for a choice, expected uniform, beta, normal or triangular")]
+    #[error("found weights for an interval, expected uniform, beta, normal or triangular; weights are for a choice")]
     ForChoice,
     /// A shape of a beta distribution is out of range.
     #[error("distribution {distribution}: expected shapes from {} to {}", SHAPES.start(), SHAPES.end())]
     Shapes {
-        /// The distribution.
+        /// The distribution that is refused.
         distribution: Distribution,
     },
     /// The standard deviation of a normal distribution is out of range.
-    #[error("distribution {distribution}: expected a deviation above 0 and at most {most}")]
+    #[error("distribution {distribution}: expected a standard deviation above 0 and at most {most}")]
     Deviation {
-        /// The distribution.
+        /// The distribution that is refused.
         distribution: Distribution,
         /// The greatest standard deviation that the interval allows.
         most: f64,
     },
     /// Nearly all of a normal distribution lies outside of the interval.
-    #[error("distribution {distribution}: next to nothing of it lies in [{lo}, {hi}]")]
+    #[error(
+        "distribution {distribution}: almost nothing of it lies in [{lo}, {hi}]; move the mean closer to the interval"
+    )]
     Outside {
-        /// The distribution.
+        /// The distribution that is refused.
         distribution: Distribution,
         /// The lower end of the interval.
         lo: f64,
@@ -122,7 +124,7 @@ pub enum DistributionError {
     /// The mode of a triangular distribution lies outside of the interval.
     #[error("distribution {distribution}: expected a mode in [{lo}, {hi}]")]
     Mode {
-        /// The distribution.
+        /// The distribution that is refused.
         distribution: Distribution,
         /// The lower end of the interval.
         lo: f64,

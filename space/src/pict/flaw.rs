@@ -57,7 +57,7 @@ pub enum PictFlaw {
     NoParameters,
     /// The line of a parameter has no colon.
     #[error(
-        "found no `:`, expected one between the name of a parameter and its values{}",
+        "found no `:`, expected a `:` between the name of a parameter and its values{}",
         if *.bracket { ", or a constraint that begins with IF, NOT, [ or (" } else { "" }
     )]
     NoColon {
@@ -65,7 +65,7 @@ pub enum PictFlaw {
         bracket: bool,
     },
     /// A parameter has no name.
-    #[error("found no name before `:`")]
+    #[error("found no name before `:`, expected the name of a parameter")]
     Nameless,
     /// A parameter describes the expected result, which is not supported.
     #[error("`{name}` is a result parameter, which is not supported")]
@@ -79,17 +79,17 @@ pub enum PictFlaw {
     /// Two parameters have the same name.
     #[error("parameter `{name}` is declared twice; case makes no difference")]
     Twice {
-        /// The name, as the first parameter is written.
+        /// The name, as it is written at the first parameter.
         name: String,
     },
     /// A parameter has no values.
-    #[error("found no values, expected those of `{name}`, with commas between them")]
+    #[error("found no values, expected the values of parameter `{name}`, with commas between them")]
     NoValues {
         /// The name of the parameter.
         name: String,
     },
     /// All values of a parameter are negative.
-    #[error("every value of `{name}` is negative (`~`), expected one that is not")]
+    #[error("every value of parameter `{name}` is negative (`~`), expected a value without `~`")]
     OnlyNegative {
         /// The name of the parameter.
         name: String,
@@ -97,7 +97,7 @@ pub enum PictFlaw {
     /// A parameter lists a value both as negative and as not negative.
     #[error("`{value}` is listed with and without `~`")]
     BothSigns {
-        /// The value.
+        /// The value that is listed with and without `~`.
         value: String,
     },
     /// No parameter has the given name.
@@ -109,13 +109,13 @@ pub enum PictFlaw {
         nearest: Option<String>,
     },
     /// A parameter refers to the values of a parameter that is declared below.
-    #[error("`<{name}>` stands before parameter `{name}`, expected it below")]
+    #[error("found `<{name}>` above parameter `{name}`, expected the reference below the parameter")]
     BeforeItsParameter {
         /// The name of the parameter that is declared below.
         name: String,
     },
     /// A sub-model has no closing brace.
-    #[error("found no `}}`, expected one after the names of a sub-model")]
+    #[error("found no `}}`, expected `}}` after the names of a sub-model")]
     OpenSubModel,
     /// A sub-model has a comma without a name.
     #[error("found no name, expected a parameter of the sub-model")]
@@ -134,7 +134,7 @@ pub enum PictFlaw {
     },
     /// The order of a sub-model is not a number from 1 to the number of its parameters.
     #[error(
-        "found {}, expected an order from 1 to {most}, the number of parameters",
+        "found {}, expected an order from 1 to {most}, the number of parameters in the sub-model",
         if .found.is_empty() { "nothing".to_owned() } else { format!("`{found}`") }
     )]
     Order {
@@ -150,7 +150,7 @@ pub enum PictFlaw {
         close: char,
     },
     /// Text that begins like a number is not a finite number.
-    #[error("found `{written}`, expected a number")]
+    #[error("found `{written}`, expected a finite number")]
     NoNumber {
         /// The text as it is written.
         written: String,
@@ -167,7 +167,7 @@ pub enum PictFlaw {
         meant: &'static str,
     },
     /// A character belongs neither to this language nor to another known language.
-    #[error("found `{sign}`, which is no sign of a constraint")]
+    #[error("found `{sign}`, which has no meaning in a constraint")]
     UnknownSign {
         /// The unknown character.
         sign: char,
@@ -183,18 +183,18 @@ pub enum PictFlaw {
         meant: Option<&'static str>,
     },
     /// Parentheses and `NOT` are nested too deeply.
-    #[error("the constraint is nested more than {most} deep")]
+    #[error("the constraint has more than {most} levels of nesting; divide it into several constraints")]
     TooDeep {
         /// The greatest depth of nesting.
         most: usize,
     },
     /// An opening parenthesis has no closing parenthesis.
-    #[error("the `(` here is never closed")]
+    #[error("the `(` here has no closing `)`")]
     NeverClosed,
     /// A word stands where a parameter in brackets has to stand.
-    #[error("found `{word}`, expected a parameter in brackets, as [{word}]")]
+    #[error("found `{word}`, expected a parameter in brackets: [{word}]")]
     NoBrackets {
-        /// The word.
+        /// The word that is not in brackets.
         word: String,
     },
     /// A parameter whose values are numbers is compared with a pattern.
@@ -204,7 +204,7 @@ pub enum PictFlaw {
         name: String,
     },
     /// A parameter with numbers is compared with a parameter with words.
-    #[error("`{numbers}` takes numbers and `{words}` words, which are not compared")]
+    #[error("`{numbers}` takes numbers and `{words}` takes words; numbers and words cannot be compared")]
     NotCompared {
         /// The name of the parameter whose values are numbers.
         numbers: String,
@@ -212,25 +212,25 @@ pub enum PictFlaw {
         words: String,
     },
     /// A parameter with words is compared with a number.
-    #[error("`{name}` takes words, which stand in quotes: found `{number}`")]
+    #[error("found `{number}`, but parameter `{name}` takes words; write words in quotes")]
     NumberForWords {
         /// The name of the parameter.
         name: String,
-        /// The number.
+        /// The number in the comparison.
         number: f64,
     },
     /// A parameter with numbers is compared with a word.
-    #[error("`{name}` takes numbers only, which stand without quotes: found `\"{word}\"`")]
+    #[error("found `\"{word}\"`, but parameter `{name}` takes numbers only; write numbers without quotes")]
     WordForNumbers {
         /// The name of the parameter.
         name: String,
-        /// The word.
+        /// The word in the comparison.
         word: String,
     },
     /// A word in a comparison has no quotes.
     #[error("found `{word}`, expected a value; words stand in quotes: \"{word}\"")]
     NoQuotes {
-        /// The word.
+        /// The word that has no quotes.
         word: String,
     },
     /// A constraint does not fit the parameters.

@@ -142,7 +142,7 @@ fn read(text: &str) -> Result<Model, Fault> {
                 match order {
                     Some(order) => groups.push((set, order)),
                     None => parameters.notes.push(format!(
-                        "line {}: a sub-model without an order is covered as all parameters are",
+                        "line {}: the sub-model has no order, so it asks for no further combinations",
                         Position::of(text, offset).line
                     )),
                 }

@@ -166,7 +166,7 @@ impl Parameters {
             declared.values.push(listed);
             return Ok(());
         }
-        self.notes.push(format!("parameter `{name}` lists `{text}` twice, which is read as one value"));
+        self.notes.push(format!("parameter `{name}` lists `{text}` twice; both are read as one value"));
         Ok(())
     }
 
@@ -178,7 +178,7 @@ impl Parameters {
         for (name, at) in std::mem::take(&mut self.unknown) {
             match find(&self.declared, &name) {
                 Ok(_) => return fail(at, PictFlaw::BeforeItsParameter { name }),
-                // PICT reads the text as a value, too. `<none>` may well be one.
+                // PICT reads the text as a value, too. `<none>` may well be a value.
                 Err(unknown @ PictFlaw::Unknown { nearest: None, .. }) => {
                     let Position { line, column } = Position::of(text, at);
                     let note = format!("line {line}, column {column}: {unknown}, so `<{name}>` is read as a value");
@@ -189,8 +189,8 @@ impl Parameters {
         }
         for (what, found) in [
             ("without `:` the name of a parameter ends at the first comma", &self.without_colon),
-            ("of aliases only the first is used", &self.aliased),
-            ("weights are passed over", &self.weighted),
+            ("only the first alias of a value is used", &self.aliased),
+            ("weights are ignored", &self.weighted),
         ] {
             if !found.is_empty() {
                 self.notes.push(format!("{what}: {}", found.join(", ")));

@@ -341,7 +341,7 @@ impl<'a> Reader<'a> {
         let meant = value.word().and_then(|word| nearest(word, words));
         let Position { line, column } = Position::of(self.text, at);
         self.notes.push(format!(
-            "line {line}, column {column}: `{}` is never `{value}`{}",
+            "line {line}, column {column}: parameter `{}` never has the value `{value}`{}",
             parameter.name,
             did_you_mean(&meant)
         ));

@@ -73,7 +73,7 @@ impl Subsets<'_> {
 
 impl Conflict {
     /// The part of a message that says that a conflict is perhaps not the smallest.
-    pub(crate) const CAVEAT: &str = " (a conflicting set, perhaps not the smallest)";
+    pub(crate) const CAVEAT: &str = " (a smaller set of constraints may be in conflict, too)";
 
     /// Returns a smallest conflict among constraints that are in conflict, or the smallest that the search found in
     /// time.

@@ -38,7 +38,7 @@ pub enum RulesError {
     #[error(transparent)]
     Conflict(#[from] Conflict),
     /// The search for the levels that these parameters can have exceeded its bounds.
-    #[error("what the constraints allow of the parameters {0:?} was not found out within the bounds of the search")]
+    #[error("the search for the levels that the constraints allow for the parameters {0:?} exceeded its bounds")]
     Undecided(Vec<usize>),
 }
 

@@ -174,9 +174,9 @@ fn a_space_with_signals_is_written_as_the_contract_says() {
         assert!(error.contains(expected) && error.contains("leader"), "{signal}: {error}");
     };
     refused(r#"{ shape = "polinomial", degree = 2 }"#, "did you mean `polynomial`?");
-    refused(r#"{ shape = "polynomial", pieces = 2 }"#, "takes `degree`, and no `pieces`");
-    refused(r#"{ shape = "polynomial", degree = 2, pieces = 2 }"#, "takes `degree`, and no `pieces`");
-    refused(r#"{ shape = "piecewise-linear" }"#, "takes `pieces`, and no `degree`");
+    refused(r#"{ shape = "polynomial", pieces = 2 }"#, "takes the key `degree`, and not the key `pieces`");
+    refused(r#"{ shape = "polynomial", degree = 2, pieces = 2 }"#, "takes the key `degree`, and not the key `pieces`");
+    refused(r#"{ shape = "piecewise-linear" }"#, "takes the key `pieces`, and not the key `degree`");
     refused(r#"{ shape = "piecewise-constant", pieces = 0 }"#, "has 0 coordinates, expected 1 to 1000000");
     refused(r#"{ shape = "piecewise-linear", pieces = 0 }"#, "at least one piece");
     refused(r#"{ shape = "polynomial", degree = 10000000000 }"#, "expected 1 to 1000000");

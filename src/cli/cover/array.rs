@@ -21,12 +21,12 @@ use std::time::Duration;
 pub(super) struct ArrayOptions {
     pub k: Option<usize>,
     pub seed: Option<u64>,
-    /// Seconds for making it smaller.
+    /// Seconds for making the array smaller.
     pub optimise: Option<f64>,
 }
 
 impl ArrayOptions {
-    /// The rows of a covering array of a space with discrete parameters, after those of existing tests, which may leave
+    /// Returns the rows of a covering array that completes the rows of existing tests, which may leave
     /// some levels open. Each existing test comes with its place in its file.
     pub fn rows(
         &self,
@@ -113,7 +113,7 @@ pub(super) fn combinations(k: usize) -> String {
     }
 }
 
-/// Which values a test has that no valid one has together, and which constraint says so, if one alone does.
+/// Says which values of a test are excluded together, and which constraint excludes them, if a single constraint does.
 fn why_refused(space: &Space, rules: &Rules, row: &PartialRow) -> String {
     let fixed: Vec<(usize, usize)> = row.iter().enumerate().filter_map(|(i, level)| Some((i, (*level)?))).collect();
     let discrete: Vec<Coordinate> = space.discrete().collect();

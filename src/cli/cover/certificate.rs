@@ -9,7 +9,8 @@ use paracosm_coverage::Measure;
 use std::path::Path;
 use std::time::Duration;
 
-/// Measures tests and writes a certificate. Notes say what the certificate proves, and where this is less than the measured value.
+/// Measures tests and writes a certificate. Notes say what the certificate proves, and where this is less than the
+/// measured value.
 pub(super) fn write(
     file: &Path,
     tests: &TestSet,

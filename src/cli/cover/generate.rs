@@ -39,10 +39,11 @@ pub(super) struct Options {
     /// The space of the tests
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "dims", group = "of")]
     space: Option<PathBuf>,
-    /// The unit cube of that many dimensions
+    /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
-    /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with --extend]
+    /// The strategy that chooses tests; `paracosm-fuzz list strategies` shows all of them [default: halton; greedy with
+    /// --extend]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
     /// How many tests to make [default: 500; all rows if no parameter is continuous]

@@ -25,7 +25,7 @@ pub(super) struct Options {
     /// The space of the tests
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", group = "of")]
     space: Option<PathBuf>,
-    /// The unit cube of that many dimensions
+    /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
     /// How many parameters are covered together; if fewer are discrete, all their combinations [default: 2]

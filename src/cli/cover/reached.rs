@@ -15,7 +15,7 @@ use std::time::Duration;
 
 /// Tests that were generated after existing ones, and what is known of them.
 pub(super) struct Reached {
-    /// All of them, the existing ones first.
+    /// All tests, the existing tests first.
     pub tests: TestSet,
     pub existing: usize,
     /// The largest hole of any row; none in a space without continuous parameters.
@@ -23,14 +23,14 @@ pub(super) struct Reached {
 }
 
 impl Reached {
-    /// Measures the rows of tests for so long.
+    /// Measures the rows of tests within a time limit.
     pub fn of(tests: TestSet, existing: usize, limit: Duration) -> Self {
         let dims = tests.space.dims();
         let epsilon = (dims > 0).then(|| row_dispersion(dims, &tests.points, Deadline::after(limit)));
         Self { tests, existing, epsilon }
     }
 
-    /// What random rows promise, and beside it what the tests do.
+    /// Describes the guarantee of random rows, and the measured coverage of the tests.
     pub fn kept(&self, promise: &Promise) -> Result<String, Error> {
         let added = &self.tests.points[self.existing..];
         let rows: BTreeSet<&Vec<usize>> = added.iter().map(|test| &test.discrete).collect();
@@ -50,7 +50,7 @@ impl Reached {
         ))
     }
 
-    /// How far the tests came through the rows of a covering array, where they are not all of it.
+    /// Says how much of a covering array the tests cover, if they do not contain all its rows.
     pub fn cut_short(&self, rows: &[Vec<usize>]) -> Result<Option<String>, Error> {
         let tested: BTreeSet<&Vec<usize>> = self.tests.points.iter().map(|test| &test.discrete).collect();
         let used = rows.iter().filter(|row| tested.contains(row)).count();
@@ -64,7 +64,7 @@ impl Reached {
         Ok(self.discrete(self.tests.k)?.map(covered))
     }
 
-    /// The (k, epsilon) of the tests.
+    /// Describes the (k, epsilon) of the tests.
     pub fn words(&self) -> Result<String, Error> {
         let Some(rows) = self.epsilon else { return Ok("no continuous parameter to measure".to_owned()) };
         let epsilon = if rows.is_exact() { digits(rows.upper) } else { format!("at most {}", digits(rows.upper)) };
@@ -82,7 +82,7 @@ impl Reached {
         })
     }
 
-    /// Why the tests are not what was asked for, where `end` came before all of them; nothing where they are.
+    /// Says why the tests do not reach epsilon, if `end` cut the search short; `None` if they reach epsilon.
     pub fn missed(&self, epsilon: f64, end: &str) -> Option<String> {
         let rows = self.epsilon.filter(|rows| rows.upper > epsilon)?;
         Some(match rows.lower > epsilon {

@@ -1,5 +1,5 @@
-//! A strategy, a driver, a scenario, a measure, a sensor and a camera setting that only this module knows are shown like all
-//! others.
+//! A strategy, a driver, a scenario, a measure, a sensor and a camera setting that only this module knows are shown
+//! like all others.
 
 use super::*;
 use crate::coverage::Measure;

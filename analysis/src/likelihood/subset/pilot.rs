@@ -38,7 +38,7 @@ impl Pilot {
                 Next::Level(threshold) if levels.len() < MOST_LEVELS => threshold,
                 Next::Level(threshold) | Next::Stuck(threshold) => {
                     let lost = format!(
-                        "the pilot found no way down to a failure from a robustness of {threshold:.3}: the rest of the \
+                        "the pilot found no way to a failure below a robustness of {threshold:.3}: the rest of the \
                          budget went into independent tests"
                     );
                     return Ok(Self { levels: Vec::new(), lost: Some(lost) });

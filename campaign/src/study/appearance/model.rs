@@ -19,9 +19,7 @@ pub enum ModelFlaw {
     #[error(transparent)]
     Gltf(#[from] GltfError),
     /// The model has changed since the campaign was run.
-    #[error(
-        "the model {file} has the hash {found}, expected {expected}: it is not the one that the campaign was run with"
-    )]
+    #[error("the model {file} has the hash {found}, expected {expected}: the campaign was run with another model")]
     Changed {
         /// The file.
         file: String,

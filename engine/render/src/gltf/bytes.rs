@@ -90,7 +90,7 @@ fn base64(text: &str) -> Option<Vec<u8>> {
     Some(digits.chunks(4).flat_map(group).collect())
 }
 
-/// Returns a file name without its escapes: `%20` is a space.
+/// Returns a file name without its escapes, for example with a space for `%20`.
 fn unescaped(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let (mut out, mut at) = (Vec::new(), 0);

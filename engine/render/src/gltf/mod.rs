@@ -35,11 +35,11 @@ pub enum GltfError {
         source: std::io::Error,
     },
     /// The file is not glTF, or contains something that is not supported.
-    #[error("`{}` is no model that can be used: {problem}", path.display())]
+    #[error("`{}` cannot be used as a model: {problem}", path.display())]
     Format {
         /// The file of the model.
         path: PathBuf,
-        /// The flaw of the file: what was found and what was expected.
+        /// The flaw of the file, with the found and the expected content.
         problem: GltfFlaw,
     },
 }
@@ -57,7 +57,7 @@ pub enum GltfFlaw {
     #[error(transparent)]
     NoGltf(#[from] gltf::Error),
     /// The file names an accessor that it does not have.
-    #[error("it names its accessor {accessor}, but it has {count}")]
+    #[error("it names accessor {accessor}, but its number of accessors is {count}")]
     NoAccessor {
         /// The index of the accessor.
         accessor: usize,
@@ -65,10 +65,10 @@ pub enum GltfFlaw {
         count: usize,
     },
     /// The file names a binary part that it does not have.
-    #[error("it names a binary part that it does not have")]
+    #[error("a buffer refers to the binary part of the file, but the file has none")]
     NoBinary,
     /// A buffer is not written in base64.
-    #[error("a buffer in it is not written in base64")]
+    #[error("a buffer in it is not valid base64")]
     NoBase64,
     /// An accessor is of a kind that is not supported.
     #[error("its accessor {accessor} is sparse or has no buffer view")]
@@ -77,7 +77,7 @@ pub enum GltfFlaw {
         accessor: usize,
     },
     /// An accessor has more elements than there are bytes for.
-    #[error("its accessor {accessor} has {elements} elements, which is more than there are bytes for")]
+    #[error("the file has too few bytes for its accessor {accessor}: number of elements {elements}")]
     TooFewBytes {
         /// The index of the accessor.
         accessor: usize,
@@ -85,7 +85,7 @@ pub enum GltfFlaw {
         elements: usize,
     },
     /// An accessor has vectors of another type than is needed.
-    #[error("its accessor {accessor} has {shape:?} of {found:?}, expected {expected} numbers of F32 each")]
+    #[error("its accessor {accessor} has {shape:?} of {found:?}, expected vectors of {expected} F32 numbers")]
     NoFloats {
         /// The index of the accessor.
         accessor: usize,
@@ -108,7 +108,7 @@ pub enum GltfFlaw {
     #[error("its nodes lie more than {DEPTH} deep within each other")]
     TooDeep,
     /// A part of the model is not made of triangles.
-    #[error("it is drawn of {found:?}, expected Triangles")]
+    #[error("a part of it is made of {found:?}, expected Triangles")]
     NoTriangleList {
         /// The kind of primitive that the part is made of.
         found: Mode,
@@ -117,13 +117,13 @@ pub enum GltfFlaw {
     #[error("a part of it has no positions")]
     NoPositions,
     /// The corners of a part do not match its normals, texture coordinates or indices.
-    #[error("a part of it with {corners} corners says something of others, or has no whole triangles")]
+    #[error("the normals, texture coordinates or indices of a part do not match its corners ({corners})")]
     Corners {
         /// The number of corners of the part.
         corners: usize,
     },
     /// A position is not finite.
-    #[error("a position in it is no number")]
+    #[error("a position in it is not a finite number")]
     NoPlace,
     /// The file has nothing to draw.
     #[error("it has no triangles")]

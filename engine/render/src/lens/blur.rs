@@ -5,7 +5,7 @@ use paracosm_engine::sensor::CameraSetting;
 
 pub(super) const EFFECT: LensEffect = LensEffect {
     name: "blur",
-    about: "makes a Gaussian of a point",
+    about: "blurs every point to a Gaussian",
     settings: &[CameraSetting::of_lens(
         "blur",
         "pixels",

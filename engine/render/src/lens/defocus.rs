@@ -5,7 +5,7 @@ use paracosm_engine::sensor::CameraSetting;
 
 pub(super) const EFFECT: LensEffect = LensEffect {
     name: "defocus",
-    about: "makes an evenly bright disc of a point",
+    about: "turns every point into an evenly bright disc",
     settings: &[CameraSetting::of_lens(
         "defocus",
         "pixels",

@@ -1,6 +1,7 @@
 //! Kernels: the weights by which a lens spreads a point of light over the pixels around it.
 
-/// A kernel: pixels to the right of a point and down from it, with their shares of the point's light.
+/// The way in which a lens spreads a point. A kernel is a list of pixels to the right of the point and down from it,
+/// with their shares of the point's light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kernel {
     shares: Vec<(i32, i32, f32)>,
@@ -10,8 +11,8 @@ pub struct Kernel {
 const PLACES: i32 = 16;
 
 impl Kernel {
-    /// Makes a Gaussian with this standard deviation in pixels, cut off at four standard deviations: one kernel along
-    /// the rows and one along the columns. Apply them one after the other.
+    /// Makes a Gaussian with this standard deviation in pixels, cut off at four standard deviations. It consists of one
+    /// kernel along the rows and one along the columns. Apply them one after the other.
     pub fn gaussian(deviation: f64) -> [Self; 2] {
         let reach = libm::ceil(4.0 * deviation) as i32;
         let weight = |at: i32| libm::exp(-0.5 * f64::from(at * at) / (deviation * deviation));

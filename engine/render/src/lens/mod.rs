@@ -60,7 +60,7 @@ impl Light<'_> {
     }
 }
 
-/// A lens with its sensor: a list of effects with the values of their settings. The default has no effects.
+/// A lens with its sensor, as a list of effects with the values of their settings. The default has no effects.
 #[derive(Debug, Clone, Default)]
 pub struct Lens {
     effects: Vec<(&'static LensEffect, Vec<f64>)>,

@@ -30,8 +30,9 @@ fn moments(kernel: &Kernel) -> (f64, [f64; 2], [f64; 2]) {
 
 #[test]
 fn kernels_keep_all_light_in_its_place_and_are_as_wide_as_they_say() {
-    // Counting over pixels adds the variance of a pixel, 1/12, sharing between neighbours that of linear interpolation, 1/6
-    // in the mean. A disc is looked at in places 1/16 apart, so that its radius r is known to 1/32 and r²/4 to r/64.
+    // Counting over pixels adds the variance of a pixel, 1/12, sharing between neighbours that of linear interpolation,
+    // 1/6 in the mean. A disc is looked at in places 1/16 apart, so that its radius r is known to 1/32 and r²/4 to
+    // r/64.
     let [across, down] = Kernel::gaussian(2.5);
     let cases = [
         (across, [6.25, 0.0], 0.02),

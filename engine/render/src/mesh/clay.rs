@@ -179,7 +179,7 @@ impl Clay {
         self.mesh_at([0.0; 2])
     }
 
-    /// Returns the triangles as a mesh whose texture coordinates are those of a place: metres along x and y.
+    /// Returns the triangles as a mesh whose texture coordinates begin at a place, in metres along x and y.
     pub fn mesh_at(self, place: [f64; 2]) -> Mesh {
         let facing: Vec<Point> = self.triangles.iter().map(|(corners, _)| area(corners)).collect();
         let mut around: HashMap<[u32; 3], Vec<usize>> = HashMap::new();
@@ -221,7 +221,7 @@ fn area(corners: &[Point; 3]) -> Point {
     (corners[1] - corners[0]).cross(&(corners[2] - corners[0]))
 }
 
-/// Returns texture coordinates in metres: those in the coordinate plane that the facet is nearest to.
+/// Returns texture coordinates in metres, in the coordinate plane that the facet is nearest to.
 fn unwrapped(point: &Point, facing: &Point, place: [f64; 2]) -> [f32; 2] {
     let [x, y] = [f64::from(point.x) + place[0], f64::from(point.y) + place[1]].map(|metres| metres as f32);
     match facing.iamax() {
@@ -231,7 +231,7 @@ fn unwrapped(point: &Point, facing: &Point, place: [f64; 2]) -> [f32; 2] {
     }
 }
 
-/// Returns the bits of a point, equal for equal points: 0 and -0 give the same bits.
+/// Returns the bits of a point, equal for equal points. 0 and -0 give the same bits.
 fn bits(point: &Point) -> [u32; 3] {
     let [x, y, z]: [f32; 3] = (*point).into();
     [x, y, z].map(|metres| (metres + 0.0).to_bits())

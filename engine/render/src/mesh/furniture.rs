@@ -7,13 +7,13 @@ use super::{Mesh, Semantic, SurfaceKind};
 /// The kinds of signs, which differ in shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Plate {
-    /// A red ring: a limit.
+    /// A red ring, which is a speed limit.
     Limit,
-    /// A red triangle on its tip: give way.
+    /// A red triangle on its tip, which says "give way".
     GiveWay,
-    /// A red octagon: stop.
+    /// A red octagon, which says "stop".
     Stop,
-    /// A blue square: a hint.
+    /// A blue square, which is a hint.
     Hint,
 }
 

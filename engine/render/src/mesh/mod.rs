@@ -76,11 +76,11 @@ pub enum Semantic {
 pub struct Vertex {
     /// The position of the corner in metres.
     pub position: [f32; 3],
-    /// The normal of the surface: a unit vector that points outwards.
+    /// The normal of the surface, a unit vector that points outwards.
     pub normal: [f32; 3],
     /// The texture coordinates; for grained surfaces in metres.
     pub uv: [f32; 2],
-    /// The colour: red, green and blue in linear light, from 0 to 1.
+    /// The colour of the corner, red, green and blue in linear light, from 0 to 1.
     pub colour: [f32; 3],
     /// The way in which the surface reacts to light.
     pub surface: SurfaceKind,
@@ -88,7 +88,7 @@ pub struct Vertex {
     pub semantic: Semantic,
 }
 
-/// A mesh: triangles whose corners are counter-clockwise as seen from outside.
+/// The shape of a thing, made of triangles whose corners are counter-clockwise as seen from outside.
 #[derive(Debug)]
 pub struct Mesh {
     key: u64,

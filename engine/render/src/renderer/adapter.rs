@@ -12,9 +12,9 @@ pub struct Adapter {
     pub name: String,
     /// The driver and its version.
     pub driver: String,
-    /// The graphics interface of the adapter: `vulkan`, `metal` or `dx12`.
+    /// The graphics interface of the adapter, which is `vulkan`, `metal` or `dx12`.
     pub backend: String,
-    /// The kind of device: `discrete`, `integrated`, `virtual`, `software` or `other`.
+    /// The kind of device, which is `discrete`, `integrated`, `virtual`, `software` or `other`.
     pub kind: String,
     /// The most pixels that an image may have each way.
     pub max_image: u32,

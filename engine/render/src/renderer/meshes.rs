@@ -30,7 +30,7 @@ pub(super) enum Finish {
     /// Neither glossy nor grained.
     Dull,
     Glossy,
-    /// Grained: mostly the ground, which is drawn last, since most other things hide parts of it.
+    /// A grained surface, mostly the ground. It is drawn last, since most other things hide parts of it.
     Grained,
 }
 
@@ -188,7 +188,7 @@ fn raw(vertex: &Vertex) -> RawCorner {
 }
 
 impl Shape {
-    /// Returns the ball around the mesh, in the camera's coordinates: its middle and its radius.
+    /// Returns the middle and the radius of the ball around the mesh, in the camera's coordinates.
     pub fn ball(&self, mesh: &GpuMesh) -> (Point3<f64>, f64) {
         let middle = (mesh.low + mesh.high) / 2.0;
         let radius = ((mesh.high - mesh.low) / 2.0).component_mul(&self.scale).norm();

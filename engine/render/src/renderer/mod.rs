@@ -70,7 +70,7 @@ impl Renderer {
         &self.gpu.adapter
     }
 
-    /// Loses the device, as when a driver gives up: for tests of the code that draws with the renderer.
+    /// Loses the device, as when a driver gives up, for tests of the code that draws with the renderer.
     #[doc(hidden)]
     pub fn lose(&self) {
         self.gpu.device.destroy();
@@ -124,7 +124,7 @@ impl Renderer {
             return Err(ViewError::TooLarge { width, height, limit });
         }
         let (bytes, limit) = (format(camera, wanted).bytes(), limits.max_buffer_size);
-        let what = "what is read back of the view";
+        let what = "the buffer for the images of the view";
         if bytes > limit { Err(ViewError::TooMuch { what, bytes, limit }) } else { Ok(()) }
     }
 
@@ -132,7 +132,7 @@ impl Renderer {
         self.check_size(view.camera, wanted)?;
         let prepared = prepare(&self.gpu, &mut self.meshes, view, wanted)?;
         let (bytes, limit) = (format(view.camera, wanted).mask_bytes(prepared.words(), 1), self.most_masks);
-        let what = "a row of the mask of each thing alone";
+        let what = "a row of pixels in the occlusion masks of all things";
         if bytes > limit { Err(ViewError::TooMuch { what, bytes, limit }) } else { Ok(prepared) }
     }
 
@@ -237,7 +237,7 @@ impl Renderer {
         }
     }
 
-    /// Draws the instances of these meshes: all surfaces, or only the surfaces of one finish.
+    /// Draws all surfaces of the instances of these meshes, or only the surfaces of one finish.
     fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -298,7 +298,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Returns layers for a batch: idle layers of the same format, if there are any.
+    /// Returns layers for a batch. They are idle layers of the same format, if there are any.
     fn targets(&mut self, format: Format, layers: u32) -> Targets {
         let fits = |idle: &Targets| idle.format == format && idle.layers >= layers;
         if let Some(index) = self.idle.iter().position(fits) {

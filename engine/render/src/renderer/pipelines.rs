@@ -17,7 +17,8 @@ pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    /// The shadow map: the sun's view of the scene, in the form that surfaces read and in the form that is drawn.
+    /// The shadow map, which is the sun's view of the scene, in the form that surfaces read and in the form that is
+    /// drawn.
     pub sun: wgpu::BindGroup,
     pub sun_depth: wgpu::TextureView,
     shaded: wgpu::PipelineLayout,
@@ -142,7 +143,7 @@ impl Drawing {
     }
 }
 
-/// Returns a depth state in which depth is reversed: nearer is greater, and 0 is infinitely far.
+/// Returns a reversed depth state, in which nearer is greater, and 0 is infinitely far.
 fn depth(write: bool, compare: CompareFunction) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: DEPTH_FORMAT,

@@ -134,7 +134,7 @@ impl Prepared {
     }
 }
 
-/// Returns `true` if the thing can throw a shadow: the ground cannot.
+/// Returns `true` if the thing can throw a shadow. The ground cannot.
 fn is_solid(placed: &Placed<'_>) -> bool {
     (placed.mesh.high.z - placed.mesh.low.z) * placed.shape.scale.z > 0.05
 }
@@ -192,7 +192,7 @@ fn check_outside(index: usize, instance: &Instance, mesh: &GpuMesh, shape: &Shap
 
 /// The region that a camera sees, given by the planes that bound it.
 struct Frustum {
-    /// The normals of the planes: unit vectors that point into the region; the planes go through the pinhole.
+    /// The normals of the planes, as unit vectors that point into the region. The planes go through the pinhole.
     sides: [Vector3<f64>; 4],
 }
 

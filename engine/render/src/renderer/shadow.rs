@@ -16,8 +16,8 @@ const DEEP: f64 = 150.0;
 /// The shadow map of one view.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShadowMap {
-    /// The transformation from the camera's coordinates to the light's: x and y across the rays, z towards the sun; the
-    /// middle is the origin.
+    /// The transformation from the camera's coordinates to the light's. In the light's coordinates, x and y are
+    /// perpendicular to the rays, z points towards the sun, and the middle is the origin.
     to_light: Isometry3<f64>,
 }
 
@@ -42,8 +42,8 @@ impl ShadowMap {
         Self { to_light: to_light * camera }
     }
 
-    /// Returns the rows of the transformation from a point in front of the camera to the map: 0 to 1 across and down, 0
-    /// to 1 in depth.
+    /// Returns the rows of the transformation from a point in front of the camera to the map. On the map, coordinates
+    /// are 0 to 1 across and down, and 0 to 1 in depth.
     pub fn rows(&self) -> [[f32; 4]; 3] {
         let linear = Matrix3::from_diagonal(&Vector3::new(0.5 / REACH, -0.5 / REACH, -0.5 / DEEP));
         rows(&linear, &self.to_light, &Vector3::repeat(0.5))

@@ -131,7 +131,7 @@ impl Targets {
         }
     }
 
-    /// Begins to draw the view of a layer: into all wanted images, or into none of them.
+    /// Begins to draw the view of a layer, into all wanted images or into none of them.
     pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, layer: u32, images: bool) -> wgpu::RenderPass<'a> {
         let attachment = |image: Image| {
             let (_, _, views) = self.textures.iter().find(|(of, _, _)| *of == image)?;

@@ -28,7 +28,7 @@ const CHILD: f32 = 1.4;
 /// A body that is being drawn.
 pub(super) struct Figure<'a> {
     pub state: &'a BodyState,
-    /// The place of the figure: heading along x, the ground that the body stands on at z = 0.
+    /// The place of the figure, with its heading along x and the ground that the body stands on at z = 0.
     pub pose: Isometry3<f32>,
     /// Length, width and height in metres.
     pub size: [f32; 3],
@@ -122,7 +122,8 @@ impl<'a> Figure<'a> {
         self.stretched(mesh, [1.0; 3])
     }
 
-    /// Returns a number that looks random and depends only on the place: FNV-1a (Fowler, Noll, Vo) over centimetres.
+    /// Returns a number that looks random and depends only on the place. It is the hash FNV-1a (Fowler, Noll, Vo) over
+    /// centimetres.
     fn chance(&self) -> u32 {
         let place = self.state.pose.position.map(|metres| (metres * 100.0).round() as i64);
         let bytes = place.iter().flat_map(|centimetres| centimetres.to_le_bytes());

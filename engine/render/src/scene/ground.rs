@@ -127,7 +127,7 @@ fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     }
 }
 
-/// Returns the plain: grass as far as one can see.
+/// Returns the plain, which is grass as far as one can see.
 fn plain(bounds: &Bounds) -> Instance {
     let middle = (0.5 * (bounds.min + bounds.max)).map(f64::round);
     let half = (0.5 * (bounds.max - bounds.min)).map(|metres| (metres + HORIZON) as f32);

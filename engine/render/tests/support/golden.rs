@@ -28,8 +28,8 @@ fn read(name: &str) -> Vec<u8> {
     rgb
 }
 
-/// Holds an image against the one of this name: at most 1/255 between them on average, as on another adapter, and at most
-/// 12/255 in any block, so that nothing is missed that is as large as a lamp.
+/// Holds an image against the one of this name: at most 1/255 between them on average, as on another adapter, and at
+/// most 12/255 in any block, so that nothing is missed that is as large as a lamp.
 pub fn compare(name: &str, width: u32, rgb: &[u8]) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         write(name, width, rgb);

@@ -33,7 +33,10 @@ fn where_nobody_listens_there_is_no_session() {
     let unused = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let address = Address::from(unused);
     assert_eq!(open(&address).map(drop), Err(OpenError::Unreachable));
-    refuses(open(&"grpc://no-such-host.invalid:1".parse().unwrap()), "the host is not known");
+    refuses(
+        open(&"grpc://no-such-host.invalid:1".parse().unwrap()),
+        "the name of the host is not known; check the address",
+    );
 }
 
 #[test]
@@ -83,7 +86,7 @@ fn what_a_driver_says_when_it_gives_up_is_passed_on() {
         (scripted(ready(welcome(), |_| Act::Fail(Status::unknown("it broke")))), "ended the session: it broke", true),
         (
             scripted(ready(welcome(), |_| Act::Say(answer::Kind::Ready(wire::Ready {})))),
-            "found that it is ready, expected a control",
+            "found the message that the driver is ready, expected a control",
             false,
         ),
     ] {

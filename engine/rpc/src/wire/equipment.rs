@@ -35,7 +35,7 @@ impl Described {
         if !(period > 0.0 && period.is_finite()) {
             return Err(Fault::of(
                 FaultKind::Equipment,
-                format!("the driver's period is {period} s, expected a number above 0"),
+                format!("the driver's period is {period} s, expected a finite number above 0"),
             ));
         }
         let mut cameras = Cameras { seed, ..Cameras::default() };
@@ -43,12 +43,12 @@ impl Described {
             if cameras.all.insert(camera.name.clone(), camera.into()).is_some() {
                 return Err(Fault::of(
                     FaultKind::Equipment,
-                    format!("two of the driver's cameras are called `{}`", camera.name),
+                    format!("two of the driver's cameras are called `{}`; give each camera its own name", camera.name),
                 ));
             }
         }
         let sensor = |error: SensorError| {
-            Fault::of(FaultKind::Equipment, format!("the driver asks for a sensor that cannot be: {error}"))
+            Fault::of(FaultKind::Equipment, format!("the driver asks for an impossible sensor: {error}"))
         };
         let lidars = welcome.lidars.iter().map(|lidar| {
             let made = Lidar::new(lidar.into())?;

@@ -19,7 +19,8 @@ fn on_arc(curvature: f64, along: f64, left: f64) -> (Vector2<f64>, f64) {
     (Vector2::new((radius - left) * sin, radius - (radius - left) * cos), angle)
 }
 
-/// A pose of the plane as seen by a car that is to the left of the origin by `offset` and points to the left by `heading`.
+/// A pose of the plane as seen by a car that is to the left of the origin by `offset` and points to the left by
+/// `heading`.
 fn from_car((position, angle): (Vector2<f64>, f64), offset: f64, heading: f64) -> (Vector2<f64>, f64) {
     let (sin, cos) = libm::sincos(heading);
     let (x, y) = (position.x, position.y - offset);

@@ -65,7 +65,7 @@ const STANDARD: Cc = Cc {
 
 pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "cc",
-    about: "the competent and careful human of UN R157, who is told the truth",
+    about: "brakes like the competent and careful human driver of UN R157, and is told the ground truth",
     settings: &SETTINGS,
     make: |settings| {
         Reference::boxed(Cc {
@@ -84,15 +84,21 @@ pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
 };
 
 const SETTINGS: [Setting; 9] = [
-    setting("lane_width", STANDARD.lane_width, "m", (0.0, 10.0), "how wide lanes are"),
+    setting("lane_width", STANDARD.lane_width, "m", (0.0, 10.0), "width of the lanes"),
     setting("wandering", STANDARD.wandering, "m", (0.0, 10.0), "how far cars wander in their lane"),
-    setting("evaluation", STANDARD.evaluation, "s", (0.0, 5.0), "how long it evaluates a risk"),
-    setting("ttc", STANDARD.ttc, "s", (0.0, 30.0), "time to collision that is a risk"),
-    setting("leader_deceleration", STANDARD.leader_deceleration, "m/s^2", (0.0, 20.0), "braking ahead that is a risk"),
-    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "from the decision until the brakes act"),
-    setting("release", STANDARD.release, "m/s^2", (0.0, 20.0), "deceleration meanwhile"),
-    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.0, 20.0), "deceleration at the end"),
-    setting("jerk", STANDARD.jerk, "m/s^3", (1.0, 1000.0), "how fast that is reached"),
+    setting("evaluation", STANDARD.evaluation, "s", (0.0, 5.0), "time to evaluate a risk"),
+    setting("ttc", STANDARD.ttc, "s", (0.0, 30.0), "time to collision at or below which there is a risk"),
+    setting(
+        "leader_deceleration",
+        STANDARD.leader_deceleration,
+        "m/s^2",
+        (0.0, 20.0),
+        "deceleration of the other road user that is a risk",
+    ),
+    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "time from the decision to brake until the brakes act"),
+    setting("release", STANDARD.release, "m/s^2", (0.0, 20.0), "deceleration from the decision until the brakes act"),
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.0, 20.0), "full deceleration"),
+    setting("jerk", STANDARD.jerk, "m/s^3", (1.0, 1000.0), "rate at which the deceleration rises"),
 ];
 
 impl Default for Cc {

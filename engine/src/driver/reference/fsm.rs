@@ -59,7 +59,7 @@ const LATE: f64 = 0.1;
 
 pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "fsm",
-    about: "brakes by the fuzzy surrogate safety measures of UN R157, and is told the truth",
+    about: "brakes by the fuzzy surrogate safety measures of UN R157, and is told the ground truth",
     settings: &SETTINGS,
     make: |settings| {
         Reference::boxed(Fsm {
@@ -75,12 +75,18 @@ pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
 };
 
 const SETTINGS: [Setting; 6] = [
-    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "how long it takes to react"),
-    setting("comfortable", STANDARD.comfortable, "m/s^2", (0.1, 20.0), "what it brakes with comfortably"),
-    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "what it brakes with at the most"),
-    setting("leader_deceleration", STANDARD.leader_deceleration, "m/s^2", (0.1, 20.0), "what the other may brake with"),
-    setting("margin", STANDARD.margin, "m", (0.0, 20.0), "what is to be left when both stand"),
-    setting("jerk", STANDARD.jerk, "m/s^3", (1.0, 1000.0), "how fast its deceleration changes"),
+    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "reaction time"),
+    setting("comfortable", STANDARD.comfortable, "m/s^2", (0.1, 20.0), "comfortable deceleration"),
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "hardest deceleration"),
+    setting(
+        "leader_deceleration",
+        STANDARD.leader_deceleration,
+        "m/s^2",
+        (0.1, 20.0),
+        "hardest deceleration of the other road user",
+    ),
+    setting("margin", STANDARD.margin, "m", (0.0, 20.0), "distance that is to be left when both stand"),
+    setting("jerk", STANDARD.jerk, "m/s^3", (1.0, 1000.0), "rate at which the deceleration changes"),
 ];
 
 impl Default for Fsm {

@@ -35,7 +35,7 @@ const STANDARD: Ideal = Ideal { deceleration: GRAVITY, horizon: 5.0, margin: 0.3
 
 pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "ideal",
-    about: "brakes without delay and only as hard as it must, and is told the truth",
+    about: "brakes without delay and only as hard as it must, and is told the ground truth",
     settings: &SETTINGS,
     make: |settings| {
         Reference::boxed(Ideal {
@@ -47,9 +47,9 @@ pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
 };
 
 const SETTINGS: [Setting; 3] = [
-    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "what it can brake with"),
-    setting("horizon", STANDARD.horizon, "s", (0.1, 30.0), "how far it looks ahead"),
-    setting("margin", STANDARD.margin, "m", (0.0, 5.0), "room it wants on all sides"),
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "greatest deceleration"),
+    setting("horizon", STANDARD.horizon, "s", (0.1, 30.0), "time that the driver looks ahead"),
+    setting("margin", STANDARD.margin, "m", (0.0, 5.0), "room that the driver wants on all sides"),
 ];
 
 impl Default for Ideal {

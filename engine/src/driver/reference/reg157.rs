@@ -34,7 +34,7 @@ const STANDARD: Reg157 =
 
 pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "reg157",
-    about: "brakes as late and as little as UN R157 allows, and is told the truth",
+    about: "brakes as late and as little as UN R157 allows, and is told the ground truth",
     settings: &SETTINGS,
     make: |settings| {
         Reference::boxed(Reg157 {
@@ -48,10 +48,10 @@ pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
 };
 
 const SETTINGS: [Setting; 4] = [
-    setting("lane_width", STANDARD.lane_width, "m", (0.0, 10.0), "how wide lanes are"),
-    setting("intrusion", STANDARD.intrusion, "m", (0.0, 10.0), "how far into its lane the other has to be"),
-    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "from then until the brakes act"),
-    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.0, 20.0), "what it brakes with"),
+    setting("lane_width", STANDARD.lane_width, "m", (0.0, 10.0), "width of the lanes"),
+    setting("intrusion", STANDARD.intrusion, "m", (0.0, 10.0), "distance that the other must have come into the lane"),
+    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "time from the intrusion until the brakes act"),
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.0, 20.0), "deceleration of the car"),
 ];
 
 impl Default for Reg157 {

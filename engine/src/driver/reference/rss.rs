@@ -1,7 +1,7 @@
 //! The driver `rss`: Responsibility-Sensitive Safety (Shalev-Shwartz, Shammah, Shashua 2017).
 //!
 //! A situation is dangerous if neither the distance along the road nor the distance across it is safe, even if both
-//! road users do their worst in the response time rho. Along the road, the car under test speeds up with `a` during rho
+//! road users do their worst in the response time rho. Along the road, the ego vehicle speeds up with `a` during rho
 //! and then brakes with at least `b_min`, while the other brakes with at most `b_max` at once:
 //!
 //! `d = v rho + a rho² / 2 + (v + rho a)² / (2 b_min) - v_f² / (2 b_max)`, or 0 if that is negative.
@@ -10,7 +10,7 @@
 //! with at least `b_lat`; the remaining distance must be at least mu. The proper response to danger is, after rho, to
 //! brake with at least `b_min` until the distance is safe again.
 //!
-//! Our reading: The car under test keeps its speed during rho and answers with exactly `b_min`, at once and never
+//! Our reading: The ego vehicle keeps its speed during rho and answers with exactly `b_min`, at once and never
 //! sideways. It has no speed across the road. Another that comes towards it counts as standing (the paper has its own
 //! rule for that). rho, a, mu and `b_min` are the values used with UN R157's scenarios; `b_max` is taken equal to
 //! `b_min`. No values of `a_lat` and `b_lat` are given there; they are those in wide use with RSS, 0.2 and 0.8 m/s².
@@ -25,7 +25,7 @@ use crate::kinematic::{BrakingModel, Situation};
 pub struct Rss {
     /// The response time rho, in which nobody is expected to respond.
     pub response: f64,
-    /// The acceleration a with which the car under test may speed up during the response time.
+    /// The acceleration a with which the ego vehicle may speed up during the response time.
     pub acceleration: f64,
     /// The deceleration `b_min` with which the car brakes then.
     pub deceleration: f64,
@@ -53,7 +53,7 @@ const STANDARD: Rss = Rss {
 
 pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "rss",
-    about: "keeps the distances of Responsibility-Sensitive Safety, and is told the truth",
+    about: "keeps the distances of Responsibility-Sensitive Safety, and is told the ground truth",
     settings: &SETTINGS,
     make: |settings| {
         Reference::boxed(Rss {
@@ -70,13 +70,43 @@ pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
 };
 
 const SETTINGS: [Setting; 7] = [
-    setting("response", STANDARD.response, "s", (0.0, 5.0), "time in which nobody responds"),
-    setting("acceleration", STANDARD.acceleration, "m/s^2", (0.0, 20.0), "what the car may speed up with meanwhile"),
-    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "what it brakes with then"),
-    setting("leader_deceleration", STANDARD.leader_deceleration, "m/s^2", (0.1, 20.0), "what the other may brake with"),
+    setting("response", STANDARD.response, "s", (0.0, 5.0), "response time"),
+    setting(
+        "acceleration",
+        STANDARD.acceleration,
+        "m/s^2",
+        (0.0, 20.0),
+        "acceleration of the car during the response time",
+    ),
+    setting(
+        "deceleration",
+        STANDARD.deceleration,
+        "m/s^2",
+        (0.1, 20.0),
+        "deceleration of the car after the response time",
+    ),
+    setting(
+        "leader_deceleration",
+        STANDARD.leader_deceleration,
+        "m/s^2",
+        (0.1, 20.0),
+        "greatest deceleration of the other road user",
+    ),
     setting("lateral_margin", STANDARD.lateral_margin, "m", (0.0, 10.0), "room that must remain beside the other"),
-    setting("lateral_acceleration", STANDARD.lateral_acceleration, "m/s^2", (0.0, 20.0), "speeding up sideways"),
-    setting("lateral_deceleration", STANDARD.lateral_deceleration, "m/s^2", (0.1, 20.0), "braking sideways"),
+    setting(
+        "lateral_acceleration",
+        STANDARD.lateral_acceleration,
+        "m/s^2",
+        (0.0, 20.0),
+        "lateral acceleration of either during the response time",
+    ),
+    setting(
+        "lateral_deceleration",
+        STANDARD.lateral_deceleration,
+        "m/s^2",
+        (0.1, 20.0),
+        "lateral deceleration of either after the response time",
+    ),
 ];
 
 impl Default for Rss {

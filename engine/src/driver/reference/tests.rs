@@ -8,7 +8,7 @@ use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 use proptest::prelude::*;
 
-/// A car in the lane of the car under test.
+/// A car in the lane of the ego vehicle.
 const AHEAD: Situation = Situation {
     speed: 20.0,
     acceleration: 0.0,
@@ -226,7 +226,8 @@ fn ideal_brakes_no_harder_than_it_must_and_not_at_all_where_it_gets_through() {
 
 #[test]
 fn ideal_slips_through_with_less_room_than_it_wants_where_braking_would_not_help() {
-    // It has passed after 1.1 s, 0.02 s before the other is in its path; braking with 1 g it would not be behind by then.
+    // It has passed after 1.1 s, 0.02 s before the other is in its path; braking with 1 g it would not be behind by
+    // then.
     let narrow = Situation { gap: 2.0, lateral: 3.5, approach: 1.7 / 1.12, ..AHEAD };
     assert_eq!(Ideal::default().brake(&narrow, DT), 0.0);
     let hopeless = Situation { approach: 1.7 / 1.0, ..narrow };
@@ -238,8 +239,8 @@ fn ideal_passes_one_and_stops_for_the_next() {
     let passes = CutIn { speed: 15.0, other_speed: 3.0, gap: 1.0, lateral_speed: 1.8 };
     let mut encounter = Encounter { duration: 5.0, ..passes.encounter() };
     encounter.others.extend(LeaderBrakes { speed: 0.0, gap: 36.0, deceleration: 0.0 }.encounter().others);
-    // The one that comes over is in the path after 1.05 s and passed after 0.83 s; to stop within 36 m takes half of the brakes
-    // from 0.87 s on, or all of them from 1.63 s on. After 5 s, the one behind would be there.
+    // The one that comes over is in the path after 1.05 s and passed after 0.83 s; to stop within 36 m takes half of
+    // the brakes from 0.87 s on, or all of them from 1.63 s on. After 5 s, the one behind would be there.
     let (profile, ended) = Ideal::default().best(&encounter);
     assert_eq!(ended.collision, None);
     assert_eq!((profile.onset, profile.deceleration), (0.5, 0.5 * 9.80665));
@@ -306,8 +307,8 @@ fn a_car_that_stands_across_the_road_counts_with_its_length() {
     }
 }
 
-/// Whether the driver ever brakes at 15 m/s while a car that stands 58 m ahead comes nearer, and perhaps another drives away
-/// at 20 m/s between the two.
+/// Whether the driver ever brakes at 15 m/s while a car that stands 58 m ahead comes nearer, and perhaps another drives
+/// away at 20 m/s between the two.
 fn brakes_behind(driver: &str, leader: bool) -> bool {
     let mut driver = find(driver).unwrap().build(&[]).unwrap();
     driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();

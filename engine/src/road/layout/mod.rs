@@ -97,10 +97,10 @@ impl Plan {
             return Some(format!("has {lanes} lanes, expected an even number from 2 to {MOST_LANES}"));
         }
         if !(2.0..=10.0).contains(&lane_width) {
-            return Some(format!("has lanes of {lane_width} m, expected 2 to 10 m"));
+            return Some(format!("has lanes with a width of {lane_width} m, expected 2 to 10 m"));
         }
         if !(0.0..=20.0).contains(&sidewalk) {
-            return Some(format!("has sidewalks of {sidewalk} m, expected 0 to 20 m"));
+            return Some(format!("has sidewalks with a width of {sidewalk} m, expected 0 to 20 m"));
         }
         match &self.shape {
             ElementShape::Segment(road) => segment::problem(road, &self.profile),

@@ -27,20 +27,20 @@ const LARGEST_ANGLE: f64 = 1.5 * PI;
 pub(super) fn problem(road: &Segment, profile: &Profile) -> Option<String> {
     if !LENGTHS.contains(&road.length) {
         let (least, most) = LENGTHS.into_inner();
-        return Some(format!("has length {}, expected {least} to {most} m", road.length));
+        return Some(format!("has a length of {} m, expected {least} to {most} m", road.length));
     }
     if road.curvature != 0.0 {
         let (radius, angle) = (1.0 / road.curvature.abs(), (road.length * road.curvature).abs());
         let least = profile.half_width() + profile.sidewalk;
         if !(radius > least && radius <= LARGEST_RADIUS) {
             return Some(format!(
-                "bends with a radius of {radius} m, expected more than {least} m, which it is wide on either side, \
+                "bends with a radius of {radius} m, expected more than {least} m, its width on either side, \
                  and at most {LARGEST_RADIUS} m"
             ));
         }
         if angle > LARGEST_ANGLE {
             let (degrees, most) = (angle.to_degrees(), LARGEST_ANGLE.to_degrees());
-            return Some(format!("turns by {degrees:.1} degrees, expected at most {most}"));
+            return Some(format!("turns by {degrees:.1} degrees, expected at most {most} degrees"));
         }
     }
     let mut end = 0.0;
@@ -48,7 +48,7 @@ pub(super) fn problem(road: &Segment, profile: &Profile) -> Option<String> {
         let (from, to) = (at - 0.5 * ZEBRA, at + 0.5 * ZEBRA);
         if !(from >= end && to <= road.length) {
             return Some(format!(
-                "has a zebra crossing at {at} m, which needs {ZEBRA} m of the {} m to itself",
+                "has a zebra crossing at {at} m that needs {ZEBRA} m of the road's {} m for itself",
                 road.length
             ));
         }

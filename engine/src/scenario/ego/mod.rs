@@ -1,4 +1,4 @@
-//! The car under test: how programs place and read it, and how it moves.
+//! The ego vehicle: how programs place and read it, and how it moves.
 
 mod quantity;
 mod right_of_way;

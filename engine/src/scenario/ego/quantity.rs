@@ -1,4 +1,4 @@
-//! Quantities of the car under test that not every trace records. They are measured only if a program asks for them.
+//! Quantities of the ego vehicle that not every trace records. They are measured only if a program asks for them.
 
 use super::Ego;
 use super::right_of_way;

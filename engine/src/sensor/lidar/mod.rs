@@ -25,7 +25,7 @@ use scanner::Scanner;
 
 /// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor =
-    Descriptor { name: "lidar", about: "points where beams of light come back, with their intensity" };
+    Descriptor { name: "lidar", about: "points from which beams of light come back, with their intensity" };
 
 /// The steepest beam in radians, up or down: 85 degrees.
 const STEEPEST: f64 = 1.483_529_864_195_180_3;

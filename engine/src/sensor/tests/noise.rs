@@ -86,8 +86,8 @@ fn a_receiver_is_without_satellites_as_often_and_as_long_as_it_says() {
     let settings = GnssSettings { outages: 0.2, outage_duration: 3.0, ..GnssSettings::default() };
     let times: Vec<f64> = (0..200_000).map(|k| k as f64 * 0.1).collect();
     let fixes = readings(&mut Gnss::new(settings).unwrap(), &moving(), &times, 2);
-    // An outage begins after 5 s in the mean, both lengths exponential but for the steps of 0.1 s; half of a step is added to
-    // either on average. A share of n cycles of two exponential lengths spreads by p (1 - p) sqrt(2 / n).
+    // An outage begins after 5 s in the mean, both lengths exponential but for the steps of 0.1 s; half of a step is
+    // added to either on average. A share of n cycles of two exponential lengths spreads by p (1 - p) sqrt(2 / n).
     let share = fixes.iter().filter(|fix| fix.is_none()).count() as f64 / fixes.len() as f64;
     let expected = 3.05 / (5.05 + 3.05);
     let cycles = 20_000.0 / 8.1;

@@ -194,8 +194,8 @@ fn energy(state: &VehicleState) -> f64 {
     0.5 * (CAR.mass * centre.norm_squared() + CAR.yaw_inertia * state.yaw_rate * state.yaw_rate)
 }
 
-/// The share of half of the track by the height of the centre of gravity below which no friction tips a car over: a search
-/// for the way that does at the lowest friction came down to 0.65.
+/// The share of half of the track by the height of the centre of gravity below which no friction tips a car over: a
+/// search for the way that does at the lowest friction came down to 0.65.
 const LEAST_TIPPING: f64 = 0.6;
 
 /// Whether a car that has lost its state tipped over: the wheels on one side are in the air.

@@ -97,8 +97,8 @@ fn a_wide_circle_has_the_radius_along_which_the_wheels_point() {
     }
 }
 
-/// The steering angle that a bend needs beyond what its radius takes, by the side acceleration: the slope of the straight
-/// line through a sweep of speeds, in rad s²/m.
+/// The steering angle that a bend needs beyond what its radius takes, by the side acceleration: the slope of the
+/// straight line through a sweep of speeds, in rad s²/m.
 #[test]
 fn the_understeer_gradient_is_the_one_that_is_documented() {
     for (model, documented) in [(VehicleModel::SingleTrack, 1.4e-5), (VehicleModel::Jointed, 4.0e-5)] {

@@ -102,8 +102,8 @@ fn the_error_of_taking_samples_is_in_the_deviation_and_weights_count() {
     assert!((weighed.mean - 0.6).abs() < 0.02, "{weighed:?}");
 }
 
-/// Of places along two of some parameters, where tests pass on one side of a random plane: the share that is decided after
-/// so many tests, and the share of it that is right.
+/// Of places along two of some parameters, where tests pass on one side of a random plane: the share that is decided
+/// after so many tests, and the share of it that is right.
 fn decided(dimensions: usize, n: usize, planes: u64) -> (f64, f64) {
     let (mut decided, mut right, mut places) = (0, 0, 0);
     for plane in 0..planes {
@@ -156,8 +156,8 @@ fn a_few_tests_decide_nothing_and_what_more_tests_decide_is_right() {
 
 #[test]
 fn where_little_can_be_told_as_many_are_said_to_fail_as_do() {
-    // Of tests in six parameters one in eight fails, and hardly any parameter says which. The model sees 400 of them, but
-    // all that fail.
+    // Of tests in six parameters one in eight fails, and hardly any parameter says which. The model sees 400 of them,
+    // but all that fail.
     let space = Space::unit_cube(6);
     let known = tests(&space, 600);
     let told: Vec<f64> =

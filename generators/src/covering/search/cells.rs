@@ -1,18 +1,18 @@
-//! Numbers for the combinations of t levels, without a table of the choices of parameters.
+//! Numbers the combinations of t levels without a table of the choices of parameters.
 //!
-//! The combinations whose last parameter is the j-th come after all combinations of earlier parameters, and are
-//! in order of that parameter's level, then of the t - 1 others by the same rule: so a combination's number is a
-//! sum of a term for each of its levels (the combinatorial number system, for levels in place of elements).
+//! The combinations whose last parameter is the j-th come after all combinations of earlier parameters. They are
+//! ordered by that parameter's level, then by the t - 1 other levels by the same rule. So a combination's number is a
+//! sum with a term for each of its levels (the combinatorial number system, for levels in place of elements).
 
 use std::collections::BTreeSet;
 
-/// The largest strength that is searched.
+/// The largest strength that can be searched.
 pub(super) const MOST_STRENGTH: usize = 8;
 
 /// The largest number of cells.
 const MOST_CELLS: usize = 1 << 26;
 
-/// The members that a cell is about; the first so many as the strength is.
+/// The places of the members of a cell. Only the first `strength` of them count.
 pub(super) type Chosen = [u16; MOST_STRENGTH];
 
 /// The numbers of the combinations among some parameters.
@@ -20,25 +20,25 @@ pub(super) type Chosen = [u16; MOST_STRENGTH];
 pub(crate) struct Cells {
     pub(super) members: Vec<usize>,
     pub(super) strength: usize,
-    /// For the s-th smallest place of a combination, from 1: what each member adds, by its place ...
+    /// For the s-th smallest place of a combination, from 1, the number that each member adds, by its place.
     start: Vec<Vec<usize>>,
-    /// ... and for each level.
+    /// The number that each level adds, by `s` and the place of its member.
     step: Vec<Vec<usize>>,
     count: usize,
     orbits: Option<Orbits>,
 }
 
-/// Combinations that a group of permutations of the levels maps to each other count as one.
+/// The orbits of combinations: combinations that a group of permutations maps to each other count as one.
 #[derive(Debug, Clone)]
 pub(crate) struct Orbits {
     /// The orbit of each combination of t levels; the level of the smallest place is the lowest digit.
     pub(crate) of: Vec<usize>,
-    /// How many there are.
+    /// The number of orbits.
     pub(crate) count: usize,
 }
 
 impl Cells {
-    /// The combinations of `strength` of the members; none where their number is beyond bounds.
+    /// Numbers the combinations of `strength` of the members; `None` if there are too many.
     pub(crate) fn new(levels: &[usize], members: &[usize], strength: usize) -> Option<Self> {
         if strength > MOST_STRENGTH {
             return None;
@@ -58,7 +58,7 @@ impl Cells {
         Some(Self { members: members.to_vec(), strength, start, step, count, orbits: None })
     }
 
-    /// The orbits of the combinations of `strength` of so many parameters of `v` levels each.
+    /// Numbers the orbits of the combinations of `strength` of `parameters` parameters, of `v` levels each.
     pub(crate) fn of_orbits(parameters: usize, v: usize, strength: usize, orbits: Orbits) -> Self {
         let mut choices = vec![vec![0; parameters + 1]; strength + 1];
         choices[0].fill(1);
@@ -75,27 +75,27 @@ impl Cells {
         Self { members: (0..parameters).collect(), strength, start, step, count, orbits: Some(orbits) }
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub(crate) fn len(&self) -> usize {
         self.count
     }
 
-    /// How many members there are.
+    /// The number of members.
     pub(crate) fn members(&self) -> usize {
         self.members.len()
     }
 
-    /// How many members a cell is about.
+    /// The number of members of a cell.
     pub(crate) fn strength(&self) -> usize {
         self.strength
     }
 
-    /// How many cells a row has.
+    /// The number of cells of a row.
     pub(crate) fn in_row(&self) -> usize {
         (0..self.strength).fold(1, |choices, i| choices * (self.members.len() - i) / (i + 1))
     }
 
-    /// Whether a cell is a single combination.
+    /// Returns `true` if a cell is a single combination.
     pub(super) fn are_combinations(&self) -> bool {
         self.orbits.is_none()
     }
@@ -124,14 +124,14 @@ impl Cells {
         self.cell(terms.sum())
     }
 
-    /// Calls with every cell of a row, or with those of a place, and the chosen places in ascending order.
+    /// Calls with each cell of a row, or with each cell of one place, and the chosen places in ascending order.
     #[inline(always)]
     pub(super) fn each(&self, row: &[usize], place: Option<usize>, call: &mut impl FnMut(usize, &Chosen)) {
         let mut chosen = [0; MOST_STRENGTH];
         self.choose(self.strength, self.members.len(), 0, row, place, &mut chosen, call);
     }
 
-    /// Calls with every cell, the chosen places, and a row that has it.
+    /// Calls with each cell, its chosen places, and a row that has the cell.
     pub(super) fn each_cell(&self, levels: &[usize], call: &mut impl FnMut(&[usize], usize, &Chosen)) {
         let mut sets = Vec::new();
         self.each(&vec![0; levels.len()], None, &mut |_, chosen| sets.push(*chosen));
@@ -152,7 +152,7 @@ impl Cells {
         }
     }
 
-    /// Chooses the `s` smallest places, all below `end`; `forced` is one of them.
+    /// Chooses the `s` smallest places, all below `end`; `forced` is one of them if given.
     #[allow(clippy::too_many_arguments)]
     fn choose(
         &self,

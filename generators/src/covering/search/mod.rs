@@ -1,11 +1,12 @@
-//! Smaller covering arrays by local search.
+//! Finds smaller covering arrays by local search.
 //!
-//! A row is dropped, and entries of the others are changed until everything is covered again; then the next. As
-//! in TCA (Lin, Luo, Cai, Su, Hao, Zhang, *TCA: an efficient two-mode meta-heuristic algorithm for combinatorial
-//! test generation*, ASE 2015) each step covers one missing combination, by the change of an entry that was not
-//! changed lately and after which the fewest are missing. What a change uncovers is never counted anew: every
-//! cell knows how many rows cover it and the exclusive or of their numbers, thus the row where it is only one,
-//! and every entry knows how many cells its row alone covers with it.
+//! A row is dropped, and entries of the others are changed until everything is covered again; then the next row is
+//! dropped. As in TCA (Lin, Luo, Cai, Su, Hao, Zhang, *TCA: an efficient two-mode meta-heuristic algorithm for
+//! combinatorial test generation*, ASE 2015), each step covers one missing combination. It changes an entry that was
+//! not changed lately, so that the fewest combinations are missing afterwards. The combinations that a change
+//! uncovers are never counted again. Every cell knows the number of rows that cover it and the exclusive or of their
+//! numbers, which is the row itself if there is only one. Every entry knows how many cells only its row covers with
+//! it.
 
 mod cells;
 mod state;

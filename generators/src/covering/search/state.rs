@@ -5,32 +5,34 @@ use super::tally::{Missing, Tally};
 use crate::seeded::mix;
 use paracosm_space::rules::Rules;
 
-/// One step in so many takes any change that covers the combination.
+/// One of so many steps takes any change that covers the combination.
 const WANDER: usize = 500;
 
-/// Steps for which an entry stays as it is after a change: so many, and up to as many more.
+/// An entry stays unchanged after a change for this number of steps, and up to as many more.
 const TENURE: usize = 2;
 
-/// After so many steps without progress, entries stay as they are twice as long; after some doublings, as short as
-/// at first. What is near is searched more thoroughly with the one, what is trapped comes free with the other.
+/// After this number of steps without progress, entries stay unchanged twice as long. After `DOUBLINGS` doublings
+/// they stay as short as at first. Long times free a trapped search, short times search the neighbourhood more
+/// thoroughly.
 const PATIENCE: u64 = 3000;
 const DOUBLINGS: u64 = 4;
 
-/// How many missing cells are looked at to rate a change.
+/// The number of missing cells that are examined to rate a change.
 const LOOKED_AT: usize = 256;
 
-/// Rows, what they cover, and what is missing.
+/// The rows of a search, with the cells that they cover and the cells that are missing.
 #[derive(Debug, Clone)]
 pub(crate) struct Annealing {
     rules: Rules,
     families: Vec<Cells>,
-    /// The families with each parameter, and its place there.
+    /// For each parameter, the families that contain it, and its place in each.
     families_of: Vec<Vec<(usize, usize)>>,
     rows: Vec<Vec<usize>>,
     kept: usize,
-    /// The rows that are there and may change.
+    /// The rows that exist and may change.
     active: Vec<usize>,
-    /// Those of them with each level, a bit each; where the levels of each parameter begin.
+    /// For each level, the rows of `active` that have it, a bit each. `first` has the position of each parameter's
+    /// levels.
     having: Vec<Vec<u64>>,
     present: Vec<u64>,
     first: Vec<usize>,
@@ -39,12 +41,12 @@ pub(crate) struct Annealing {
     free_at: Vec<Vec<u64>>,
     step: u64,
     chance: u64,
-    /// How few cells have been missing since the last row was dropped, and since which step.
+    /// The least number of missing cells since the last row was dropped, and the step at which it was reached.
     fewest: usize,
     progressed: u64,
 }
 
-/// The change of an entry.
+/// A change of one entry.
 #[derive(Debug, Clone, Copy)]
 struct Change {
     row: usize,
@@ -53,8 +55,8 @@ struct Change {
 }
 
 impl Annealing {
-    /// Starts from rows that keep the constraints, fewer than 2^16; the first `kept` of them never change. What
-    /// they do not cover is not asked for.
+    /// Starts from fewer than 2^16 rows that satisfy the constraints. The first `kept` of them never change.
+    /// Combinations that the rows do not cover are not demanded.
     pub(crate) fn new(rules: &Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {
         assert!(rows.len() < 1 << 16, "rows are numbered in 16 bits");
         let levels = rules.levels();
@@ -106,29 +108,29 @@ impl Annealing {
         search
     }
 
-    /// Notes that a row comes to have an entry, or has it no longer.
+    /// Notes that a row gets an entry, or no longer has it.
     fn flip(&mut self, index: usize, parameter: usize) {
         let entry = self.first[parameter] + self.rows[index][parameter];
         self.having[entry][index / 64] ^= 1 << (index % 64);
     }
 
-    /// The rows as they are.
+    /// The present rows.
     pub(crate) fn rows(&self) -> Vec<Vec<usize>> {
         let indices = (0..self.kept).chain(self.active.iter().copied());
         indices.map(|index| self.rows[index].clone()).collect()
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub(crate) fn len(&self) -> usize {
         self.kept + self.active.len()
     }
 
-    /// How many cells are missing.
+    /// The number of missing cells.
     pub(crate) fn missing(&self) -> usize {
         self.tally.missing.len()
     }
 
-    /// Asks for all cells.
+    /// Demands all cells.
     pub(crate) fn demand_all(&mut self) {
         let Self { families, tally, rules, fewest, .. } = self;
         for (family, cells) in families.iter().enumerate() {
@@ -146,7 +148,7 @@ impl Annealing {
         ((u128::from(mix(self.chance)) * below as u128) >> 64) as usize
     }
 
-    /// Drops the row that alone covers the fewest cells; false if no row may be dropped.
+    /// Drops the row that is the only one for the fewest cells. Returns `false` if no row may be dropped.
     pub(crate) fn drop_row(&mut self) -> bool {
         let place = (0..self.active.len()).min_by_key(|&place| self.tally.all_alone(self.active[place]));
         let Some(place) = place else { return false };
@@ -172,7 +174,7 @@ impl Annealing {
         }
         let Self { families, families_of, rows, tally, .. } = self;
         let row = &mut rows[index];
-        // A cell with several of the entries is visited for the first of them only.
+        // A cell with several of the entries is visited only for the first of them.
         let is_first = |cells: &Cells, chosen: &Chosen, i: usize| {
             i == 0 || {
                 let mut members = chosen[..cells.strength].iter().map(|&place| cells.members[place as usize]);
@@ -214,7 +216,7 @@ impl Annealing {
         }
     }
 
-    /// Takes so many steps, fewer if nothing is missing any more.
+    /// Takes `steps` steps, fewer if nothing is missing any more.
     pub(crate) fn steps(&mut self, steps: usize) {
         for _ in 0..steps {
             if self.missing() == 0 {
@@ -263,7 +265,7 @@ impl Annealing {
         }
     }
 
-    /// Whether a row keeps the constraints with another level.
+    /// Returns `true` if a row with another level satisfies the constraints.
     fn keeps(&mut self, row: usize, parameter: usize, level: usize) -> bool {
         let row = &mut self.rows[row];
         let before = std::mem::replace(&mut row[parameter], level);
@@ -309,7 +311,7 @@ impl Annealing {
         changes
     }
 
-    /// How many missing cells a change covers.
+    /// The number of missing cells that a change covers.
     fn would_cover(&self, change: Change) -> i64 {
         let row = &self.rows[change.row];
         let covers = |missing: &&Missing| {
@@ -325,7 +327,7 @@ impl Annealing {
         self.tally.missing.iter().take(LOOKED_AT).filter(covers).count() as i64
     }
 
-    /// Puts a combination of a cell into some row, and changes what else constraints then demand.
+    /// Puts a combination of a cell into some row, and changes other entries as the constraints then demand.
     fn force(&mut self, missing: &Missing) {
         if self.active.is_empty() {
             return;

@@ -1,12 +1,13 @@
-//! Who covers what.
+//! Counts which rows cover which cells.
 
 use super::cells::{Cells, Chosen, MOST_STRENGTH};
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
-    /// How many rows cover it.
+    /// The number of rows that cover the cell.
     count: u16,
-    /// The exclusive or of their numbers; where there is none, the low bits of its place among the missing.
+    /// The exclusive or of the numbers of these rows. Without a row, the low bits of the cell's place among the
+    /// missing cells.
     rows: u16,
 }
 
@@ -20,20 +21,20 @@ pub(super) struct Missing {
     pub(super) levels: [u32; MOST_STRENGTH],
 }
 
-/// The cells of one family after the other, and what follows from them.
+/// The cells of all families, one family after the other, with the counts that follow from them.
 #[derive(Debug, Clone)]
 pub(super) struct Tally {
     parameters: usize,
     begin: Vec<usize>,
     cells: Vec<Cell>,
-    /// The cells without a row.
+    /// The cells without a row that are demanded.
     pub(super) missing: Vec<Missing>,
-    /// How many cells each row alone covers, with each of its entries and then altogether.
+    /// The number of cells that only this row covers: with each of its entries, and then in all.
     alone: Vec<u32>,
 }
 
 impl Tally {
-    /// Nothing is covered yet, and nothing asked for.
+    /// Makes a tally in which nothing is covered and nothing is demanded.
     pub(super) fn new(families: &[Cells], rows: usize, parameters: usize) -> Self {
         let begin: Vec<usize> = families
             .iter()
@@ -52,13 +53,13 @@ impl Tally {
         }
     }
 
-    /// How many cells would be missing without an entry.
+    /// The number of cells that would be missing without an entry.
     #[inline(always)]
     pub(super) fn alone(&self, row: usize, parameter: usize) -> u32 {
         self.alone[row * (self.parameters + 1) + parameter]
     }
 
-    /// How many cells would be missing without a row.
+    /// The number of cells that would be missing without a row.
     pub(super) fn all_alone(&self, row: usize) -> u32 {
         self.alone(row, self.parameters)
     }
@@ -73,7 +74,7 @@ impl Tally {
         alone[self.parameters] = alone[self.parameters].wrapping_add(change);
     }
 
-    /// Counts a row of the start at a cell.
+    /// Counts a row of the start for a cell.
     #[inline(always)]
     pub(super) fn count(&mut self, family: usize, row: usize, cell: usize) {
         let cell = &mut self.cells[self.begin[family] + cell];
@@ -81,7 +82,7 @@ impl Tally {
         cell.rows ^= row as u16;
     }
 
-    /// Once all rows of the start are counted: whether a row is alone at a cell.
+    /// Counts a row as alone at a cell, if it is. All rows of the start must have been counted before.
     #[inline(always)]
     pub(super) fn claim(&mut self, family: usize, cells: &Cells, row: usize, cell: usize, chosen: &Chosen) {
         if self.cells[self.begin[family] + cell].count == 1 {
@@ -89,7 +90,7 @@ impl Tally {
         }
     }
 
-    /// A row comes to cover a cell.
+    /// Notes that a row now covers a cell.
     #[inline(always)]
     pub(super) fn enter(&mut self, family: usize, cells: &Cells, row: usize, cell: usize, chosen: &Chosen) {
         let at = self.begin[family] + cell;
@@ -109,7 +110,7 @@ impl Tally {
         self.cells[at] = Cell { count: state.count + 1, rows };
     }
 
-    /// A row with these levels comes to cover a cell no longer.
+    /// Notes that a row with these levels no longer covers a cell.
     #[inline(always)]
     pub(super) fn leave(
         &mut self,
@@ -134,7 +135,7 @@ impl Tally {
         }
     }
 
-    /// A cell that no row covers is asked for.
+    /// Demands a cell that no row covers.
     pub(super) fn add_missing(&mut self, family: usize, cells: &Cells, row: &[usize], cell: usize, chosen: &Chosen) {
         let mut levels = [0; MOST_STRENGTH];
         for (level, &place) in levels.iter_mut().zip(&chosen[..cells.strength]) {
@@ -144,7 +145,7 @@ impl Tally {
         self.missing.push(Missing { family: family as u16, cell: cell as u32, chosen: *chosen, levels });
     }
 
-    /// Whether no row covers a cell.
+    /// Returns `true` if no row covers a cell.
     pub(super) fn is_missing(&self, family: usize, cell: usize) -> bool {
         self.cells[self.begin[family] + cell].count == 0
     }

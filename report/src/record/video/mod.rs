@@ -44,7 +44,7 @@ impl<W: Write + Seek> Video<W> {
         let [width, height] = planes.size();
         let level = level([width, height], rate).ok_or_else(|| {
             format!(
-                "{} x {} pixels are more than a video may have, expected .gif or a folder of PNG files",
+                "a film of {} x {} pixels is larger than an MP4 file allows; write a .gif file or a folder of PNG files instead",
                 size[0], size[1]
             )
         })?;
@@ -69,7 +69,8 @@ impl<W: Write + Seek> Video<W> {
         self.planes.take(rgb);
         let [width, height] = self.planes.size().map(|pixels| pixels as usize);
         let [y, u, v] = self.planes.all();
-        let planes = YuvPlanes::new(width, height, y, u, v, width, width / 2).ok_or("a picture has another size")?;
+        let planes = YuvPlanes::new(width, height, y, u, v, width, width / 2)
+            .ok_or("a picture has another size than the film")?;
         let coded = self.encoder.encode_planes(&planes)?;
         let mut picture = Picture { seconds, ..Picture::default() };
         for unit in split_annex_b(&coded) {

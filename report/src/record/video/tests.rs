@@ -87,7 +87,8 @@ fn what_a_player_has_to_know_is_said_of_the_pictures() {
     let coding = inside(coding, "avc1");
     assert_eq!(coding[24..28], [0, 48, 0, 32]);
     let settings = inside(&coding[78..], "avcC");
-    // Constrained baseline: profile 66 with the second constraint; level 4; lengths of four bytes; one unit of each kind.
+    // Constrained baseline: profile 66 with the second constraint; level 4; lengths of four bytes; one unit of each
+    // kind.
     assert_eq!((settings[1], settings[2] & 0x40, settings[3], settings[4], settings[5]), (66, 0x40, 40, 0xFF, 0xE1));
     let length = usize::from(u16::from_be_bytes([settings[6], settings[7]]));
     assert_eq!(settings[8..12], [0x67, settings[1], settings[2], settings[3]]);

@@ -57,7 +57,8 @@ fn the_more_it_rains_the_more_of_the_image_is_drops_and_by_as_much_as_their_size
         let step = 0.001;
         let sizes = (0..20_000).map(|i| SMALLEST + step * (f64::from(i) + 0.5));
         let squares: f64 = sizes.map(|size| 8000.0 * libm::exp(-fewer * size) * step * size * size * 1e-6).sum();
-        // At any depth z the camera sees z² / focal² square metres for each pixel, and a drop covers pi/4 (size focal / z)².
+        // At any depth z the camera sees z² / focal² square metres for each pixel, and a drop covers pi/4 (size focal /
+        // z)².
         let pixels = f64::from(camera.width() * camera.height());
         let expected = FRAC_PI_4 * squares * pixels * (FAR - NEAR);
         let found = brightness(rate);
