@@ -1,6 +1,6 @@
 //! Draws a town around a roundabout, with a route through it: `cargo run --release --example town > town.svg`.
 
-use paracosm::engine::picture::RoadPicture;
+use paracosm::report::birds_eye::RoadPicture;
 use paracosm::engine::road::{Composite, RoadError, RoadSegment, Roundabout, RoutePosition, TIntersection};
 use std::f64::consts::FRAC_PI_2;
 

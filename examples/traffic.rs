@@ -2,7 +2,7 @@
 //!
 //! Blue cars drive, red cars brake or stand, yellow cars change lanes.
 
-use paracosm::engine::picture::{Colour, RoadPicture};
+use paracosm::report::birds_eye::{Colour, RoadPicture};
 use paracosm::engine::road::grid_city;
 use paracosm::engine::traffic::{CarState, Traffic, TrafficCar};
 

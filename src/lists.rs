@@ -1,5 +1,5 @@
-//! The lists of everything that has a name, read from the descriptors. `paracosm-fuzz list` and the tables of documents
-//! show these lists.
+//! Lists of the named scenarios, strategies, drivers, measures, sensors and camera settings, read from their
+//! descriptors. `paracosm-fuzz list` and the tables of documents show these lists.
 
 use crate::campaign::study::ListedDriver;
 use crate::coverage::Measure;
@@ -7,7 +7,7 @@ use crate::engine::{Program, sensor};
 use crate::generators::Strategy;
 use crate::scenarios;
 
-/// The lists of everything that has a name.
+/// Lists of the named scenarios, strategies, drivers, measures, sensors and camera settings.
 #[derive(Debug, Clone)]
 pub struct Lists {
     /// The scenarios of the catalogue.
@@ -16,7 +16,7 @@ pub struct Lists {
     pub strategies: Vec<Strategy>,
     /// The drivers, which are systems under test.
     pub drivers: Vec<ListedDriver>,
-    /// The measures of how well tests cover a space.
+    /// The measures of the coverage of a space by tests.
     pub measures: Vec<Measure>,
     /// The sensors of drivers.
     pub sensors: Vec<sensor::Descriptor>,
@@ -26,7 +26,7 @@ pub struct Lists {
 }
 
 impl Lists {
-    /// Returns the lists of everything that comes with the software.
+    /// Returns the lists of all scenarios, strategies and other named parts that come with the software.
     pub fn of_this_software() -> Self {
         Self {
             scenarios: scenarios::ALL.iter().copied().cloned().collect(),

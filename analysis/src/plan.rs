@@ -20,13 +20,13 @@ use thiserror::Error;
 /// The kind of guarantee that a number of tests gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Guarantee {
-    /// It is proved that no smaller set of tests suffices, whatever its tests are.
+    /// A proof shows that no smaller set of tests suffices, whichever tests the set has.
     NeededByAny,
-    /// It is proved that this set suffices.
+    /// A proof shows that this set suffices.
     Proved,
     /// This number of random tests suffices with the given probability or a higher one.
     Probable,
-    /// It was measured that this number of tests of this strategy suffices, and that one test fewer does not.
+    /// A measurement shows that this number of tests of this strategy suffices, and that one test fewer does not.
     Measured,
     /// The number is computed from measured numbers, but was not measured as a whole.
     Estimated,

@@ -20,8 +20,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::available_parallelism;
 use thiserror::Error;
 
-/// The number of tests that are asked for at a time if the strategy does not care: enough to keep many cores busy, few
-/// enough to keep in memory.
+/// The number of tests that are asked for at a time if the strategy has no preference: enough to keep many cores busy,
+/// and few enough to keep in memory.
 const BATCH: usize = 4096;
 
 /// The number of tests that run in lockstep if their drivers use cameras: enough to make good use of a graphics card,
@@ -86,7 +86,8 @@ impl<'a> Campaign<'a> {
         Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, extension: None, known: Vec::new(), stop, idle })
     }
 
-    /// Counts these tests as done, so that the tests of the study complete them.
+    /// Counts the tests of an extension as done, so that the strategy proposes tests in addition to the tests of the
+    /// extension.
     ///
     /// # Errors
     /// The tests cannot be read.
@@ -95,20 +96,20 @@ impl<'a> Campaign<'a> {
         Ok(self)
     }
 
-    /// Sets the number of threads. It does not change the results.
+    /// Sets the number of threads. The number of threads does not change the results.
     pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
         self.jobs = jobs;
         self
     }
 
     /// Sets the number of tests that run in lockstep if their drivers use cameras, so that their images are drawn
-    /// together; the default is 32. It does not change the results.
+    /// together; the default is 32. The number does not change the results.
     pub fn at_once(mut self, tests: NonZeroUsize) -> Self {
         self.at_once = tests;
         self
     }
 
-    /// Takes the first trials from `known` instead of running them.
+    /// Takes the first trials from `known` instead of running their tests.
     pub fn resume(mut self, known: Vec<Trial>) -> Self {
         self.known = known;
         self
@@ -122,13 +123,13 @@ impl<'a> Campaign<'a> {
     /// Checks that the strategy can do what the study asks, given the tests that the campaign extends.
     ///
     /// # Errors
-    /// The strategy cannot do it.
+    /// The strategy cannot do what the study asks.
     pub fn check(&self) -> Result<(), Error> {
         let existing = self.extension.as_ref().map_or(&[][..], |(_, points)| points);
         Ok(self.study.generator(existing).map(drop)?)
     }
 
-    /// Runs the tests that are not known yet. Every observer sees every trial in order.
+    /// Runs the tests whose trials are not known yet. Every observer sees every trial in order.
     ///
     /// # Errors
     /// An observer returns an error, the strategy cannot do what the study asks, a known trial does not belong to this
@@ -194,7 +195,7 @@ impl<'a> Campaign<'a> {
         Ok(finish)
     }
 
-    /// Runs the tests that are not known yet, and keeps the trials in memory.
+    /// Runs the tests whose trials are not known yet, and keeps the trials in memory.
     ///
     /// # Errors
     /// The same errors as [`Campaign::run`].
@@ -205,7 +206,8 @@ impl<'a> Campaign<'a> {
         Ok(Log::new(study, Learned::new(), extension, trials))
     }
 
-    /// Runs these tests instead of the tests that the strategy proposes; the first one gets the index `first`.
+    /// Runs these tests instead of the tests that the strategy proposes; the first of these tests gets the index
+    /// `first`.
     ///
     /// # Errors
     /// `watch` returns an error.
@@ -235,7 +237,7 @@ impl<'a> Campaign<'a> {
             expected.go_on()?;
             Ok(went_on)
         };
-        // The workers stop at an error. Nobody waits for a system when its results are no longer wanted.
+        // The workers stop at an error. Nothing waits for a system when its results are no longer wanted.
         let sink = |trial| {
             let end = match show(trial) {
                 Ok(ControlFlow::Continue(())) => {

@@ -49,10 +49,10 @@ pub struct Folder {
 /// The reason why a campaign cannot be begun or continued in a folder.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FolderFlaw {
-    /// The path is that of a file.
+    /// The path leads to a file instead of a folder.
     #[error("{} is a file, expected a folder to write to", path.display())]
     File {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
     },
     /// The folder already holds a campaign.
@@ -60,7 +60,7 @@ pub enum FolderFlaw {
         "{} holds a campaign already ({name}): continue it with --resume, or write elsewhere with --out", path.display()
     )]
     Occupied {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
         /// A file of the campaign.
         name: &'static str,
@@ -68,7 +68,7 @@ pub enum FolderFlaw {
     /// The folder holds files of a campaign, but no study.
     #[error("{} has {name} but no {STUDY}, so the campaign cannot be continued", path.display())]
     NoStudy {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
         /// A file of the campaign.
         name: &'static str,
@@ -76,30 +76,30 @@ pub enum FolderFlaw {
     /// The folder holds another campaign.
     #[error("{} holds a different campaign: its `{key}` is {there}, that of this command is {here}", path.display())]
     OtherStudy {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
         /// The entry of campaign.json in which the two campaigns differ.
         key: String,
-        /// The entry in the folder.
+        /// The value of this entry in the folder.
         there: String,
-        /// The entry of the study.
+        /// The value of this entry in the study of this command.
         here: String,
     },
     /// Another process writes to the folder.
     #[error("another process is writing to {}; wait until it ends", path.display())]
     InUse {
-        /// The log.
+        /// The path of the log, which the other process has locked.
         path: PathBuf,
     },
 }
 
-/// A name that is reserved for a campaign's own files.
+/// The error of a file whose name is reserved for a campaign's own files.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} has the name of a campaign's own file, which {what} must not replace", path.display())]
 pub struct NotYours {
-    /// The file.
+    /// The path of the file with the reserved name.
     pub path: PathBuf,
-    /// The thing that was to be written, with its article.
+    /// The description of the content that was to be written, with an article.
     pub what: &'static str,
 }
 

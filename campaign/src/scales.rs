@@ -1,4 +1,4 @@
-//! Scales of requirements: they tell a search how much robustness is large.
+//! Scales of requirements, which tell a search the size of a large robustness.
 //!
 //! A requirement of a scenario states its scale. A formula on the command line, or a requirement that a system judges
 //! itself by, states no scale: its robustness may be in thousands of revolutions or in fractions of a metre. Its scale
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// The greatest robustness that a search distinguishes, in multiples of its scale.
 const MOST: f64 = 10.0;
 
-/// The scales that a campaign has learned, in the units of the requirements, by their ids.
+/// The scales that a campaign has learned, by the ids of the requirements and in the units of the requirements.
 pub type Learned = BTreeMap<String, f64>;
 
 /// The scales of all requirements of a study.
@@ -25,7 +25,7 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Joins the scales that a study states and those that its campaign has learned.
+    /// Joins the scales that a study states and the scales that its campaign has learned.
     pub fn of(study: &Study, learned: Learned) -> Self {
         let stated = study.requirements().iter().filter_map(|stated| Some((stated.id.clone(), stated.scale?)));
         Self { stated: stated.collect(), learned }

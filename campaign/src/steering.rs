@@ -1,9 +1,10 @@
 //! Chooses a campaign's tests: it runs one search, driven by the worst of all requirements. If the strategy seeks a
-//! failure and there are several requirements, it runs one search for each and lets a bandit choose between them.
+//! failure and there are several requirements, it runs one search for each requirement and lets a bandit choose between
+//! the searches.
 //!
-//! The requirements are those of the study or, if a system answers with robustness, those of its first answer. All
-//! choices therefore depend only on the study and on the trials in their order, and a resumed campaign continues as it
-//! would have without the interruption.
+//! The requirements are the requirements of the study or, if a system answers with robustness, the requirements in its
+//! first answer. All choices therefore depend only on the study and on the trials in their order, and a resumed
+//! campaign continues as it would have without the interruption.
 
 use crate::scales::{Learned, Scales};
 use crate::{Study, Trial};
@@ -17,7 +18,7 @@ pub struct Steering<'a> {
     existing: Vec<Point>,
     search: Steered,
     scales: Scales,
-    /// The tests whose results were reported before any requirement was known; none of them has a result.
+    /// The tests that were reported before any requirement was known; none of these tests has a result.
     before: Vec<Point>,
 }
 
@@ -27,7 +28,7 @@ enum Steered {
 }
 
 impl<'a> Steering<'a> {
-    /// Makes the source of the tests of a study. The tests complete the `existing` ones.
+    /// Makes the source of the tests of a study. The tests complete the `existing` tests.
     ///
     /// # Errors
     /// The same errors as [`Study::generator`].
@@ -36,7 +37,7 @@ impl<'a> Steering<'a> {
         Self::with(study, generator, existing)
     }
 
-    /// Makes the source of the tests of a study that another generator of its strategy proposes. Searches for single
+    /// Makes the source of the tests of a study from a given generator of the study's strategy. Searches for single
     /// requirements still use the study's own generator.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Workers: they run tests on a scenario with a driver, or on an external process.
 //!
-//! This is the only place where a test becomes a trial, whatever it runs on.
+//! This is the only place where a test becomes a trial, in a simulator as in an external system.
 
 use crate::black_box::{Answer, Connection};
 use crate::darkroom::Darkroom;
@@ -50,8 +50,8 @@ impl<'a> Worker<'a> {
         Ok(worker)
     }
 
-    /// Makes a further worker, which shares the darkroom of another one. If no driver can be made, the first test
-    /// reports it.
+    /// Makes a further worker, which shares the given darkroom with other workers. If no driver can be made, the first
+    /// test reports the error.
     pub fn beside(study: &'a Study, stop: Arc<AtomicBool>, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
         let bench = match study.subject() {
             Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
@@ -76,7 +76,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs a test, as a campaign does with each test, and a replay with one test.
+    /// Runs a test, and returns its trial and, if there is one, its trace.
     pub fn run(&mut self, index: usize, test: &Values) -> (Trial, Option<Trace>) {
         let Self { study, bench } = self;
         match bench {

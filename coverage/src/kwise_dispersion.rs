@@ -1,10 +1,10 @@
 //! K-wise dispersion: the largest hole that any k parameters show, discrete and continuous parameters together.
 //!
-//! This number joins both halves of the paper's notion of coverage. Each choice of k parameters, with each
-//! combination of values of the discrete ones among them, selects tests. The selected tests, projected on the
-//! continuous parameters among the k, have a dispersion. The k-wise dispersion is the largest of these dispersions.
-//! If none of the k parameters is continuous, the dispersion is 0 if a test has the values and 1 if no test has them.
-//! If a failure depends on at most k parameters and takes up more than this share of their values, a test has hit it.
+//! This number joins both halves of the paper's notion of coverage. Each choice of k parameters, with each combination
+//! of values of the chosen discrete parameters, selects tests. The selected tests, projected on the continuous
+//! parameters among the k, have a dispersion. The k-wise dispersion is the largest of these dispersions. If none of the
+//! k parameters is continuous, the dispersion is 0 if a test has the values and 1 if no test has them. If a failure
+//! depends on at most k parameters and takes up more than this share of their values, a test has hit it.
 //!
 //! Projections have few dimensions, so that the number stays exact even if the dispersion of the whole space is out
 //! of reach. Projections are searched in blocks. Within a block each is searched only for holes larger than the
@@ -42,17 +42,19 @@ const BLOCK: usize = 64;
 pub struct KwiseDispersion {
     /// The largest dispersion.
     pub volume: Bracket,
-    /// The discrete parameters among the k with their values, as positions among the discrete parameters and levels.
+    /// The discrete parameters among the k parameters with their values, as positions among the discrete parameters and
+    /// levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters among the k, by their positions among the continuous parameters.
+    /// The continuous parameters among the k parameters, by their positions among the continuous parameters.
     pub axes: Vec<usize>,
-    /// The largest empty box over these axes; `None` if none of the k parameters is continuous.
+    /// The largest empty box over the continuous parameters in `axes`; `None` if none of the k parameters is
+    /// continuous.
     pub witness: Option<LargestEmptyBox>,
 }
 
 impl KwiseDispersion {
-    /// Makes the k-wise dispersion of tests without continuous parameters. It is 0 if they cover all combinations,
-    /// otherwise 1.
+    /// Makes the k-wise dispersion of tests without continuous parameters. The dispersion is 0 if the tests cover all
+    /// combinations, otherwise 1.
     pub fn of_coverage(counted: KwiseCoverage) -> Self {
         let (volume, fixed) = match counted.missing.into_iter().next() {
             Some(missing) => (1.0, missing),
@@ -62,8 +64,8 @@ impl KwiseDispersion {
     }
 }
 
-/// A choice of parameters with values for the discrete ones. It selects the tests with these values, and looks at
-/// them along the chosen continuous parameters.
+/// A choice of parameters with a value for each chosen discrete parameter. A projection selects the tests with these
+/// values, and looks at these tests along the chosen continuous parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Projection {
     /// The discrete parameters with their values, as positions among the discrete parameters and levels.
@@ -89,14 +91,15 @@ impl Projection {
         self.axes.iter().map(|&axis| test.continuous[axis]).collect()
     }
 
-    /// The tests as points over the axes. The projection must have an axis.
+    /// Returns the tests as points over the axes. The projection must have an axis.
     pub(crate) fn points<'a>(&self, tests: impl Iterator<Item = &'a Point>) -> PointSet {
         PointSet::new(self.axes.len(), tests.map(|test| self.of(test))).expect("the tests are of the unit cube")
     }
 }
 
-/// Iterates over all choices of `k` parameters out of `dims` continuous ones and the discrete ones of `rules`, each
-/// with all valid combinations of values. The order is lexicographic, with the continuous parameters first.
+/// Iterates over all choices of `k` parameters out of `dims` continuous parameters and the discrete parameters of
+/// `rules`, each with all valid combinations of values. The order is lexicographic, with the continuous parameters
+/// first.
 ///
 /// # Errors
 /// `k` is 0 or more than the number of parameters, or a discrete parameter has no level.
@@ -105,8 +108,8 @@ pub fn projections(dims: usize, rules: &Rules, k: usize) -> Result<impl Iterator
     Ok(all.filter(|projection| rules.is_valid(&projection.fixed)))
 }
 
-/// Computes the largest dispersion over all choices of `k` parameters out of `dims` continuous ones and the discrete
-/// ones of `rules`, and over all valid combinations of their values.
+/// Computes the largest dispersion over all choices of `k` parameters out of `dims` continuous parameters and the
+/// discrete parameters of `rules`, and over all valid combinations of their values.
 ///
 /// The result is exact unless `deadline` cuts the search short. Its upper bound is then 1 if some projection was not
 /// even begun.
@@ -143,8 +146,8 @@ pub fn kwise_dispersion(
 }
 
 /// Computes the largest dispersion among tests with the same discrete values, over all discrete values that some test
-/// has. It is the smallest epsilon for which the tests are (k, epsilon)-covering, if they cover k-wise. It is 1 if
-/// there is no test.
+/// has. The result is the smallest epsilon for which the tests are (k, epsilon)-covering, if the tests cover k-wise.
+/// The result is 1 if there is no test.
 ///
 /// # Panics
 /// There is no continuous parameter, or a test does not belong to the space.
@@ -162,7 +165,7 @@ pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Brack
 
 /// The worst of many projections.
 struct Worst {
-    /// The projection with the largest hole; `None` if there was no time to look at any.
+    /// The projection with the largest hole; `None` if there was no time to look at any projection.
     worst: Option<KwiseDispersion>,
     /// An upper bound on the volume of the holes.
     upper: f64,
@@ -192,7 +195,7 @@ fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], 
     Worst { worst, upper }
 }
 
-/// The largest hole of a projection; `None` if the search proves that it is no larger than `above`.
+/// Returns the largest hole of a projection; `None` if the search proves that the hole is no larger than `above`.
 fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
     if deadline.passed() {
         let Projection { fixed, axes } = projection;

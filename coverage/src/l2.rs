@@ -73,8 +73,9 @@ impl Measure {
     });
 }
 
-/// Computes the squared centered L2 discrepancy, over boxes between each point and its nearest corner of the cube, as
-/// `scipy.stats.qmc.discrepancy(method="CD")`. Source: Hickernell 1998, see the module's documentation.
+/// Computes the squared centered L2 discrepancy, over boxes between each point and its nearest corner of the cube. The
+/// result agrees with `scipy.stats.qmc.discrepancy(method="CD")`. Source: Hickernell 1998, see the module's
+/// documentation.
 pub fn centered(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let single = |x: f64| {
         let z = (x - 0.5).abs();
@@ -86,9 +87,9 @@ pub fn centered(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 13.0 / 12.0, single, prepare, pair)
 }
 
-/// Computes the squared wraparound L2 discrepancy, over boxes that may leave the cube on one side and come back on
-/// the other, as `scipy.stats.qmc.discrepancy(method="WD")`. Source: Hickernell, Lattice rules: how well do they
-/// measure up?, 1998.
+/// Computes the squared wraparound L2 discrepancy, over boxes that may leave the cube on one side and come back on the
+/// other side. The result agrees with `scipy.stats.qmc.discrepancy(method="WD")`. Source: Hickernell, Lattice rules:
+/// how well do they measure up?, 1998.
 pub fn wraparound(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let pair = |x: Prepared, y: Prepared| {
         let apart = (x.0 - y.0).abs();
@@ -97,9 +98,9 @@ pub fn wraparound(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 4.0 / 3.0, |_| 4.0 / 3.0, |x| (x, 0.0), pair)
 }
 
-/// Computes the squared mixture L2 discrepancy, which avoids weaknesses of the other two, as
-/// `scipy.stats.qmc.discrepancy(method="MD")`. Source: Zhou, Fang, Ning, Mixture discrepancy for quasi-random point
-/// sets, J. Complexity 29, 2013.
+/// Computes the squared mixture L2 discrepancy, which avoids weaknesses of the centered and of the wraparound
+/// discrepancy. The result agrees with `scipy.stats.qmc.discrepancy(method="MD")`. Source: Zhou, Fang, Ning, Mixture
+/// discrepancy for quasi-random point sets, J. Complexity 29, 2013.
 pub fn mixture(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let single = |x: f64| {
         let z = (x - 0.5).abs();
@@ -114,9 +115,10 @@ pub fn mixture(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 19.0 / 12.0, single, prepare, pair)
 }
 
-/// Computes the L2-star discrepancy (the root, not the square). It is the root mean square, over all boxes anchored
-/// at 0, of the difference between volume and share of points, as `scipy.stats.qmc.discrepancy(method="L2-star")`.
-/// Source: Warnock, Computational investigations of low-discrepancy point sets, 1972.
+/// Computes the L2-star discrepancy (the root, not the square). This discrepancy is the root mean square, over all
+/// boxes anchored at 0, of the difference between volume and share of points. The result agrees with
+/// `scipy.stats.qmc.discrepancy(method="L2-star")`. Source: Warnock, Computational investigations of low-discrepancy
+/// point sets, 1972.
 pub fn l2_star(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let (single, prepare) = (|x: f64| 0.5 * (1.0 - x * x), |x: f64| (1.0 - x, 0.0));
     let squared = squared(points, deadline, 1.0 / 3.0, single, prepare, |x, y| least(x.0, y.0));
@@ -124,14 +126,14 @@ pub fn l2_star(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared.map(|square| square.max(0.0).sqrt())
 }
 
-/// The number of points in a group. Their products fit in the registers.
+/// The number of points in a group. The products of one group fit in the registers.
 const LANES: usize = 8;
 /// The number of groups in a task. A task compares each of its points with all earlier points, which is enough work
 /// for a task.
 const GROUPS_PER_TASK: usize = 4;
 
-/// The values that a kernel needs of a coordinate, at most two numbers. They are computed once per point, not per
-/// pair.
+/// The values that a kernel needs of a coordinate, at most two numbers. These values are computed once per point, not
+/// per pair.
 type Prepared = (f64, f64);
 
 /// The prepared points in groups: per group and axis the first numbers of its points, then the second numbers.

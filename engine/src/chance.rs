@@ -103,7 +103,7 @@ mod tests {
         (mean, numbers.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0))
     }
 
-    /// Of n numbers with variance v the mean has the standard deviation sqrt(v/n); five of them are exceeded in one of
+    /// The mean of n numbers with variance v has the standard deviation sqrt(v/n); five of them are exceeded in one of
     /// two million seeds. `fourth` is the fourth central moment, by which the variance spreads with sqrt((fourth -
     /// v²)/n).
     fn check(what: &str, numbers: &[f64], mean: f64, variance: f64, fourth: f64) {

@@ -49,7 +49,7 @@ impl Pose {
     }
 
     /// Returns `true` if position and heading are finite: neither infinite nor NaN.
-    pub(crate) fn is_finite(&self) -> bool {
+    pub fn is_finite(&self) -> bool {
         self.position.iter().all(|metres| metres.is_finite()) && self.heading.is_finite()
     }
 

@@ -39,7 +39,6 @@ mod monitor;
 pub mod object;
 mod observation;
 mod outcome;
-pub mod picture;
 mod program;
 pub mod road;
 mod run;

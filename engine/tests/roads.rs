@@ -1,7 +1,6 @@
 //! Road networks as programs build them: what is connected to what, what is refused, and the way over the lanes.
 
 use nalgebra::Vector2;
-use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
     Composite, CrossIntersection, LaneKind, RoadError, RoadNetwork, RoadSegment, Roundabout, RoutePosition, Strip,
     Surface, TIntersection, grid_city,
@@ -354,27 +353,4 @@ fn a_sidewalk_is_walked_along_its_middle_and_a_broken_line_painted_dash_by_dash(
         let turning: f64 = (0..4).map(|i| outline[i].perp(&outline[(i + 1) % 4])).sum();
         assert!((0.5 * turning - 3.0 * 0.12).abs() < 1e-9, "counter-clockwise, of a dash's area: {turning}");
     }
-}
-
-#[test]
-fn a_picture_shows_every_surface_and_what_is_laid_over_it() {
-    let net = RoadSegment::new(60.0)
-        .zebra(30.0)
-        .connect("two", Roundabout::new().lanes(2), "three")
-        .connect("roundabout.one", RoadSegment::new(30.0).sidewalk(0.0), "one")
-        .build()
-        .unwrap();
-    let plain = RoadPicture::of(&net).svg();
-    assert!(plain.starts_with("<svg") && plain.ends_with("</svg>\n") && !plain.contains("NaN"));
-    let surfaces = net.strips().iter().map(|strip| strip.surface).collect::<std::collections::HashSet<_>>();
-    let ground = 1;
-    assert_eq!(plain.matches("<path fill=\"#").count(), ground + surfaces.len());
-    let route = net.route(
-        RoutePosition { lane: net.lane_of("road", 1).unwrap(), s: 0.0 },
-        RoutePosition { lane: net.lane_of("road-2", 1).unwrap(), s: 10.0 },
-        20.0,
-    );
-    let car = net.on_lane("road", 1, 10.0).unwrap();
-    let full = RoadPicture::of(&net).route(&route.unwrap(), [1, 2, 3]).body(car, 4.5, 1.8, [0xcc, 0x33, 0x11]).svg();
-    assert!(full.contains("#010203") && full.contains("#cc3311"));
 }

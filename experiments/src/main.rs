@@ -172,7 +172,7 @@ struct Arguments {
     name: String,
     /// The system that `system` runs: `automatic-transmission`
     system: Option<String>,
-    /// Where to write [default: experiments/out/NAME]
+    /// The folder to write to [default: experiments/out/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Say nothing but errors

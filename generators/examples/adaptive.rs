@@ -1,4 +1,4 @@
-//! How many tests it takes to the first failure: the table of adaptive strategies in BENCHMARKS.md.
+//! Measures the tests to the first failure: the table of adaptive strategies in BENCHMARKS.md.
 //! `cargo run --release -p paracosm-generators --example adaptive [BATCH [SEEDS [DIMS..]]]`, a minute; with SEEDS 0 the
 //! time that proposals take in so many dimensions, 5 where nothing is said. That is the processor's time of the thread
 //! where the system tells it (Linux), so that a busy machine does not matter.
@@ -35,14 +35,14 @@ fn first_failure(function: &Function, strategy: Strategy, seed: u64, batch: usiz
     None
 }
 
-/// How long this thread has been at work, in milliseconds.
+/// Returns the processor time of this thread in milliseconds.
 fn spent(since: Instant) -> f64 {
     let of_thread = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = of_thread.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(|| since.elapsed().as_secs_f64() * 1e3, |nanoseconds| nanoseconds * 1e-6)
 }
 
-/// How far a test is from failing where nothing does: a bowl with waves.
+/// Returns the robustness of a function without a failure: a bowl with waves.
 fn bowl(test: &Point) -> f64 {
     const HIDDEN: [f64; 5] = [0.31, 0.64, 0.45, 0.58, 0.37];
     let wave = |(x, c): (&f64, &f64)| (x - c) * (x - c) + 0.05 * (1.0 - libm::cos(20.0 * (x - c)));

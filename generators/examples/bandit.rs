@@ -1,4 +1,4 @@
-//! How many tests it takes to the first failure of one of two requirements, driven by the worse of them or by a bandit
+//! Measures the tests to the first failure of one of two requirements, driven by the worse requirement or by a bandit
 //! over both. `cargo run --release -p paracosm-generators --example bandit [BATCH [SEEDS]]`, some minutes.
 //!
 //! Medians over seeds, each of which puts the failure elsewhere; a run ends after 300 tests and then counts as 300.
@@ -54,7 +54,7 @@ fn main() {
     }
 }
 
-/// How many tests it takes with one search for the worse requirement, or with one for each.
+/// Returns the number of tests with one search for the worse requirement, or with a search for each.
 fn first_failure(strategy: Strategy, requirements: Requirements, seed: u64, batch: usize, arms: usize) -> usize {
     let space = Space::unit_cube(5);
     let hidden =

@@ -12,7 +12,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// What is run without arguments.
+/// The models that run without arguments.
 const ALL: &str = "tcas_free@2 tcas_free@3 tcas_free@4 tcas_free@5 spinv@2 gcc@2 apache@2 spins@3 apache@3 gcc@3 spinv@3 \
                    bugzilla@3 spins@4 UNIFORM_ALL_18@3 UNIFORM_ALL_18@4 2^100@3";
 

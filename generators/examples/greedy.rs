@@ -1,4 +1,4 @@
-//! How much lower the dispersion of `greedy` is than Halton's: the table in its documentation.
+//! Compares the dispersion of `greedy` with that of Halton points: the table in its documentation.
 //! `cargo run --release -p paracosm-generators --example greedy`, under a minute.
 
 use paracosm_coverage::dispersion::dispersion;

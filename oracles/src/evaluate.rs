@@ -6,11 +6,11 @@ use crate::worth::Worth;
 use crate::{Cause, Evaluation, EvaluationError, Formula, Semantics, Trace, dense};
 
 impl Formula {
-    /// Evaluates the formula at the beginning of the trace, at its samples or between them.
+    /// Evaluates the formula at the beginning of the trace, in sampled or in dense time.
     ///
     /// # Errors
-    /// As for [`evaluate`](Self::evaluate). In dense time there is also an error if a comparison is not piecewise
-    /// linear or if a sample is infinite. Time bounds between two samples are allowed there.
+    /// The same errors as [`evaluate`](Self::evaluate). In dense time there is also an error if a comparison is not
+    /// piecewise linear or if a sample is infinite. Time bounds between two samples are allowed in dense time.
     pub fn evaluate_in(&self, semantics: Semantics, trace: &Trace) -> Result<Evaluation, EvaluationError> {
         match semantics {
             Semantics::Sampled => self.evaluate(trace),
@@ -37,11 +37,12 @@ impl Formula {
         Ok(Evaluation::new(recorded, lower, upper))
     }
 
-    /// Finds the part of the formula and the time that determine its robustness on this trace. If there are several,
-    /// takes the leftmost part, at the time nearest to the instant of its operator. `None` if the trace is empty.
+    /// Finds the part of the formula, and the time, that determine the formula's robustness on this trace. If there are
+    /// several such parts, the result is the leftmost part, at the time nearest to the instant of its operator. The
+    /// result is `None` if the trace is empty.
     ///
     /// # Errors
-    /// As for [`evaluate`](Self::evaluate).
+    /// The same errors as [`evaluate`](Self::evaluate).
     pub fn explain(&self, trace: &Trace) -> Result<Option<Cause<'_>>, EvaluationError> {
         let (core, parts) = Core::new(self, trace.signals(), trace.dt())?;
         if trace.is_empty() {
@@ -56,14 +57,14 @@ impl Formula {
         Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
     }
 
-    /// Finds the cause of the robustness as [`explain`](Self::explain) does, at the samples or between them.
+    /// Finds the cause of the robustness as [`explain`](Self::explain) does, in sampled or in dense time.
     ///
     /// In dense time the robustness of the part equals that of the whole formula up to rounding. If two parts have
     /// this robustness, because two lines meet, the result is one of them. The search takes up to twice as long as the
     /// evaluation.
     ///
     /// # Errors
-    /// As for [`evaluate_in`](Self::evaluate_in).
+    /// The same errors as [`evaluate_in`](Self::evaluate_in).
     pub fn explain_in(&self, semantics: Semantics, trace: &Trace) -> Result<Option<Cause<'_>>, EvaluationError> {
         match semantics {
             Semantics::Sampled => self.explain(trace),

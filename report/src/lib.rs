@@ -18,6 +18,7 @@
 //! ```
 
 pub mod bench;
+pub mod birds_eye;
 pub mod blame;
 pub mod compare;
 pub mod junit;

@@ -2,8 +2,9 @@
 
 use paracosm_analysis::Traceability;
 
-/// Returns the matrix as CSV. Each row is a requirement. The first columns hold what is known of the requirement over
-/// all tests. Then each test has a column `test.INDEX`: `passed`, `failed`, `undecided`, `not reached` or `not judged`.
+/// Returns the traceability matrix of requirements and tests as CSV. Each row is a requirement. The first columns hold
+/// the description of the requirement and its results over all tests. Then each test has a column `test.INDEX`:
+/// `passed`, `failed`, `undecided`, `not reached` or `not judged`.
 pub fn csv(traceability: &Traceability) -> Vec<u8> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
@@ -51,8 +52,8 @@ mod tests {
         Study::of_system(system, Space::from_toml(space).unwrap()).build().unwrap()
     }
 
-    /// Makes a trial at `x` on two lanes with this verdict, the robustness of `a` and `b`, and whether its premise
-    /// occurred.
+    /// Makes a trial at `x` on two lanes with this verdict and the robustness of `a` and `b`. `triggered` is `true` if
+    /// the premise occurred.
     fn trial(index: usize, x: f64, verdict: Verdict, [a, b]: [Option<f64>; 2], triggered: Option<bool>) -> Trial {
         let test: Values = [("x".to_owned(), Value::Number(x)), ("lanes".to_owned(), 2.into())].into_iter().collect();
         let judgements = vec![Judgement::new("a", a), Judgement::new("b", b)];

@@ -56,16 +56,16 @@ pub(super) struct Options {
     /// random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     strategies: Vec<String>,
-    /// How many tests a run has
+    /// The number of tests of a run
     #[arg(long, value_name = "N", default_value_t = 200)]
     budget: usize,
-    /// How many seeds each strategy runs with
+    /// The number of seeds of each strategy
     #[arg(long, value_name = "N", default_value_t = 30)]
     seeds: usize,
     /// The first seed; the others follow it
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// How many tests a strategy is asked for at a time; this changes the tests of an adaptive strategy
+    /// The number of tests that a strategy proposes at a time; this number changes the tests of an adaptive strategy
     #[arg(long, value_name = "N", default_value_t = 16)]
     batch: usize,
     /// The strategy that the others are compared with [default: random if it runs, else the first]
@@ -74,10 +74,10 @@ pub(super) struct Options {
     /// The folder of the reference maps, NAME.json for each scenario [default: the folder `maps` in DIR]
     #[arg(long, value_name = "FOLDER")]
     reference: Option<PathBuf>,
-    /// How many tests a new reference map has; 0 for no maps
+    /// The number of tests of a new reference map; 0 for no maps
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     reference_tests: usize,
-    /// How many runs are made at a time; results do not depend on it [default: one per core]
+    /// The number of runs that are made at a time; results do not depend on this number [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to, empty or new
@@ -86,7 +86,7 @@ pub(super) struct Options {
     /// Continue the bench in the folder
     #[arg(long)]
     resume: bool,
-    /// How to print the summary [default: table on a terminal, json elsewhere]
+    /// The form of the summary [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

@@ -39,13 +39,13 @@ pub(super) struct Options {
     driver: Vec<String>,
     #[command(flatten)]
     axes: Axes,
-    /// How many failing tests the table shows
+    /// The number of failing tests in the table
     #[arg(long, value_name = "N", default_value_t = 10)]
     limit: usize,
-    /// How many tests run at a time; results do not depend on it [default: one per core]
+    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

@@ -4,12 +4,12 @@ use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, domain_words, json, value_words};
 use super::subject::Subject;
 use super::{Failure, Status, Verbosity, print};
-use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup, picture};
+use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup};
 use crate::oracles::signal;
 use crate::space::Value;
 use clap::Args;
 use paracosm_campaign::{Error, Study};
-use paracosm_report::plot;
+use paracosm_report::{birds_eye, plot};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub(super) struct Options {
     /// Draw the world from above at time 0, with values of --set and nominal values, to a file: .svg or .png
     #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "format"])]
     draw: Option<PathBuf>,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -56,7 +56,7 @@ fn draw(study: &Study, program: &Program, declaration: &Declaration, kind: FileK
         (name.clone(), study.fixed().get(name).cloned().unwrap_or_else(|| declared.nominal()))
     });
     let run = Run::new(program, &values.collect(), Setup::asking_every(DEFAULT_DT))?;
-    let drawing = picture::world(&run, program.name());
+    let drawing = birds_eye::world(&run, program.name());
     match kind {
         FileKind::Svg => Ok(drawing.svg().into_bytes()),
         FileKind::Png | FileKind::Gif | FileKind::Csv => plot::drawing_png(&drawing),

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// The options of `doctor`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -77,7 +77,7 @@ const SIZES: [Size; 3] = [
     Size { width: 640, height: 480, depth: false, semantic: false, shadows: true, outputs: "rgb, shadows" },
 ];
 
-/// How many cameras are drawn at once, and for how long each size is measured.
+/// The number of cameras that are drawn at once, and the time for measuring each size.
 const BATCH: usize = 64;
 const LONG_ENOUGH: Duration = Duration::from_millis(700);
 

@@ -33,10 +33,10 @@ pub(super) struct Options {
     /// for a choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform]
     #[arg(long, value_name = "NAME=DISTRIBUTION")]
     distribution: Vec<String>,
-    /// How the probability is estimated: monte-carlo, qmc or subset
+    /// The method of estimation: monte-carlo, qmc or subset
     #[arg(long, value_name = "METHOD", default_value = "monte-carlo")]
     method: String,
-    /// How many tests to run at most
+    /// The most tests to run
     #[arg(long, value_name = "N", default_value_t = 1000)]
     budget: usize,
     /// The probability that the interval contains the true value
@@ -45,10 +45,10 @@ pub(super) struct Options {
     /// The seed of all random choices
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// How many tests run at a time; results do not depend on it [default: one per core]
+    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

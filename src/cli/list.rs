@@ -22,7 +22,7 @@ pub(super) struct Options {
     /// The kind to list [default: all kinds]
     #[arg(value_enum)]
     kind: Option<ListKind>,
-    /// How to print the list [default: table on a terminal, json elsewhere]
+    /// The form of the list [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Form>,
 }

@@ -23,7 +23,7 @@ pub(super) struct Options {
     /// Write to this file, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// How to print the numbers of the map [default: table on a terminal, json elsewhere]
+    /// The form of the numbers of the map [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

@@ -41,7 +41,7 @@ pub(super) struct Options {
     /// Exit with status 1 if a formula is violated
     #[arg(long)]
     fail_on_violation: bool,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

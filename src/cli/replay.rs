@@ -4,11 +4,11 @@ use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions};
-use crate::engine::picture::MotionRecord;
 use crate::engine::sensor::Cameras;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::{Error, Expectation, Log, Metric, Study, Subject, Trial, Worker, write_trace};
+use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::plot;
 use paracosm_report::record::{Clip, cameras_for_people, read_cameras};
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub(super) struct Options {
     /// Exit with status 1 if a test violates a requirement, expected or not
     #[arg(long)]
     fail_on_violation: bool,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

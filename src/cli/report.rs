@@ -14,7 +14,7 @@ use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// How many failure modes a table shows.
+/// The number of failure modes in a table.
 const MODES_SHOWN: usize = 5;
 
 /// A report with all that the summary needs.

@@ -34,20 +34,20 @@ pub(super) struct Options {
     /// --extend; auto with --stop-at-first]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
-    /// How many tests to run
+    /// The number of tests to run
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
     #[command(flatten)]
     sampling: Sampling,
-    /// How many tests an adaptive strategy proposes at a time: with fewer it learns from more outcomes, with more it
-    /// keeps more cores busy [default: 16]
+    /// The number of tests that an adaptive strategy proposes at a time: with fewer it learns from more outcomes, with
+    /// more it keeps more cores busy [default: 16]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
     /// Count the tests in this file as done: run only the tests that complete them, and measure the coverage of all
     /// tests together. The columns of the file are the open parameters
     #[arg(long, value_name = "TESTS.csv")]
     extend: Option<PathBuf>,
-    /// How many tests run at a time; results do not depend on it [default: one per core]
+    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to
@@ -69,7 +69,7 @@ pub(super) struct Options {
     /// Also write junit.xml to the folder, a report that CI systems read
     #[arg(long)]
     junit: bool,
-    /// How to print the summary [default: table on a terminal, json elsewhere]
+    /// The form of the summary [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

@@ -15,7 +15,7 @@ pub(super) struct Options {
     dir: PathBuf,
     /// The index of a failing test
     index: usize,
-    /// How many tests to run at most
+    /// The most tests to run
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
     /// Keep the failure mode: the same violated requirements, the same contact, braking or not. Otherwise the simpler
@@ -25,7 +25,7 @@ pub(super) struct Options {
     /// Write the simplest test to a new regression file, which `replay` runs
     #[arg(long, value_name = "FILE.json")]
     save: Option<PathBuf>,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

@@ -8,10 +8,10 @@ use paracosm_oracles::Verdict;
 use std::cmp::Reverse;
 use std::fmt;
 
-/// How many suspects a table shows.
+/// The number of suspects in a table.
 const SHOWN: usize = 5;
 
-/// How many located combinations a table shows.
+/// The number of located combinations in a table.
 const LOCATED_SHOWN: usize = 10;
 
 /// Adds suspects and located combinations to a summary as JSON.

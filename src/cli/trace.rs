@@ -26,7 +26,7 @@ pub(super) struct Options {
     /// Write the matrix to this file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

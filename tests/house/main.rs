@@ -9,12 +9,14 @@
 //! - [`texts`]: an error is a type with data; its words are made where it is shown.
 //! - [`decisions`]: no decision reads the words of a message.
 //! - [`excerpts`]: the page on extending shows code that exists.
+//! - [`sentences`]: the documentation of an item begins with a plain statement.
 
 mod cycles;
 mod decisions;
 mod excerpts;
 mod floors;
 mod imports;
+mod sentences;
 mod sizes;
 mod source;
 mod texts;

@@ -1,4 +1,4 @@
-//! Compares strategies by how evenly each covers the unit cube, over dimensions, budgets and seeds.
+//! Compares the evenness with which strategies cover the unit cube, over dimensions, budgets and seeds.
 //!
 //! Every strategy makes a set of points for every dimension, budget and seed. Strategies with a plain set, which uses
 //! no randomness, add it. Each set is measured with every measure that does not take too long, and becomes one row.
@@ -42,12 +42,12 @@ pub struct SamplerComparison {
     pub seeds: usize,
     /// The first seed. The other seeds follow it without a gap.
     pub first_seed: u64,
-    /// The measures that are taken. `None` stands for all measures of a continuous space; the extreme discrepancy
-    /// then only for sets of which it takes no more than about a second.
+    /// The measures that are taken. `None` stands for all measures of a continuous space; the extreme discrepancy is
+    /// then left out for sets for which it takes more than about a second.
     pub measures: Option<Vec<Measure>>,
     /// The number of coordinates that the k-wise dispersion considers together.
     pub k: usize,
-    /// The strategy that the others are compared with.
+    /// The strategy with which the other strategies are compared.
     pub baseline: Strategy,
     /// The time limit for one measure of one set.
     pub limit: Duration,
@@ -71,13 +71,13 @@ pub enum ComparisonFlaw {
     /// The baseline is not among the strategies.
     #[error("the baseline {baseline} is not among the strategies: add it to them, or choose another baseline")]
     Baseline {
-        /// The baseline.
+        /// The strategy that was chosen as the baseline.
         baseline: Strategy,
     },
     /// The baseline cannot make sets of a dimension.
     #[error("the baseline {baseline} supports {}, not d = {dims}: choose another baseline or other dimensions", span(*.baseline))]
     Unable {
-        /// The baseline.
+        /// The strategy that was chosen as the baseline.
         baseline: Strategy,
         /// The number of dimensions.
         dims: usize,
@@ -249,7 +249,7 @@ fn span(strategy: Strategy) -> String {
     if least == most { format!("exactly {most} dimensions") } else { format!("at most {most} dimensions") }
 }
 
-/// Returns the numbers with commas between them.
+/// Returns the numbers as text, with commas between the numbers.
 fn list(numbers: &[usize]) -> String {
     numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
@@ -263,12 +263,13 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// Returns the number of sets that will be made.
+    /// Returns the number of sets of points that the comparison will make.
     pub fn sets(&self) -> usize {
         self.cases.len()
     }
 
-    /// Returns remarks for the reader about what is left out, one sentence each.
+    /// Returns remarks for the reader about sets and measures that are left out, and about few seeds, one sentence
+    /// each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
@@ -321,7 +322,8 @@ pub struct Compared {
     pub cells: Vec<ComparisonCell>,
     /// The slopes of each strategy's values over the budget, ordered by measure, dimension and strategy.
     pub slopes: Vec<Slope>,
-    /// Remarks for the reader about what is left out or cut short, one sentence each.
+    /// Remarks for the reader about sets and measures that are left out or cut short, and about few seeds, one sentence
+    /// each.
     pub notes: Vec<String>,
 }
 

@@ -1,5 +1,5 @@
-//! Summarises the sets of a comparison: medians and quartiles over the seeds, the comparison of each strategy with
-//! the baseline, and how fast values fall with the budget.
+//! Summarises the sets of a comparison: medians and quartiles over the seeds, the comparison of each strategy with the
+//! baseline, and the exponents with which values fall with the budget.
 
 use super::{MeasuredSet, SamplerComparison};
 use crate::statistics::{Versus, bootstrap_interval, correct, median_and_quartiles, median_of, power_law_slope};
@@ -12,14 +12,14 @@ use serde::{Serialize, Serializer};
 /// A strategy's values of a measure at one dimension and budget. A value that is a bracket counts as its lower end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparisonCell {
-    /// The measure.
+    /// The measure that gave the values.
     #[serde(serialize_with = "measure_name")]
     pub measure: Measure,
-    /// The number of dimensions.
+    /// The number of dimensions of the unit cube.
     pub dims: usize,
-    /// The number of points.
+    /// The number of points of each set.
     pub budget: usize,
-    /// The strategy.
+    /// The strategy that made the sets.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
     /// The number of seeds.
@@ -28,25 +28,25 @@ pub struct ComparisonCell {
     pub exact: bool,
     /// The value of the plain set, if the strategy has one.
     pub plain: Option<f64>,
-    /// The median over the seeds.
+    /// The median of the values over the seeds.
     pub median: f64,
-    /// The lower and the upper quartile over the seeds.
+    /// The lower and the upper quartile of the values over the seeds.
     pub quartiles: [f64; 2],
     /// The comparison with the baseline; `None` for the baseline, if a value of either strategy is a bracket, and if
     /// neither strategy's values differ between seeds (for example with measures that a shift does not change).
     pub versus: Option<Versus>,
 }
 
-/// The exponent with which a strategy's values of a measure fall with the budget. It is that of the power law fitted
-/// by least squares to the logarithms.
+/// The exponent with which a strategy's values of a measure fall with the budget. It is the exponent of the power law
+/// that is fitted by least squares to the logarithms.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Slope {
-    /// The measure.
+    /// The measure that gave the values.
     #[serde(serialize_with = "measure_name")]
     pub measure: Measure,
-    /// The number of dimensions.
+    /// The number of dimensions of the unit cube.
     pub dims: usize,
-    /// The strategy.
+    /// The strategy that made the sets.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
     /// The budgets to which the power law is fitted.
@@ -55,7 +55,7 @@ pub struct Slope {
     pub slope: f64,
     /// The 95 % bootstrap interval of the exponent, over the seeds.
     pub interval: [f64; 2],
-    /// The exponent for the plain sets, if the strategy has them.
+    /// The exponent for the plain sets, if the strategy has plain sets.
     pub plain: Option<f64>,
 }
 
@@ -108,7 +108,7 @@ struct Place {
 }
 
 impl Place {
-    /// Checks whether the values differ by more than rounding.
+    /// Returns `true` if the values differ by more than rounding.
     fn spreads(&self) -> bool {
         let ends = self.values.iter().fold([f64::INFINITY, 0.0], |[low, high], &v| [v.min(low), v.max(high)]);
         ends[1] - ends[0] > 1e-9 * ends[1].abs()
@@ -152,7 +152,7 @@ impl Line {
         }
     }
 
-    /// Returns the slope; `None` if a value is a bracket.
+    /// Returns the slope of the line; `None` if a value is a bracket.
     fn slope(&self) -> Option<Slope> {
         if self.places.iter().any(|place| !place.exact) {
             return None;

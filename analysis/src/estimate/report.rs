@@ -6,7 +6,7 @@ use paracosm_space::{Record, Value};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// A report of how well a set of tests covers its space. Measures that were not asked for are absent.
+/// A report of the coverage of a space by a set of tests. Measures that were not asked for are absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coverage {
     /// The number of tests.
@@ -16,12 +16,12 @@ pub struct Coverage {
     /// The number of tests that violate a constraint. Such tests cover nothing.
     #[serde(skip_serializing_if = "is_zero")]
     pub violating: usize,
-    /// The coverage of the discrete parameters; `Some(None)` (null) if the space has no discrete parameters, and
-    /// `None` (absent) if it was not asked for.
+    /// The coverage of the discrete parameters; `Some(None)` (null) if the space has no discrete parameters, and `None`
+    /// (absent) if this coverage was not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub discrete: Option<Option<Discrete>>,
-    /// The result whether the tests are (k, epsilon)-covering; absent if the space has no discrete parameters or
-    /// k-wise coverage was not asked for. Without continuous parameters a row has no hole, and epsilon is 0.
+    /// The (k, epsilon)-coverage of the tests; absent if the space has no discrete parameters or k-wise coverage was
+    /// not asked for. Without continuous parameters a row has no hole, and epsilon is 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_epsilon: Option<KEpsilon>,
     /// The k-wise dispersion, over the discrete and continuous parameters together.
@@ -54,7 +54,7 @@ pub enum Measured {
 }
 
 impl Measured {
-    /// Returns the number as a bracket; `None` if nothing is known.
+    /// Returns the result as a bracket of a number, a volume or a radius; `None` if the result is not known.
     pub fn bracket(&self) -> Option<Bracket> {
         match self {
             Self::Number(number) => number.map(Bracket::exact),
@@ -71,7 +71,7 @@ impl Continuous {
         self.measured.iter().find(|(taken, _)| *taken == measure).map(|(_, measured)| measured)
     }
 
-    /// Returns the number of a measure as a bracket; `None` if the measure was not taken or nothing is known.
+    /// Returns the result of a measure as a bracket; `None` if the measure was not taken or its result is not known.
     pub fn bracket(&self, measure: Measure) -> Option<Bracket> {
         self.measured(measure).and_then(Measured::bracket)
     }
@@ -121,7 +121,8 @@ pub struct Discrete {
     pub ratio: f64,
     /// Some valid combinations that no test contains, 20 at most.
     pub missing: Vec<Record<Value>>,
-    /// The share of the valid combinations of all parameters that are tested; null if these are too many to count.
+    /// The share of the valid combinations of all parameters that are tested; null if there are too many combinations
+    /// to count.
     pub combinations: Option<f64>,
     /// The coverage of the groups of parameters that have a k of their own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -145,9 +146,9 @@ pub struct Strength {
     pub missing: Vec<Record<Value>>,
 }
 
-/// The result whether tests are (k, epsilon)-covering. They are if any k discrete parameters show all valid
-/// combinations of their values, and no row of discrete values has an empty box larger than epsilon (the paper,
-/// section 3.1).
+/// The (k, epsilon)-coverage of tests. Tests are (k, epsilon)-covering if any k discrete parameters show all valid
+/// combinations of their values, and no row of discrete values has an empty box larger than epsilon (the paper, section
+/// 3.1).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KEpsilon {
     /// The number of discrete parameters that are considered together.
@@ -158,7 +159,8 @@ pub struct KEpsilon {
     pub epsilon: Option<f64>,
     /// The largest dispersion among the rows that the tests have. After a time-out this is an upper bound.
     pub epsilon_over_covered_rows: f64,
-    /// A lower bound of the largest dispersion among the rows. Without a time-out it is the same number.
+    /// A lower bound of the largest dispersion among the rows. Without a time-out this is the largest dispersion
+    /// itself.
     pub epsilon_at_least: f64,
 }
 

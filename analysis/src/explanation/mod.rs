@@ -1,9 +1,9 @@
-//! Explains in words why tests fail: a decision tree of at most five leaves, with a measure of its accuracy.
+//! Explains the failures of tests in words, by a decision tree of at most five leaves, with a measure of its accuracy.
 //!
 //! Cross-validation chooses the number of leaves and measures the accuracy: the outcome of each tenth of the tests is
 //! predicted by a tree that was grown, and whose size was chosen, without these tests. Failing and passing tests have
-//! the same total weight, so that rare failures are explained too. The explanation states how many tests of a leaf
-//! fail, which may be less than half.
+//! the same total weight, so that rare failures are explained too. The explanation states the number of tests of a leaf
+//! that fail, which may be less than half.
 
 mod tree;
 mod words;
@@ -27,7 +27,7 @@ const SIZE_FOLDS: usize = 5;
 /// The number of standard errors by which an explanation has to be better than chance.
 const SURE: f64 = 2.0;
 
-/// An explanation of which tests of a campaign fail.
+/// An explanation of the failures of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
     /// The explanation as a sentence without a full stop.
@@ -43,7 +43,7 @@ pub struct Explanation {
     pub cross_validated: Accuracy,
     /// The accuracy for the tests from which the tree was made.
     pub fitted: Accuracy,
-    /// The accuracy of always predicting the more frequent verdict.
+    /// The accuracy of a prediction that always names the more frequent verdict.
     pub always: f64,
 }
 
@@ -54,11 +54,11 @@ pub struct Rule {
     pub conditions: Vec<String>,
     /// The number of tests that satisfy all conditions.
     pub tests: usize,
-    /// The number of those tests that failed.
+    /// The number of tests that satisfy all conditions and failed.
     pub failures: usize,
 }
 
-/// Measures of how often an explanation predicts the right verdict.
+/// The accuracy with which an explanation predicts the verdicts of tests.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Accuracy {
     /// The share of the tests whose verdict the explanation predicts correctly.
@@ -121,7 +121,7 @@ impl Explanation {
         words::rules(self)
     }
 
-    /// Returns a sentence that says how far the rules can be trusted, or that there are no rules.
+    /// Returns a sentence about the reliability of the rules, or a sentence that says that there are no rules.
     pub fn trust_in_words(&self) -> String {
         words::trust(self)
     }
@@ -133,7 +133,8 @@ impl Accuracy {
         1.0 + self.recall - 2.0 * self.balanced
     }
 
-    /// Checks whether the failing tests are predicted to fail more often than the passing tests, by more than chance.
+    /// Returns `true` if the failing tests are predicted to fail more often than the passing tests, by more than
+    /// chance.
     fn is_better_than_chance(&self, failing: usize, passing: usize) -> bool {
         let found = self.recall;
         let alarms = self.false_alarms();

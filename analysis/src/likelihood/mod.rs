@@ -76,17 +76,17 @@ pub enum LikelihoodFlaw {
     /// The confidence is not between 0 and 1.
     #[error("the confidence is {found}, expected a number above 0 and below 1")]
     Confidence {
-        /// The confidence.
+        /// The confidence that was given.
         found: f64,
     },
     /// The budget is too small for the method.
     #[error("the budget is {budget}, expected at least {least} for the method {method}")]
     Budget {
-        /// The budget.
+        /// The budget that was given.
         budget: usize,
         /// The least budget of the method.
         least: usize,
-        /// The method.
+        /// The method that was chosen.
         method: Method,
     },
     /// No parameter is open, so that nothing is random.
@@ -151,11 +151,11 @@ impl Question {
 pub struct Likelihood {
     /// The estimated probability of a failure, given that the test can be judged.
     pub probability: f64,
-    /// The lower end of the interval. For it, tests that could not be judged count as passed.
+    /// The lower end of the interval. In the lower end, tests that could not be judged count as passed.
     pub lower: f64,
-    /// The upper end of the interval. For it, tests that could not be judged count as failed.
+    /// The upper end of the interval. In the upper end, tests that could not be judged count as failed.
     pub upper: f64,
-    /// The probability with which an interval like this contains the true value.
+    /// The probability with which the method gives an interval that contains the true value.
     pub confidence: f64,
     /// The method of the estimate.
     pub method: Method,
@@ -178,8 +178,8 @@ pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<f64>>, Error
 
 /// Estimates the probability that a uniformly distributed point of the unit cube with `dims` dimensions is a failure.
 ///
-/// The method decides how many points are evaluated at a time. The result depends only on the question and the
-/// values.
+/// The method decides the number of points that are evaluated at a time. The result depends only on the question and
+/// the values.
 ///
 /// ```
 /// use paracosm_analysis::likelihood::{Method, Question, estimate};
@@ -233,7 +233,7 @@ struct Tail {
     notes: Vec<String>,
 }
 
-/// A runner of tests that counts them.
+/// A runner of tests that counts the tests.
 struct Runs<'a, 'b> {
     evaluate: &'a mut Evaluate<'b>,
     evaluations: usize,
@@ -260,7 +260,7 @@ impl Runs<'_, '_> {
     }
 }
 
-/// Checks whether a robustness is that of a failure (negative, or -0).
+/// Returns `true` if a robustness is the robustness of a failure (negative, or -0).
 fn is_failure(robustness: f64) -> bool {
     robustness.is_sign_negative()
 }

@@ -8,9 +8,9 @@
 //! If several combinations are guilty, a test on the way may fail for another reason than the first test, and the
 //! located values may not be the cause. Therefore the search puts located values into passing tests, unless they
 //! explain all failures. If such a test still passes, it refutes the values. It is then a new start, from which the
-//! search must find more than these values. Later tests avoid all values found guilty, as if a constraint forbade
-//! them. So the search continues from failure to failure, until each failure has a guilty combination or none can be
-//! found for it. It runs no test twice, those of the campaign included.
+//! search must find more than these values. Later tests avoid all values found guilty, as if a constraint forbade them.
+//! So the search continues from failure to failure, until each failure has a guilty combination or no combination can
+//! be found for the failure. It runs no test twice, those of the campaign included.
 
 use super::Evidence;
 use super::location::{Conclusion, Location};
@@ -37,7 +37,8 @@ pub struct LocatedReport {
     pub limit: usize,
     /// The number of further tests that were run.
     pub ran: usize,
-    /// The searches in order. Each began with a failing trial without any values that were found guilty before.
+    /// The searches for guilty combinations, in the order in which they ended. Each search began with a failing trial
+    /// without any values that were found guilty before.
     pub locations: Vec<Location>,
     /// The failing trials without a guilty combination.
     pub unexplained: Vec<Unexplained>,
@@ -116,7 +117,7 @@ impl Findings<'_> {
         left.iter().find(|&&test| !is_alike(test)).or(left.first()).copied()
     }
 
-    /// Removes and returns what was found about a failing test before.
+    /// Removes and returns the earlier location of a failing test, if there is one.
     fn take(&mut self, failing: usize) -> Option<Location> {
         let index = self.evidence.indices[failing];
         let position = self.locations.iter().position(|(location, _)| location.failing == index);

@@ -53,7 +53,7 @@ impl Planted {
         (0..self.rows.len()).filter(|&row| self.fails(&self.rows[row])).collect()
     }
 
-    /// Whether every test that has these values fails: in all choices of levels for the parameters that matter.
+    /// Returns true if every test that has these values fails: in all choices of levels for the parameters that matter.
     fn condemns(&self, values: &[(usize, usize)]) -> bool {
         let levels = self.space.levels();
         let mut test = vec![0; levels.len()];
@@ -70,7 +70,7 @@ impl Planted {
         }
     }
 
-    /// What is located, and the tests that were run for it.
+    /// Returns the located combinations, and the tests that were run for them.
     fn locate(&self, limit: usize) -> (LocatedReport, Vec<Vec<usize>>) {
         let evidence = Evidence {
             space: &self.space,

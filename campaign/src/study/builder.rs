@@ -89,8 +89,8 @@ impl StudyBuilder {
         }
     }
 
-    /// Sets the driver under test. The name is that of a driver of `paracosm-fuzz list`, the address `grpc://HOST:PORT`
-    /// of a server, or a network, which is `cnn` or a file whose name ends in `.onnx`.
+    /// Sets the driver under test. The name is the name of a driver of `paracosm-fuzz list`, the address
+    /// `grpc://HOST:PORT` of a server, or a network, which is `cnn` or a file whose name ends in `.onnx`.
     pub fn driver(mut self, name: &str) -> Self {
         self.driver = Some(Wish::Name(name.to_owned()));
         self
@@ -117,8 +117,8 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets the time that a driver in an external process may take for an answer, in seconds; it may take ten times as
-    /// long to start. The default is 60.
+    /// Sets the time that a driver in an external process may take for an answer, in seconds; the driver may take ten
+    /// times as long to start. The default is 60.
     pub fn driver_timeout(mut self, seconds: f64) -> Self {
         self.driver_timeout = Some(seconds);
         self
@@ -146,7 +146,7 @@ impl StudyBuilder {
         self
     }
 
-    /// Fixes a parameter at a value; a signal at a value or at a list of values.
+    /// Fixes a parameter at a value, or a signal at a value or a list of values.
     pub fn fix(mut self, name: &str, value: impl Into<Value>) -> Self {
         self.fixed.push((name.to_owned(), value.into()));
         self
@@ -158,7 +158,7 @@ impl StudyBuilder {
         self
     }
 
-    /// Lets the tests vary settings of the cameras that record them. These parameters come after all other open
+    /// Lets the tests vary settings of the cameras that record the tests. These parameters come after all other open
     /// parameters.
     pub fn open_cameras(mut self, settings: impl IntoIterator<Item = Parameter>) -> Self {
         self.cameras.extend(settings);
@@ -166,8 +166,8 @@ impl StudyBuilder {
     }
 
     /// Shows an actor to cameras as the model in a glTF file, stretched to the actor's size. The ego vehicle is `car`;
-    /// other actors have their names in traces and messages. Actors of one name, `tree`, `tree-2` and so on, look like
-    /// the first one unless they have a model of their own.
+    /// every other actor has the name that it has in traces and messages. Actors of one name, `tree`, `tree-2` and so
+    /// on, look like the first actor unless they have a model of their own.
     pub fn show(mut self, actor: &str, file: &str) -> Self {
         self.models.push((actor.to_owned(), file.to_owned()));
         self
@@ -185,8 +185,8 @@ impl StudyBuilder {
         self
     }
 
-    /// Judges every trace by this formula as well. Its id is `spec-1`, that of the next formula `spec-2`; it has no
-    /// unit and no scale.
+    /// Judges every trace by this formula as well. The first formula has the id `spec-1`, the next formula has the id
+    /// `spec-2`; such formulas have no unit and no scale.
     pub fn spec(self, formula: &str) -> Self {
         self.spec_in(Semantics::Sampled, formula)
     }
@@ -197,7 +197,7 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets the choice of tests.
+    /// Sets the strategy, the budget and all other options that determine the tests of the study.
     pub fn sampling(mut self, sampling: Sampling) -> Self {
         self.sampling = sampling;
         self

@@ -56,7 +56,7 @@ impl Plane {
         Self { points, columns, bar, witness }
     }
 
-    /// Searches to the end, or until the deadline.
+    /// Searches for the largest empty rectangle, to the end or until the deadline.
     pub fn run(self, deadline: Deadline) -> Dispersion {
         let (found, left) = self.search(deadline, f64::INFINITY);
         let witness = found.map_or(self.witness, Rectangle::into_box);
@@ -66,8 +66,8 @@ impl Plane {
         Dispersion { volume: Bracket { lower, upper: left.map_or(lower, |left| left.max(lower)) }, witness }
     }
 
-    /// Checks that no rectangle is larger than `above`, for which the search was made; `None` if the answer was not
-    /// known at the deadline.
+    /// Returns `true` if no rectangle is larger than `above`, for which the search was made; `None` if the answer was
+    /// not known at the deadline.
     pub fn finds_none(self, above: f64, deadline: Deadline) -> Option<bool> {
         if self.witness.volume() > above {
             return Some(false);
@@ -79,8 +79,8 @@ impl Plane {
         left.is_none().then_some(true)
     }
 
-    /// The largest rectangle, if it is larger than the witness, and the area of the largest part that was left. The
-    /// search may end as soon as it finds a rectangle larger than `enough`.
+    /// Returns the largest rectangle, if it is larger than the witness, and the area of the largest part that was left.
+    /// The search may end as soon as it finds a rectangle larger than `enough`.
     fn search(&self, deadline: Deadline, enough: f64) -> (Option<Rectangle>, Option<f64>) {
         let mut search = PlaneSearch::new(&self.bar, self.bar.get(), enough, deadline);
         search.strip(Rectangle { left: 0.0, right: 1.0, bottom: 0.0, top: 1.0 }, &self.columns, &self.points);
@@ -107,8 +107,8 @@ impl Rectangle {
     }
 }
 
-/// One end of rectangles that hold a point: its coordinate, and how far these rectangles may reach to both sides past
-/// the points on the way to this end. From step to step a staircase gets higher and no wider.
+/// One end of rectangles that hold a point: the coordinate of the end, and the limits of these rectangles to the left
+/// and to the right, past the points on the way to this end. From step to step a staircase gets higher and no wider.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     y: f64,
@@ -117,7 +117,7 @@ struct Step {
 }
 
 impl Step {
-    /// The rectangle from this end to another end on the other side of the point.
+    /// Returns the rectangle from this end to another end on the other side of the point.
     fn to(&self, other: &Self) -> Rectangle {
         Rectangle {
             left: self.left.max(other.left),
@@ -127,7 +127,7 @@ impl Step {
         }
     }
 
-    /// The rectangle from the left side of this step to the right side of another.
+    /// Returns the rectangle from the left side of this step to the right side of another step.
     fn across(&self, other: &Self) -> Rectangle {
         Rectangle { left: self.left, right: other.right, ..self.to(other) }
     }
@@ -137,7 +137,7 @@ impl Step {
 struct PlaneSearch<'a> {
     /// The shared bar: parts with a smaller area do not matter any more.
     bar: &'a Bar,
-    /// The area of the witness, or the area that it must exceed: parts with no larger area do not matter either.
+    /// The area of the witness, or the area that it must exceed: parts with no larger area do not matter.
     best: f64,
     /// The area beyond which a rectangle ends the search.
     enough: f64,
@@ -246,8 +246,8 @@ impl<'a> PlaneSearch<'a> {
         );
     }
 
-    /// The steps from a point to an end of `whole`, past points in their order. Steps that are too narrow to matter
-    /// are left out.
+    /// Returns the steps from a point to an end of `whole`, past points in their order. Steps that are too narrow to
+    /// matter are left out.
     fn staircase<'p>(
         &mut self,
         whole: Rectangle,
@@ -325,7 +325,8 @@ impl<'a> PlaneSearch<'a> {
         }
     }
 
-    /// Searches the same rectangles if every row has every column: from row to row the best column only moves back.
+    /// Searches the rectangles of a band in which every row has every column, so that from row to row the best column
+    /// only moves back.
     fn matrix(&mut self, rows: &[Step], columns: &[Step]) {
         if rows.is_empty() || columns.is_empty() {
             return;
@@ -349,7 +350,7 @@ impl<'a> PlaneSearch<'a> {
     }
 }
 
-/// An upper bound on the area of a rectangle with its left side from a row and its right side from a column.
+/// Returns an upper bound on the area of a rectangle with its left side from a row and its right side from a column.
 fn largest(rows: &[Step], columns: &[Step]) -> f64 {
     let widest = rows[0].across(&columns[0]);
     let highest = rows[rows.len() - 1].to(&columns[columns.len() - 1]);

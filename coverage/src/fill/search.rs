@@ -1,4 +1,4 @@
-//! The search of one box, and the climb from one place.
+//! The search of a box, and the climb from a place.
 
 use super::relaxation::{Relaxation, Side};
 use super::tree::Tree;
@@ -62,14 +62,15 @@ impl Ord for Open {
 /// The result of a search.
 #[derive(Debug)]
 pub(super) struct Outcome {
-    /// The best place, if it is better than the one that was known.
+    /// The best place, if it is better than the best place that was known before.
     pub found: Option<Centre>,
     /// The boxes that are left to explore.
     pub open: Vec<Open>,
 }
 
-/// The largest squared distance that counts as no larger than `squared`. It allows for a small share of the distance,
-/// and for the difference between two places that round to neighbouring floating-point numbers along every axis.
+/// Returns the largest squared distance that counts as no larger than `squared`. This distance allows for a small share
+/// of the distance, and for the difference between two places that round to neighbouring floating-point numbers along
+/// every axis.
 pub(super) fn same_as(squared: f64, dims: usize) -> f64 {
     let rounding = 2.0 * f64::EPSILON * (dims as f64).sqrt();
     let distance = squared.sqrt() * (1.0 + SAME) + rounding;
@@ -96,7 +97,7 @@ impl<'a> BallSearch<'a> {
         Self { dims: tree.dims(), relaxation, climbing, watch: Watch::new(deadline), best: 0.0, found: None }
     }
 
-    /// Explores boxes depth first, at most `most` of them. It leaves out boxes that hold no place above `goal` and
+    /// Explores at most `most` boxes, depth first. The search leaves out boxes that hold no place above `goal` and
     /// `best`, both squared.
     pub fn explore(&mut self, root: Open, best: f64, goal: f64, most: usize) -> Outcome {
         self.best = best;
@@ -115,13 +116,14 @@ impl<'a> BallSearch<'a> {
         Outcome { found: self.found.take(), open }
     }
 
-    /// An upper bound on the squared distances of the places in a box, as good as the time allows.
+    /// Returns an upper bound on the squared distances between places in a box and their nearest points, as good as the
+    /// time allows.
     pub fn bound(&mut self, sides: &[Side]) -> f64 {
         self.relaxation.solve(sides, 0.0, &mut self.watch)
     }
 
-    /// Climbs from a place to better ones, as long as there is time: the relaxation of a box around it says where to
-    /// go.
+    /// Climbs from a place to better places, as long as there is time. The relaxation of a box around a place gives the
+    /// next place.
     pub fn climb(&mut self, mut from: Centre) -> Centre {
         let mut step = from.squared.sqrt();
         while step > SHORTEST_STEP * from.squared.sqrt() && !self.watch.passed_after(0) {
@@ -139,7 +141,7 @@ impl<'a> BallSearch<'a> {
         from
     }
 
-    /// The squared distance up to which a box need not be searched.
+    /// Returns the squared distance up to which a box need not be searched.
     fn bar(&self, goal: f64) -> f64 {
         same_as(self.best, self.dims).max(goal)
     }

@@ -6,7 +6,7 @@ use paracosm_space::rules::Rules;
 /// The largest number of words that the bits of a counter may take: 64 mebibytes.
 const MOST_WORDS: u128 = 1 << 23;
 
-/// Counts which valid combinations of k levels the tests so far contain.
+/// Counts the valid combinations of k levels that the tests so far contain.
 ///
 /// Each combination of levels of k - 1 parameters has a bit for every level of every later parameter.
 #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ pub struct KwiseCounter {
     valid: u64,
     covered: u64,
     tests: usize,
-    /// The first bit of each member's levels, and the end of the last.
+    /// The position of the first bit of each member's levels, and the end of the last member's bits.
     first: Vec<usize>,
     seen: Vec<u64>,
 }
@@ -38,7 +38,7 @@ impl KwiseCounter {
     /// Makes a counter of the combinations of `k` of the given parameters, which are in ascending order.
     ///
     /// # Errors
-    /// As [`KwiseCounter::new`].
+    /// The same errors as [`KwiseCounter::new`].
     ///
     /// # Panics
     /// A given parameter does not exist.
@@ -68,8 +68,8 @@ impl KwiseCounter {
         Ok(counter)
     }
 
-    /// Calls for each choice of k - 1 members that have a later member: with their places, and the range of words of
-    /// the later members' bits.
+    /// Calls `call` for each choice of k - 1 members that have a later member, with the places of the chosen members
+    /// and the range of words of the later members' bits.
     fn each_head(&self, mut call: impl FnMut(&[usize], (usize, usize))) {
         let parameters = self.members.len();
         let mut set: Vec<usize> = (0..self.k - 1).collect();
@@ -84,8 +84,8 @@ impl KwiseCounter {
         }
     }
 
-    /// Calls for each word of `seen` that holds combinations of the test: with the word's position and the test's
-    /// bits in it.
+    /// Calls `call` for each word of `seen` that holds combinations of the test, with the position of the word and the
+    /// test's bits in the word.
     fn each_word(&self, test: &[usize], mut call: impl FnMut(usize, u64)) {
         let test: Vec<usize> = self.members.iter().map(|&member| test[member]).collect();
         let mut bits = vec![0u64; self.first[test.len()].div_ceil(64)];
@@ -106,7 +106,8 @@ impl KwiseCounter {
         });
     }
 
-    /// Returns the number of valid combinations that a test would add; 0 for a test that violates a constraint.
+    /// Returns the number of valid combinations that a test contains and no earlier test contains; 0 for a test that
+    /// violates a constraint.
     ///
     /// # Errors
     /// The test does not belong to this space.
@@ -119,8 +120,8 @@ impl KwiseCounter {
         Ok(gain)
     }
 
-    /// Adds a test, and returns the number of valid combinations that are new. A test that violates a constraint
-    /// covers none.
+    /// Adds a test, and returns the number of valid combinations that are new. A test that violates a constraint covers
+    /// no combination.
     ///
     /// # Errors
     /// The test does not belong to this space.

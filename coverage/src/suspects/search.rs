@@ -8,15 +8,15 @@ use super::{JudgedTest, Suspect};
 
 /// A receiver of suspects.
 pub(super) trait Visitor {
-    /// Returns `true` if a suspect with at least `size` values matters that at most `explained` of the given failures
-    /// contain.
+    /// Returns `true` if the visitor needs suspects that have at least `size` values and are in at most `explained` of
+    /// the given failures.
     fn wants(&self, size: usize, explained: usize) -> bool;
 
-    /// Receives a suspect that `explained` of the given failures contain.
+    /// Receives a suspect, and the number of the given failures that contain the suspect.
     fn see(&mut self, suspect: Suspect, explained: usize);
 }
 
-/// One value of one parameter, with the tests that have it.
+/// A value of a parameter, with the tests that have the value.
 struct Item {
     parameter: usize,
     level: usize,
@@ -28,7 +28,7 @@ struct Item {
 pub(super) struct SuspectSearch {
     size: usize,
     items: Vec<Item>,
-    /// The first item of each parameter, and the end of the last.
+    /// The position of the first item of each parameter, and the end of the last parameter's items.
     first: Vec<usize>,
     /// The items of each failing test.
     of_failure: Vec<Vec<usize>>,
@@ -47,7 +47,7 @@ pub(super) fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
-/// The positions of the bits that are set.
+/// Returns the positions of the bits that are set.
 pub(super) fn ones(bits: &[u64]) -> impl Iterator<Item = usize> {
     bits.iter().enumerate().flat_map(|(word, &bits)| {
         let clear_lowest = |bits: &u64| Some(bits & (bits - 1)).filter(|&rest| rest != 0);
@@ -99,14 +99,14 @@ impl SuspectSearch {
         Self { size, items, first, of_failure, passing: passing.len() }
     }
 
-    /// The set of all failing tests.
+    /// Returns the set of all failing tests.
     pub fn failing(&self) -> Vec<u64> {
         let mut all = zeros(self.of_failure.len());
         (0..self.of_failure.len()).for_each(|failure| set(&mut all, failure));
         all
     }
 
-    /// The given failing tests that contain the (parameter, level) pairs.
+    /// Returns the tests among the given failing tests that contain all given (parameter, level) pairs.
     pub fn containing(&self, failures: &[u64], values: &[(usize, usize)]) -> Vec<u64> {
         let mut containing = failures.to_vec();
         for item in values.iter().map(|&(parameter, level)| self.item(parameter, level)) {
@@ -120,7 +120,7 @@ impl SuspectSearch {
         &items[items.binary_search_by_key(&level, |item| item.level).expect("a value of a failing test")]
     }
 
-    /// The suspect of these items.
+    /// Returns the suspect that consists of these items.
     fn suspect(&self, items: &[usize]) -> Suspect {
         let items = || items.iter().map(|&item| &self.items[item]);
         let values: Vec<(usize, usize)> = items().map(|item| (item.parameter, item.level)).collect();
@@ -133,7 +133,7 @@ impl SuspectSearch {
         Suspect { values, failures, suspicion }
     }
 
-    /// Shows each suspect that at least one of the given failures contains.
+    /// Shows the visitor each suspect that at least one of the given failures contains.
     pub fn visit(&self, failures: &[u64], visitor: &mut impl Visitor) {
         let mut passing = zeros(self.passing);
         (0..self.passing).for_each(|pass| set(&mut passing, pass));
@@ -171,7 +171,8 @@ impl SuspectSearch {
         }
     }
 
-    /// The items of a parameter that at least one of the failures has; all items if that is cheaper.
+    /// Returns the items of a parameter that at least one of the failures has; all items of the parameter if this is
+    /// faster.
     fn present(&self, parameter: usize, failures: &[u64]) -> Vec<usize> {
         let all = self.first[parameter]..self.first[parameter + 1];
         if all.len() <= count(failures) {

@@ -1,6 +1,6 @@
-//! The architecture of the network: that of Bojarski et al., "End to End Learning for Self-Driving Cars" (2016), with
-//! five convolutions and three hidden dense layers. Images may be smaller than the paper's 200 x 66. The speed is a
-//! further input of the dense layers.
+//! The architecture of the network, which is the architecture of Bojarski et al., "End to End Learning for Self-Driving
+//! Cars" (2016), with five convolutions and three hidden dense layers. Images may be smaller than the paper's 200 x 66.
+//! The speed is a further input of the dense layers.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig};
@@ -35,17 +35,17 @@ pub const CONVOLUTIONS: [Convolution; 5] = [
 ];
 /// The numbers of outputs of the dense layers: three hidden layers, then steering and throttle.
 pub const DENSE: [usize; 4] = [100, 50, 10, 2];
-/// The number that is subtracted from every colour, which is from 0 to 1.
+/// The number that the network subtracts from every colour value, which lies between 0 and 1.
 pub const MIDDLE: f32 = 0.5;
-/// The factor for the speed in m/s.
+/// The factor by which the network multiplies the speed in m/s.
 pub const SPEED_SCALE: f32 = 0.05;
 
-/// The slope of the rectifiers below zero. With it no rectifier ever stops learning.
+/// The slope of the rectifiers below zero. With this slope no rectifier ever stops learning.
 pub const LEAK: f32 = 0.1;
-/// The factor for the first weights of the last layer, so that the first answers are near zero.
+/// The factor by which the first weights of the last layer are multiplied, so that the first answers are near zero.
 const TIMID: f32 = 0.1;
 
-/// The smallest image, in pixels across and down, that leaves something after the five convolutions.
+/// The width and height of the smallest image, in pixels, that leaves an output after the five convolutions.
 pub const SMALLEST: [u32; 2] = [33, 33];
 
 #[derive(Module, Debug)]
@@ -54,7 +54,7 @@ pub struct Network {
     pub dense: Vec<Linear>,
 }
 
-/// Returns how many numbers the convolutions make of an image of this resolution.
+/// Returns the number of outputs of the convolutions for an image of this resolution.
 fn found([width, height]: [u32; 2]) -> usize {
     let size = |pixels: u32| {
         let after = |size: usize, layer: &Convolution| (size + 2 * layer.padding - layer.kernel) / layer.stride + 1;

@@ -1,6 +1,6 @@
-//! What gRPC adds to a step: a question with an image, there and back over the loopback, to a driver that does nothing.
-//! The server is ours; with `PARACOSM_ADDRESS=HOST:PORT` it is whatever listens there, with a camera `front` of its
-//! own.
+//! The time that gRPC adds to a step: a question with an image, there and back over the loopback, to a driver that does
+//! nothing. The server is ours; with `PARACOSM_ADDRESS=HOST:PORT` it is whatever listens there, with a camera `front`
+//! of its own.
 
 use divan::Bencher;
 use paracosm_engine::driver::{Driver, Equipment, Fault};

@@ -39,9 +39,9 @@ pub trait Driver: Send {
     /// The driver cannot drive such a car.
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault>;
 
-    /// Takes in the readings and images that have arrived since the last question; comes before every
-    /// [`step`](Self::step). Images come camera by camera, in the order of the cameras' names, and the earliest of each
-    /// camera first. An image that was lost, or that was taken from inside a body, never comes.
+    /// Takes in the readings and images that have arrived since the last question. Every [`step`](Self::step) follows
+    /// such a call. Images come camera by camera, in the order of the cameras' names, and the images of one camera come
+    /// in the order of time. An image that was lost, or that was taken from inside a body, never comes.
     ///
     /// # Errors
     /// The driver cannot go on.
@@ -98,7 +98,7 @@ impl Fault {
         Self::of(FaultKind::Stated, message)
     }
 
-    /// Makes a fault of some kind, described in words.
+    /// Makes a fault of the given kind, with a description of the fault in words.
     pub fn of(kind: FaultKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
     }
@@ -111,7 +111,7 @@ pub struct Setting {
     pub name: &'static str,
     /// The default value of the setting.
     pub default: f64,
-    /// The unit of the setting, empty if it has none.
+    /// The unit of the setting, empty if the setting has no unit.
     pub unit: &'static str,
     /// The least and the greatest value of the setting.
     pub range: (f64, f64),
@@ -168,7 +168,7 @@ pub struct Descriptor {
 /// An error in the name or the settings of a driver.
 #[derive(Debug, Error, PartialEq)]
 pub enum DriverError {
-    /// No driver has that name.
+    /// No driver has the given name.
     #[error("no driver is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
         /// The unknown name.
@@ -176,7 +176,7 @@ pub enum DriverError {
         /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// The driver has no such setting.
+    /// The driver has no setting with the given name.
     #[error("driver `{driver}` has no setting `{name}`{}", did_you_mean(.nearest))]
     UnknownSetting {
         /// The name of the driver.
@@ -186,7 +186,7 @@ pub enum DriverError {
         /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// The setting cannot have that value.
+    /// The given value is not in the range of the setting, or is not a whole number although the setting needs one.
     #[error(
         "the setting `{name}` of driver `{driver}` is {value}, expected a {}number from {} to {}",
         if *whole { "whole " } else { "" }, range.0, range.1
@@ -218,10 +218,10 @@ pub const ALL: &[&Descriptor] = &[
     &reference::IDEAL,
 ];
 
-/// Finds the driver of that name.
+/// Finds the driver with the given name.
 ///
 /// # Errors
-/// No driver has that name. The error suggests the nearest name.
+/// No driver has the given name. The error suggests the nearest name.
 pub fn find(name: &str) -> Result<&'static Descriptor, DriverError> {
     ALL.iter().copied().find(|driver| driver.name == name).ok_or_else(|| DriverError::Unknown {
         name: name.to_owned(),
@@ -250,7 +250,7 @@ impl Descriptor {
         Ok(settings)
     }
 
-    /// Makes a driver whose settings have these changes.
+    /// Makes a driver with the default settings, except for the given changes.
     ///
     /// # Errors
     /// Returns the errors of [`Descriptor::settings`].
@@ -260,7 +260,7 @@ impl Descriptor {
 }
 
 impl Settings {
-    /// Returns the names and values in the driver's order.
+    /// Returns the names and values of the settings, in the order in which the driver declares the settings.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
         self.0.iter().copied()
     }

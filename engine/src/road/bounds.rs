@@ -16,31 +16,37 @@ pub struct Bounds {
 
 impl Bounds {
     /// Returns the box that contains no point. It is the start for [`Bounds::include`] and [`Bounds::union`].
-    pub(crate) fn empty() -> Self {
+    pub fn empty() -> Self {
         Self { min: Vector2::repeat(f64::INFINITY), max: Vector2::repeat(f64::NEG_INFINITY) }
     }
 
-    pub(crate) fn around(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
+    /// Returns the smallest box that contains all of the points; empty without points.
+    pub fn around(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
         let mut bounds = Self::empty();
         points.into_iter().for_each(|point| bounds.include(point));
         bounds
     }
 
-    pub(crate) fn include(&mut self, point: Vector2<f64>) {
+    /// Extends the box so that it contains the point.
+    pub fn include(&mut self, point: Vector2<f64>) {
         self.min = self.min.inf(&point);
         self.max = self.max.sup(&point);
     }
 
-    pub(crate) fn union(&self, other: &Self) -> Self {
+    /// Returns the smallest box that contains both boxes.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
     /// Returns the box with every side moved outward by `by` metres.
-    pub(crate) fn grown(&self, by: f64) -> Self {
+    #[must_use]
+    pub fn grown(&self, by: f64) -> Self {
         Self { min: self.min.add_scalar(-by), max: self.max.add_scalar(by) }
     }
 
-    pub(crate) fn meets(&self, other: &Self) -> bool {
+    /// Returns true if the boxes have a point in common.
+    pub fn meets(&self, other: &Self) -> bool {
         let apart = |a: &Self, b: &Self| a.max.x < b.min.x || a.max.y < b.min.y;
         !apart(self, other) && !apart(other, self)
     }

@@ -124,7 +124,7 @@ impl Curve {
     }
 
     /// Returns the smallest box with sides along the axes that contains the curve.
-    pub(crate) fn bounds(&self) -> Bounds {
+    pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::around([self.start.position, self.point(self.length)]);
         if self.curvature != 0.0 {
             let (centre, radius) = (self.centre(), 1.0 / self.curvature.abs());

@@ -173,8 +173,8 @@ impl<S> Element<S> {
         self
     }
 
-    /// Sets the name of the element, by which a composite refers to its points. An element without a name is called by
-    /// its kind, with a number from the second of the kind on: `road`, `road-2`, ...
+    /// Sets the name of the element, by which a composite refers to the points of the element. An element without a
+    /// name is called by its kind, with a number from the second of the kind on: `road`, `road-2`, ...
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
@@ -202,7 +202,7 @@ impl RoadSegment {
 }
 
 impl TIntersection {
-    /// Returns the distance from the middle of the intersection to its points, in metres.
+    /// Returns the distance in metres from the middle of the intersection to the points at the ends of its arms.
     pub fn reach(&self) -> f64 {
         self.profile.half_width() + self.shape.corner
     }
@@ -222,7 +222,7 @@ impl TIntersection {
 }
 
 impl CrossIntersection {
-    /// Returns the distance from the middle of the intersection to its points, in metres.
+    /// Returns the distance in metres from the middle of the intersection to the points at the ends of its arms.
     pub fn reach(&self) -> f64 {
         self.profile.half_width() + self.shape.corner
     }
@@ -242,12 +242,13 @@ impl CrossIntersection {
 }
 
 impl Roundabout {
-    /// Returns the distance from the middle of the roundabout to its points, in metres.
+    /// Returns the distance in metres from the middle of the roundabout to the points at the ends of its arms.
     pub fn reach(&self) -> f64 {
         self.shape.reach(&self.profile)
     }
 
-    /// Makes a roundabout with four arms, an island of 10 m radius, and as many lanes as lead into it from an arm.
+    /// Makes a roundabout with four arms, an island of 10 m radius, and as many lanes as lead into the roundabout from
+    /// an arm.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {
         Self::of(Ring { arms: 4, island: ISLAND, entry: ENTRY })

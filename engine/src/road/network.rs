@@ -15,11 +15,11 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// A road network. [`Composite::build`] makes it; it never changes afterwards. Traffic keeps to the right.
+/// A road network. [`Composite::build`] makes a network, which never changes afterwards. Traffic keeps to the right.
 #[derive(Debug)]
 pub struct RoadNetwork {
     elements: Vec<Placed>,
-    /// The index of the element with each name. Only looked up, so that the order does not matter.
+    /// The index of the element with each name. Names are only looked up, so that their order does not matter.
     names: HashMap<String, usize>,
     lanes: Vec<Lane>,
     crossings: Vec<Crossing>,
@@ -49,12 +49,12 @@ pub struct Crossing {
     pub path: Curve,
     /// The width of the crossing in metres.
     pub width: f64,
-    /// The lanes that it crosses, from right to left, each with the place of its middle in metres along the lane.
+    /// The lanes under the crossing, from right to left, each with the place of the crossing in metres along the lane.
     pub lanes: Vec<(LaneId, f64)>,
 }
 
 impl<S: Into<ElementShape>> Element<S> {
-    /// Builds the network of this element alone: [`Composite::build`].
+    /// Builds the network of this element alone, as [`Composite::build`] does.
     ///
     /// # Errors
     /// The description of the element is not valid.
@@ -150,7 +150,8 @@ impl RoadNetwork {
         &self.lanes[id.index()]
     }
 
-    /// Returns a lane of a road: 1, 2, ... to the right of the centre line, and -1, -2, ... for the opposite direction.
+    /// Returns the lane with this number of a road: 1, 2, ... to the right of the centre line, and -1, -2, ... for the
+    /// opposite direction.
     ///
     /// # Errors
     /// The network has no such element, or the element has no such lane.
@@ -167,8 +168,8 @@ impl RoadNetwork {
         })
     }
 
-    /// Returns the lane from one point of an element to another, over an intersection or along a road. `number` is the
-    /// number of the lanes that it joins, counted from the centre line.
+    /// Returns the lane from one point of an element to another point, over an intersection or along a road. `number`
+    /// is the number of the lanes that the returned lane joins, counted from the centre line.
     ///
     /// # Errors
     /// The network has no such element, the element has no such point, or no such lane leads from `from` to `to`.
@@ -276,7 +277,8 @@ pub(crate) fn sidewalk_pose(centre: &Curve, profile: &Profile, side: Side, at: f
     Pose { position: centre.beside(at, offset), heading: wrapped(centre.heading(at) + turn) }
 }
 
-/// Computes the layout of every part. Intersections are costly, and most are alike, so equal ones share a layout.
+/// Computes the layout of every part. Intersections are costly, and most are alike, so equal intersections share a
+/// layout.
 fn layouts(composite: &Composite) -> Vec<Arc<Layout>> {
     let mut intersections: Vec<(&Plan, Arc<Layout>)> = Vec::new();
     let mut layouts = Vec::with_capacity(composite.parts.len());

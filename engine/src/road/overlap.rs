@@ -117,7 +117,7 @@ mod tests {
         (0..4).all(|i| (quad[(i + 1) % 4] - quad[i]).perp(&(point - quad[i])) >= 0.0)
     }
 
-    /// Whether one of many points of the first lies in the second.
+    /// Returns true if one of many points of `one` lies in `other`.
     fn meet_by_sampling(one: &Quad, other: &Quad) -> bool {
         const STEPS: usize = 80;
         let share = |i: usize| i as f64 / STEPS as f64;

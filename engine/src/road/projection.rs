@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 /// A position relative to a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LanePosition {
-    /// The lane.
+    /// The lane to which the position is relative.
     pub lane: LaneId,
     /// The place of the lane's nearest point, in metres along the lane.
     pub s: f64,
@@ -23,23 +23,24 @@ pub struct LanePosition {
 }
 
 impl LanePosition {
-    /// Returns the place on the lane.
+    /// Returns the place of the lane's nearest point.
     pub fn place(&self) -> RoutePosition {
         RoutePosition { lane: self.lane, s: self.s }
     }
 }
 
 impl RoadNetwork {
-    /// Returns the lane whose middle is nearest to a position, the first of them among equals. The result has no
-    /// meaning if the position is not finite.
+    /// Returns a position relative to the lane whose middle is nearest; if several lanes are equally near, the first
+    /// lane counts. The result has no meaning if the position is not finite.
     pub fn project(&self, position: Vector2<f64>) -> LanePosition {
         let nearest = self.tree.nearest(position, |lane| Some(self.distance_squared(lane, position)));
         let lane = nearest.expect("a network has lanes");
         self.project_onto(LaneId(lane), position)
     }
 
-    /// Returns the nearest lane among those whose direction at their nearest point differs from the pose's heading by
-    /// less than a right angle. `None` if there is no such lane.
+    /// Returns the position of a pose relative to the nearest lane in the pose's direction; `None` if there is no such
+    /// lane. A lane is in the pose's direction if its direction at its nearest point differs from the pose's heading by
+    /// less than a right angle.
     pub fn project_along(&self, pose: &Pose) -> Option<LanePosition> {
         let forward = pose.forward();
         let lane = self.tree.nearest(pose.position, |index| {
@@ -63,7 +64,7 @@ impl RoadNetwork {
     }
 
     /// Visits all lanes that meet a box and some lanes that are only near it, in no particular order. `open` is the
-    /// memory of the search; if it is used again, the search allocates nothing.
+    /// memory of the search; if the same memory is used again, the search allocates nothing.
     pub(crate) fn lanes_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(LaneId)) {
         self.tree.visit_near(target, open, |lane| visit(LaneId(lane)));
     }

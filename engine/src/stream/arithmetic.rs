@@ -8,42 +8,42 @@ use paracosm_oracles::Comparison;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 impl Stream<f64> {
-    /// Is true at the ticks at which this stream is below the other.
+    /// Returns a stream that is true at the ticks at which this stream is below the other stream.
     pub fn below(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::Below), &other.into())
     }
 
-    /// Is true at the ticks at which this stream is at most the other.
+    /// Returns a stream that is true at the ticks at which this stream is at most the other stream.
     pub fn at_most(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::AtMost), &other.into())
     }
 
-    /// Is true at the ticks at which this stream is above the other.
+    /// Returns a stream that is true at the ticks at which this stream is above the other stream.
     pub fn above(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::Above), &other.into())
     }
 
-    /// Is true at the ticks at which this stream is at least the other.
+    /// Returns a stream that is true at the ticks at which this stream is at least the other stream.
     pub fn at_least(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::AtLeast), &other.into())
     }
 
-    /// Returns the smaller of both values; NaN if one is NaN.
+    /// Returns the smaller of the values of the two streams; NaN if a value is NaN.
     pub fn min(&self, other: impl Into<Stream<f64>>) -> Self {
         self.with(NodeKind::Binary(Binary::Least), &other.into())
     }
 
-    /// Returns the larger of both values; NaN if one is NaN.
+    /// Returns the larger of the values of the two streams; NaN if a value is NaN.
     pub fn max(&self, other: impl Into<Stream<f64>>) -> Self {
         self.with(NodeKind::Binary(Binary::Greatest), &other.into())
     }
 
-    /// Returns the absolute value.
+    /// Returns the absolute value of the number.
     pub fn abs(&self) -> Self {
         self.then(NodeKind::Unary(Unary::Absolute))
     }
 
-    /// Returns the square root; NaN below 0.
+    /// Returns the square root of the number; NaN if the number is below 0.
     pub fn sqrt(&self) -> Self {
         self.then(NodeKind::Unary(Unary::SquareRoot))
     }
@@ -60,8 +60,8 @@ impl Stream<Vector2<f64>> {
         x.into().with(NodeKind::Binary(Binary::Vector), &y.into())
     }
 
-    /// Returns how far the line still lies ahead of this position, along the line's direction, in metres; negative
-    /// behind the line.
+    /// Returns the distance in metres from this position to a line, along the line's direction; negative if the
+    /// position is past the line.
     pub fn distance_to(&self, line: &Line) -> Stream<f64> {
         self.then(NodeKind::Towards(line.clone()))
     }
@@ -71,17 +71,17 @@ impl Stream<Vector2<f64>> {
         self.then(NodeKind::Unary(Unary::Norm))
     }
 
-    /// Returns the scalar product.
+    /// Returns the scalar product of the vectors of the two streams.
     pub fn dot(&self, other: impl Into<Stream<Vector2<f64>>>) -> Stream<f64> {
         self.with(NodeKind::Binary(Binary::Dot), &other.into())
     }
 
-    /// Returns the first coordinate.
+    /// Returns the first coordinate of the vector.
     pub fn x(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::X))
     }
 
-    /// Returns the second coordinate.
+    /// Returns the second coordinate of the vector.
     pub fn y(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::Y))
     }

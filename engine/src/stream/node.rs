@@ -1,4 +1,4 @@
-//! The nodes of streams: what each node computes, and from which other nodes.
+//! The nodes of streams, with the computation of each node and the nodes that it reads.
 
 use super::datum::DatumSample;
 use crate::geometry::Line;
@@ -35,25 +35,25 @@ pub(crate) enum Binary {
     Least,
     Greatest,
     Dot,
-    /// The vector of two numbers, its coordinates.
+    /// The vector with two numbers as its coordinates.
     Vector,
     And,
     Or,
 }
 
-/// A function that reads a value and writes another.
+/// A function that reads a value and writes another value.
 pub(crate) type Map = Rc<dyn Fn(&[DatumSample], &mut [DatumSample])>;
-/// A function that reads a value and decides whether to keep it.
+/// A function that reads a value and returns `true` if the value is to be kept.
 pub(crate) type Filter = Rc<dyn Fn(&[DatumSample]) -> bool>;
-/// A function that changes its first value by the second.
+/// A function that changes its first value with the help of its second value.
 pub(crate) type Scan = Rc<dyn Fn(&mut [DatumSample], &[DatumSample])>;
 /// A function that has an effect with a value.
 pub(crate) type Effect = Rc<RefCell<dyn FnMut(&[DatumSample])>>;
 
-/// The operation of a node on its inputs. The table in [the module](super) shows each, tick by tick.
+/// The operation of a node on its inputs. The table in [the module](super) shows each operation, tick by tick.
 #[derive(Clone)]
 pub(crate) enum NodeKind {
-    /// A constant value, and the parameter that it comes from, if any.
+    /// A constant value, and the parameter that the value comes from, if any.
     Constant {
         value: Vec<DatumSample>,
         parameter: Option<String>,
@@ -183,7 +183,7 @@ impl Node {
 }
 
 impl NodeKind {
-    /// Returns the method by which programs make such a node.
+    /// Returns the method by which programs make a node of this kind.
     fn word(&self) -> &'static str {
         match self {
             NodeKind::Map(_) => "map",
@@ -225,7 +225,7 @@ impl Unary {
         }
     }
 
-    /// Returns the value of the function; absent if its argument is.
+    /// Returns the value of the function; absent if its argument is absent.
     pub fn of(self, value: DatumSample) -> DatumSample {
         use DatumSample::{Absent, Number, Truth, Vector};
         match (self, value) {
@@ -258,7 +258,7 @@ impl Binary {
         }
     }
 
-    /// Returns the value of the function; absent if an argument is.
+    /// Returns the value of the function; absent if an argument is absent.
     pub fn of(self, left: DatumSample, right: DatumSample) -> DatumSample {
         use DatumSample::{Absent, Number, Truth, Vector};
         match (self, left, right) {
@@ -335,7 +335,7 @@ impl fmt::Debug for Node {
     }
 }
 
-/// Drops one node after the other: a chain of many thousands would otherwise need as many stack frames.
+/// Drops one node after the other: a chain of many thousands of nodes would otherwise need as many stack frames.
 impl Drop for Node {
     fn drop(&mut self) {
         let mut waiting = std::mem::take(&mut self.inputs);

@@ -1,6 +1,7 @@
 //! Decides which car drives first where lanes cross or join.
 //!
-//! A car may pass the line before such a lane only with a claim on it. A car that comes near asks, and gets it if
+//! A car may pass the line before such a lane only with a claim on it. A car that comes near asks for the claim, and
+//! gets the claim if
 //!
 //! 1. no other car waits before it, and all of it has room behind the intersection, so that it never stands in one,
 //! 2. cars that have claims already will be away before it arrives, or it can follow them,
@@ -36,7 +37,7 @@ const FOREWARNED: f64 = 3.0;
 const ELSEWHERE: f64 = 15.0;
 /// The deceleration in m/s² at which a car still stops if it loses leave to drive on.
 const FIRM: f64 = 3.0;
-/// The metres behind the car ahead that count as occupied by it.
+/// The metres behind the car ahead that count as occupied by that car.
 const ROOM: f64 = 1.5;
 /// The acceleration in m/s² that a car expects of others that leave a zone.
 const TRUSTED: f64 = 1.0;
@@ -44,7 +45,7 @@ const TRUSTED: f64 = 1.0;
 /// The lanes of an intersection that a car drives over between two places where it may stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passage {
-    /// The last of these lanes, by its index in the path.
+    /// The last lane of the passage, by its index in the path.
     pub last: usize,
     /// `true` if there is room behind the passage.
     pub sure: bool,
@@ -65,12 +66,13 @@ pub(super) struct Asker {
 }
 
 impl Asker {
-    /// The order in which cars are served.
+    /// Returns the order in which two cars are served.
     fn order(&self, other: &Self) -> Ordering {
         other.impatient.cmp(&self.impatient).then(self.since.total_cmp(&other.since)).then(self.car.cmp(&other.car))
     }
 
-    /// Returns `true` if this car lets `other` go first. `rival` is the conflict of their lanes as this car sees it.
+    /// Returns `true` if this car lets `other` go first. `rival` is the conflict of the lanes of the two cars as this
+    /// car sees the conflict.
     fn lets_go(&self, other: &Self, rival: &Rival) -> bool {
         let (gives_way, given_way) = (rival.gives_way && !rival.given_way, rival.given_way && !rival.gives_way);
         match (self.impatient, other.impatient) {
@@ -84,7 +86,7 @@ impl Asker {
 }
 
 impl Traffic {
-    /// Lets cars pass their lines, or makes them stop there.
+    /// Lets cars pass their lines, or makes cars stop at their lines.
     pub(super) fn give_leave(&mut self, dt: f64) {
         self.askers.clear();
         self.asking.clear();
@@ -130,7 +132,7 @@ impl Traffic {
         }
     }
 
-    /// Notes that a car asks, if it is near enough.
+    /// Notes that a car asks, if the car is near enough.
     fn ask(&mut self, index: usize, ask: Ask, dt: f64) {
         let car = &self.cars[index];
         let near = car.asking_distance();
@@ -176,7 +178,8 @@ impl Traffic {
 }
 
 impl View<'_> {
-    /// Returns the lanes to claim so that a car can stop behind them out of the way; `None` if it would not get there.
+    /// Returns the lanes that a car has to claim in order to stop beyond the lanes without blocking other cars; `None`
+    /// if the car would not get beyond the lanes.
     pub fn passage(&self, index: usize, ask: &Ask) -> Option<Passage> {
         let car = &self.cars[index];
         let length = 2.0 * car.half;

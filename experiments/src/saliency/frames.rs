@@ -28,7 +28,7 @@ pub struct Scene {
     pub colour: Colour,
 }
 
-/// An image, and for every pixel whether it shows the leader.
+/// An image, with a mark for every pixel that shows the leader.
 #[derive(Debug, Clone)]
 pub struct Seen {
     pub image: Image,
@@ -102,7 +102,7 @@ impl Studio {
     }
 }
 
-/// Returns a copy of a shot with the leader as the scene says.
+/// Returns a copy of a shot with the leader at the place and in the colour that the scene gives.
 fn arranged(shot: &Shot, scene: &Scene) -> Shot {
     let mut shot = shot.clone();
     let car = shot.moment.bodies[CAR];

@@ -16,29 +16,29 @@ use faer::{Mat, Par, Side};
 /// The least variance that is told from 0, as a share of the process's variance.
 const LEAST_VARIANCE: f64 = 1e-12;
 
-/// An addition to variances, in the same shares, so that draws at places that are almost equal have a Cholesky
-/// factor.
+/// An addition to variances, as a share of the process's variance, so that draws at places that are almost equal have a
+/// Cholesky factor.
 const DRAW_NOISE: f64 = 1e-8;
 
-/// The kernel of a process: how similar two places are.
+/// The kernel of a process, which gives the similarity of two places.
 #[derive(Debug, Clone)]
 pub(super) struct Kernel {
-    /// The kinds of the axes.
+    /// The kind of each axis.
     pub axes: Vec<Axis>,
-    /// For each axis, the distance over which places are similar.
+    /// The length scale of each axis, which is the distance along the axis over which the robustness stays similar.
     pub lengths: Vec<f64>,
     /// The variance that no place explains, as a share of the process's variance.
     pub noise: f64,
 }
 
 impl Kernel {
-    /// The squared distance along one axis, in multiples of its length.
+    /// Returns the squared distance along an axis, in multiples of the length scale of the axis.
     pub(super) fn squared(&self, axis: usize, a: &[f64], b: &[f64]) -> f64 {
         let scaled = self.axes[axis].difference(a[axis], b[axis]) / self.lengths[axis];
         scaled * scaled
     }
 
-    /// `sqrt(5) r`, where r is the distance of two places.
+    /// Returns `sqrt(5) r`, where r is the distance of two places.
     pub(super) fn scaled_distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let squares = self.axes.iter().zip(&self.lengths).zip(a.iter().zip(b));
         let squares = squares.map(|((axis, length), (a, b))| {
@@ -48,24 +48,24 @@ impl Kernel {
         (5.0 * squares.sum::<f64>()).sqrt()
     }
 
-    /// The correlation of two places.
+    /// Returns the correlation of two places.
     pub(super) fn correlation(&self, a: &[f64], b: &[f64]) -> f64 {
         Pair::of(self, a, b).correlation()
     }
 
-    /// The pairs of different places: for each place, the pairs with all places before it.
+    /// Returns the pairs of different places: for each place, the pairs with all places before this place.
     fn pairs(&self, places: &[Vec<f64>]) -> Vec<Pair> {
         let before = |i: usize| (0..i).map(move |j| Pair::of(self, &places[i], &places[j]));
         (0..places.len()).flat_map(before).collect()
     }
 }
 
-/// Two places.
+/// A pair of places.
 #[derive(Debug, Clone, Copy)]
 struct Pair {
     /// `sqrt(5)` times the distance of the two places.
     distance: f64,
-    /// `exp` of minus that distance, which takes longer than everything else.
+    /// The number `exp(-distance)`, which takes longer to compute than everything else.
     decay: f64,
 }
 
@@ -81,7 +81,7 @@ impl Pair {
     }
 }
 
-/// The position of the pair of places `i` and `j`, where `j` is before `i`.
+/// Returns the position of the pair of places `i` and `j`, where `j` is before `i`.
 fn pair(i: usize, j: usize) -> usize {
     i * i.saturating_sub(1) / 2 + j
 }
@@ -95,7 +95,7 @@ pub(super) enum Mean {
     Known(f64),
 }
 
-/// The process, given the tests.
+/// The process that is conditioned on the tests.
 pub(super) struct Process {
     kernel: Kernel,
     places: Vec<Vec<f64>>,
@@ -103,7 +103,7 @@ pub(super) struct Process {
     factor: Llt<f64>,
     /// The inverse of the correlations times the differences between the values and the mean.
     pull: Vec<f64>,
-    /// The inverse of the correlations times ones.
+    /// The inverse of the correlations times a vector of ones.
     ones: Vec<f64>,
     mean: f64,
     /// The variance of the mean, as a share of the process's variance.
@@ -169,13 +169,13 @@ impl Process {
         })
     }
 
-    /// The kernel, which says how similar places are.
+    /// Returns the kernel, which gives the similarity of places.
     pub(super) fn kernel(&self) -> &Kernel {
         &self.kernel
     }
 
-    /// The mean and deviation at each place if its own value were unknown, but mean, variance and kernel known
-    /// (Rasmussen and Williams, equation 5.12).
+    /// Returns the mean and deviation at each place if the value at the place were unknown, and mean, variance and
+    /// kernel were known (Rasmussen and Williams, equation 5.12).
     pub(super) fn leave_one_out(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let n = self.places.len();
         // Only the diagonal of the inverse is needed: the squares in the columns of the inverse of the factor.
@@ -188,7 +188,7 @@ impl Process {
         (0..n).map(one).collect()
     }
 
-    /// The logarithm of the likelihood of the values for the most likely mean and variance, up to a constant.
+    /// Returns the logarithm of the likelihood of the values for the most likely mean and variance, up to a constant.
     pub(super) fn log_likelihood(&self) -> f64 {
         let n = self.places.len();
         let factor = self.factor.L();
@@ -196,7 +196,8 @@ impl Process {
         -0.5 * n as f64 * libm::log(self.variance) - half_log_determinant
     }
 
-    /// The derivatives of the log-likelihood by the logarithms of the lengths, and last of the noise.
+    /// Returns the derivatives of the log-likelihood by the logarithms of the length scales, and last by the logarithm
+    /// of the noise.
     pub(super) fn log_likelihood_gradient(&self) -> Vec<f64> {
         let (n, axes) = (self.places.len(), self.kernel.lengths.len());
         let inverse = self.factor.solve(Mat::<f64>::identity(n, n));
@@ -220,7 +221,7 @@ impl Process {
         gradient
     }
 
-    /// The estimate of the process at places.
+    /// Returns the estimate of the process at places.
     pub(super) fn posterior(&self, places: Vec<Vec<f64>>) -> Posterior<'_> {
         let n = self.places.len();
         let mut whitened = Mat::from_fn(n, places.len(), |i, j| self.kernel.correlation(&self.places[i], &places[j]));
@@ -248,7 +249,7 @@ pub(super) struct Posterior<'a> {
 }
 
 impl Posterior<'_> {
-    /// The number of places.
+    /// Returns the number of places.
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
@@ -265,7 +266,7 @@ impl Posterior<'_> {
         (self.share[index] * self.process.variance).sqrt()
     }
 
-    /// Draws values at some of the places together: one list for each draw.
+    /// Draws values at some of the places together, and returns a list for each draw.
     ///
     /// The mean is as uncertain as the tests leave it (Rasmussen and Williams, equation 2.42), and so is the
     /// deviation.
@@ -315,8 +316,8 @@ impl Posterior<'_> {
     }
 }
 
-/// The products of a column with every column. Four sums run at a time, each in the order of its terms: a single sum
-/// would have to wait for itself.
+/// Returns the scalar products of a column with every column. Four sums run at a time, each in the order of its terms:
+/// the additions of a single sum would have to wait for each other.
 fn products(columns: &Mat<f64>, column: usize) -> Vec<f64> {
     let known = columns.col_as_slice(column);
     let mut all = Vec::with_capacity(columns.ncols());

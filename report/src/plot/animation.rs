@@ -5,7 +5,7 @@
 
 use super::raster::{draw, opaque, rasterised};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
-use paracosm_engine::picture::Animation;
+use crate::birds_eye::Animation;
 use std::collections::BTreeMap;
 use std::error::Error as StdError;
 use std::io::Write;
@@ -195,7 +195,7 @@ fn bin(rgb: [u8; 3]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm_engine::picture::{Contour, Drawing, Frame as Still, PathSegment, PictureItem};
+    use crate::birds_eye::{Contour, Drawing, Frame as Still, PathSegment, PictureItem};
 
     /// Draws a square of this colour at a place, without a background.
     fn square(at: f64, colour: [u8; 3], side: f64) -> Drawing {

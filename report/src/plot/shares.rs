@@ -18,20 +18,20 @@ pub struct Shares {
     pub frame: PlotFrame,
     /// The label of the horizontal axis.
     pub x: String,
-    /// The label of the vertical axis, written above it.
+    /// The label of the vertical axis, which is written above the axis.
     pub y: String,
     /// The least and the greatest size, both above 0.
     pub range: (f64, f64),
-    /// The series. Later series are drawn over earlier ones.
+    /// The series. Later series are drawn over earlier series.
     pub series: Vec<Series>,
 }
 
-/// The marks of one line of the legend.
+/// A series of marks, which has a line in the legend.
 #[derive(Debug, Clone)]
 pub struct Series {
     /// The mark and colour of the series.
     pub look: Look,
-    /// The places of the marks, each with its size and its share.
+    /// The size and the share at which each mark is drawn.
     pub marks: Vec<(f64, f64)>,
 }
 

@@ -1,5 +1,6 @@
-//! Draws Kaplan-Meier curves: how many runs still wait for an event, over the tests that they have spent, beginning at
-//! 0. A table below the curves gives these numbers.
+//! Draws Kaplan-Meier curves, which show the share of runs that still wait for an event, over the number of tests that
+//! a run has spent. The axis of the number of tests begins at 0. A table below the curves gives the numbers of waiting
+//! runs.
 //!
 //! The horizontal axis is linear, so that the area under a curve is the restricted mean that the legend shows.
 
@@ -31,7 +32,8 @@ const STEPS: usize = 6;
 pub struct Survivals {
     /// The text and the legend around the plane.
     pub frame: PlotFrame,
-    /// The labels of the horizontal axis and of the vertical axis; the latter is written above it.
+    /// The labels of the horizontal axis and of the vertical axis; the label of the vertical axis is written above the
+    /// axis.
     pub axes: [String; 2],
     /// The heading of the table below the plane.
     pub numbers: String,
@@ -46,11 +48,11 @@ pub struct Survivals {
 pub struct Waiting {
     /// The mark and colour of the curve.
     pub look: Look,
-    /// The times at which the share of waiting runs falls, in ascending order, with the share from then on.
+    /// The times at which the share of waiting runs falls, in ascending order, each with the share from this time on.
     pub steps: Vec<(f64, f64)>,
-    /// The time at which each run's waiting ends; infinite if it does not end.
+    /// The time at which each run's waiting ends; infinite if the waiting does not end.
     pub ends: Vec<f64>,
-    /// True if a run that did not end its waiting might have ended it with more time.
+    /// True if a run was stopped while it still waited, although its event might have come later.
     pub censored: bool,
 }
 
@@ -105,7 +107,7 @@ impl Survivals {
         self.frame.draw_legend(&legend, scale)
     }
 
-    /// Draws the table, which says how many runs of each curve still wait at each tick of the axis.
+    /// Draws the table, which gives the number of runs of each curve that still wait at each tick of the axis.
     fn draw_table<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, ticks: &[f64], scale: f64) -> Result<B> {
         let px = |length: f64| (length * scale).round() as i32;
         let size = 0.8 * TEXT * scale;
@@ -144,7 +146,7 @@ impl Waiting {
         corners
     }
 
-    /// Returns the place of the curve's mark, which is where the curve falls to `height`. Every curve has another
+    /// Returns the place of the curve's mark, which is where the curve falls to `height`. Every curve has a different
     /// height, so that marks of equal curves stand beside each other. If the curve stays above the height, the place is
     /// towards its end.
     fn mark(&self, height: f64, horizon: f64) -> (f64, f64) {

@@ -14,14 +14,14 @@ pub(super) enum Token {
     Text(String),
     Number(f64),
     Sign(&'static str),
-    /// A text that is not a token, and the reason. The reader reports it only when it gets there, after errors before
-    /// it.
+    /// A text that is not a token, and the reason. The reader reports the reason only when it comes to this text, after
+    /// the errors before this text.
     Broken(PictFlaw),
     End,
 }
 
 impl Token {
-    /// Returns `true` if the token is this word of the language, in any case.
+    /// Returns `true` if the token is this word of the language, in upper or lower case.
     pub fn is(&self, word: &str) -> bool {
         matches!(self, Token::Word(found) if found.eq_ignore_ascii_case(word))
     }
@@ -44,12 +44,12 @@ impl fmt::Display for Token {
 /// The signs of the language. Longer signs come first.
 const SIGNS: [&str; 12] = ["<>", "<=", ">=", "=", "<", ">", "(", ")", "{", "}", ",", ";"];
 
-/// Signs of other languages, with the signs of this language for them.
+/// Signs of other languages, with the signs of this language that replace the other signs.
 const FOREIGN: [(&str, &str); 6] =
     [("==", "`=`"), ("!=", "`<>`"), ("&&", "`AND`"), ("||", "`OR`"), ("'", "`\"`"), ("!", "`NOT`")];
 
-/// Returns the tokens of the text from `start` on with their offsets, up to the first that is broken. The last token
-/// is [`Token::End`]. Lines that begin with `#` are ignored.
+/// Returns the tokens of the text from `start` on with their offsets, up to the first broken token. The last token is
+/// [`Token::End`]. Lines that begin with `#` are ignored.
 pub(super) fn tokens(text: &str, start: usize) -> Vec<(Token, usize)> {
     let mut found = Vec::new();
     let mut offset = start;
@@ -107,7 +107,7 @@ fn token(rest: &str) -> (Token, usize) {
     }
 }
 
-/// Returns the text of the number at the start, and its value if it is a finite number.
+/// Returns the text of the number at the start, and its value if the text is a finite number.
 fn number(text: &str) -> (&str, Option<f64>) {
     let mut last = ' ';
     let ends = |sign: char| {

@@ -103,7 +103,7 @@ impl ArrayOptions {
 /// So many tests that do not count are listed, each with the reason.
 const MOST_REFUSED: usize = 10;
 
-/// What combinations of so many parameters are called.
+/// Returns the word for combinations of `k` parameters.
 pub(super) fn combinations(k: usize) -> String {
     match k {
         1 => "values".to_owned(),

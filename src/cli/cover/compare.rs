@@ -24,7 +24,7 @@ without a seed. All measures are better the lower they are. DIR gets sets.csv (a
 quartiles; against the baseline the median ratio with its 95 % bootstrap interval, Vargha and Delaney's A12, Wilcoxon's p
 and Holm's correction of it), slopes.csv, table.tex, and for each measure and dimension a figure as SVG and PNG.";
 
-/// What `compare` takes.
+/// The options of `compare`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Options {
@@ -37,7 +37,7 @@ pub(super) struct Options {
     /// The numbers of points
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "50,100,500")]
     budgets: Vec<usize>,
-    /// How many seeds each strategy runs with
+    /// The number of seeds of each strategy
     #[arg(long, value_name = "N", default_value_t = 30)]
     seeds: usize,
     /// The first seed; the others follow it
@@ -45,7 +45,7 @@ pub(super) struct Options {
     seed: u64,
     #[arg(long, value_name = "LIST", value_delimiter = ',', help = measures_of_points())]
     measures: Vec<Measure>,
-    /// How many coordinates k-wise dispersion combines
+    /// The number of coordinates that k-wise dispersion combines
     #[arg(long, value_name = "K", default_value_t = 2)]
     k: usize,
     /// The strategy that the others are compared with [default: halton if it is among them, else the first]
@@ -54,13 +54,13 @@ pub(super) struct Options {
     /// Time for one measure of one set; a measure that does not finish gives a bracket
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// How many sets are measured at a time; results do not depend on it [default: one per core]
+    /// The number of sets that are measured at a time; results do not depend on this number [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to, empty or new
     #[arg(long, value_name = "DIR", default_value = "paracosm-compare")]
     out: PathBuf,
-    /// How to print the summary [default: table on a terminal, json elsewhere]
+    /// The form of the summary [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

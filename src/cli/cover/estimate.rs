@@ -37,7 +37,8 @@ pub(super) struct Options {
     /// The space of the tests in a CSV; without a space the columns are in [0,1]
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "strategy")]
     space: Option<PathBuf>,
-    /// How many parameters are combined; if fewer are discrete, k-wise combines all discrete parameters [default: 2]
+    /// The number of parameters that are combined; if fewer are discrete, k-wise combines all discrete parameters
+    /// [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
     /// A group of discrete parameters whose combinations of K are counted, too
@@ -66,7 +67,7 @@ pub(super) struct Options {
     /// The index of the first point of the strategy's sequence [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N", requires = "strategy")]
     skip: Option<u64>,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

@@ -29,7 +29,7 @@ Examples:
   paracosm-cover generate --space SPACE.toml --k 2 --epsilon 0.1                 as many tests as needed
   paracosm-cover generate --dims 20 --strategy greedy --measure k-wise-dispersion --k 2 --budget 200";
 
-/// How many tests are written between two updates of the progress bar.
+/// The number of tests that are written between two updates of the progress bar.
 const BATCH: usize = 64;
 
 /// The options of `generate`.
@@ -46,7 +46,7 @@ pub(super) struct Options {
     /// --extend]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
-    /// How many tests to make [default: 500; all rows if no parameter is continuous]
+    /// The number of tests to make [default: 500; all rows if no parameter is continuous]
     #[arg(long, value_name = "N")]
     budget: Option<usize>,
     #[command(flatten)]
@@ -206,7 +206,7 @@ impl Options {
 
 const DEFAULT_BUDGET: usize = 500;
 
-/// How many seconds the search for epsilon may take.
+/// The seconds that the search for epsilon may take.
 const TIME_LIMIT: f64 = 60.0;
 
 /// The time for measuring after `--epsilon`, and the time for measuring without `--epsilon`.

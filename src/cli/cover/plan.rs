@@ -28,7 +28,7 @@ pub(super) struct Options {
     /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
-    /// How many parameters are covered together; if fewer are discrete, all their combinations [default: 2]
+    /// The number of parameters that are covered together; if fewer are discrete, all their combinations [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
     /// A group of discrete parameters whose combinations of K are covered, too; K is more than --k
@@ -43,7 +43,7 @@ pub(super) struct Options {
     /// Time for making and measuring a covering array, together
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// How to print the result [default: table on a terminal, json elsewhere]
+    /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }

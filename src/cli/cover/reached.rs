@@ -13,12 +13,12 @@ use paracosm_coverage::Measure;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// Tests that were generated after existing ones, and what is known of them.
+/// Tests that were generated in addition to existing tests, with the epsilon that all tests reach.
 pub(super) struct Reached {
     /// All tests, the existing tests first.
     pub tests: TestSet,
     pub existing: usize,
-    /// The largest hole of any row; none in a space without continuous parameters.
+    /// The largest dispersion among the rows of discrete values; `None` in a space without continuous parameters.
     pub epsilon: Option<Bracket>,
 }
 
@@ -50,7 +50,7 @@ impl Reached {
         ))
     }
 
-    /// Says how much of a covering array the tests cover, if they do not contain all its rows.
+    /// Describes the part of a covering array that the tests cover; `None` if the tests contain all rows of the array.
     pub fn cut_short(&self, rows: &[Vec<usize>]) -> Result<Option<String>, Error> {
         let tested: BTreeSet<&Vec<usize>> = self.tests.points.iter().map(|test| &test.discrete).collect();
         let used = rows.iter().filter(|row| tested.contains(row)).count();
@@ -82,7 +82,8 @@ impl Reached {
         })
     }
 
-    /// Says why the tests do not reach epsilon, if `end` cut the search short; `None` if they reach epsilon.
+    /// Returns a sentence with the reason why the tests do not reach epsilon; `None` if the tests reach epsilon. `end`
+    /// names the limit that ended the search.
     pub fn missed(&self, epsilon: f64, end: &str) -> Option<String> {
         let rows = self.epsilon.filter(|rows| rows.upper > epsilon)?;
         Some(match rows.lower > epsilon {

@@ -1,7 +1,7 @@
 //! Kernels: the weights by which a lens spreads a point of light over the pixels around it.
 
-/// The way in which a lens spreads a point. A kernel is a list of pixels to the right of the point and down from it,
-/// with their shares of the point's light.
+/// The way in which a lens spreads a point of light. A kernel is a list of pixels to the right of the point and down
+/// from it, with their shares of the point's light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kernel {
     shares: Vec<(i32, i32, f32)>,
@@ -12,7 +12,7 @@ const PLACES: i32 = 16;
 
 impl Kernel {
     /// Makes a Gaussian with this standard deviation in pixels, cut off at four standard deviations. It consists of one
-    /// kernel along the rows and one along the columns. Apply them one after the other.
+    /// kernel along the rows and one along the columns. Apply the two kernels one after the other.
     pub fn gaussian(deviation: f64) -> [Self; 2] {
         let reach = libm::ceil(4.0 * deviation) as i32;
         let weight = |at: i32| libm::exp(-0.5 * f64::from(at * at) / (deviation * deviation));
@@ -66,14 +66,14 @@ impl Kernel {
         Self { shares: weights.into_iter().map(|((x, y), weight)| (x, y, (weight / sum) as f32)).collect() }
     }
 
-    /// Returns the pixels to the right of a point and down from it, with their shares of the point's light; the shares
-    /// sum to 1.
+    /// Returns the offsets of pixels, to the right and down from a point, with the shares of the point's light that the
+    /// pixels get; the shares sum to 1.
     pub fn shares(&self) -> &[(i32, i32, f32)] {
         &self.shares
     }
 
-    /// Spreads every point of an image, which has `width` pixels across and red, green and blue of each pixel. Pixels
-    /// beyond the edge are as bright as the edge.
+    /// Spreads the light of every pixel of an image. The image has `width` pixels across, and the numbers red, green
+    /// and blue for each pixel. Pixels beyond the edge are as bright as the edge.
     pub fn apply(&self, image: &[f32], width: usize) -> Vec<f32> {
         let height = image.len() / 3 / width;
         let mut spread = vec![0.0; image.len()];

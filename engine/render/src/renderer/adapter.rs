@@ -16,15 +16,15 @@ pub struct Adapter {
     pub backend: String,
     /// The kind of device, which is `discrete`, `integrated`, `virtual`, `software` or `other`.
     pub kind: String,
-    /// The most pixels that an image may have each way.
+    /// The greatest width and the greatest height of an image, in pixels.
     pub max_image: u32,
-    /// The most images that can be drawn into one array.
+    /// The greatest number of images that can be drawn into one array.
     pub max_layers: u32,
-    /// The most bytes that a buffer may have.
+    /// The greatest size of a buffer, in bytes.
     pub max_buffer: u64,
 }
 
-/// The first error of a device, or its loss.
+/// The first error of a device, or the loss of the device.
 #[derive(Debug, Default)]
 pub(super) struct Trouble(Mutex<Option<RenderError>>);
 
@@ -59,7 +59,7 @@ pub(super) struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the best adapter of this machine; an adapter on the processor will do.
+    /// Opens the best adapter of this machine, which may be an adapter that draws on the processor.
     pub fn open() -> Result<Self, RenderError> {
         let adapter = best()?;
         let description = describe(&adapter);

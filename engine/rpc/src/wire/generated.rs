@@ -146,8 +146,8 @@ pub struct Camera {
     /// Electrons.
     #[prost(double, tag = "22")]
     pub read_noise: f64,
-    /// Further settings of the lens and the sensor by the names that files of cameras have for them. A client that does
-    /// not know a name refuses it; one that is older than this field ignores it.
+    /// Further settings of the lens and the sensor by the names that files of cameras have for them. A client that does not
+    /// know a name refuses it; one that is older than this field ignores it.
     #[prost(btree_map = "string, double", tag = "23")]
     pub lens: ::prost::alloc::collections::BTreeMap<::prost::alloc::string::String, f64>,
 }
@@ -200,8 +200,7 @@ pub struct Lidar {
     /// Seconds of one turn \[0.1\].
     #[prost(double, optional, tag = "4")]
     pub period: ::core::option::Option<f64>,
-    /// Beams one above the other \[32\], where the lowest and where the highest looks above the horizon \[-30 and 10
-    /// degrees\].
+    /// Beams one above the other \[32\], where the lowest and where the highest looks above the horizon \[-30 and 10 degrees\].
     #[prost(uint32, optional, tag = "5")]
     pub channels: ::core::option::Option<u32>,
     #[prost(double, optional, tag = "6")]
@@ -393,8 +392,7 @@ pub struct Way {
     /// Metres along the way from one point to the next.
     #[prost(double, tag = "3")]
     pub spacing: f64,
-    /// Points ahead, the nearest first: of each x and y as seen from the car, and the curvature in 1/m, positive to the
-    /// left.
+    /// Points ahead, the nearest first: of each x and y as seen from the car, and the curvature in 1/m, positive to the left.
     #[prost(double, repeated, tag = "4")]
     pub ahead: ::prost::alloc::vec::Vec<f64>,
 }

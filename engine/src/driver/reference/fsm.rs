@@ -6,18 +6,19 @@
 //!
 //! Two measures between 0 (safe) and 1 (unsafe) then say how near danger is. Each interpolates between a safe and an
 //! unsafe distance. tau is the reaction time, `c` and `b` are the car's comfortable and hardest braking, and `f` is the
-//! other's hardest braking:
+//! hardest braking of the other road user:
 //!
-//! - *proactive* (PFS), from the gap less `d1`: the distance that is left if the other brakes hardest. `safe = v tau +
-//!   v²/(2 c) - v_f²/(2 f) + d1`, `unsafe = v tau + v²/(2 b) - v_f²/(2 f)`.
-//! - *critical* (CFS), from the gap: the distance that is left if the other goes on as it does. With `a' = max(a, -c)`
-//!   and `w = v + a' tau`, the safe distance is `((v + w)/2 - v_f) tau + (w - v_f)²/(2 c)`, and the unsafe distance is
-//!   the same with `b`. If `w <= v_f`, both are `(v - v_f)²/(2 |a'|)`.
+//! - *proactive* (PFS), from the gap less `d1`: the distance that is left if the other road user brakes hardest.
+//!   `safe = v tau + v²/(2 c) - v_f²/(2 f) + d1`, `unsafe = v tau + v²/(2 b) - v_f²/(2 f)`.
+//! - *critical* (CFS), from the gap: the distance that is left if the other road user goes on with its present motion.
+//!   With `a' = max(a, -c)` and `w = v + a' tau`, the safe distance is `((v + w)/2 - v_f) tau + (w - v_f)²/(2 c)`, and
+//!   the unsafe distance is the same with `b`. If `w <= v_f`, both are `(v - v_f)²/(2 |a'|)`.
 //!
 //! The driver brakes with `c + CFS (b - c)` if CFS > 0, else with `PFS c`, after tau and with limited jerk.
 //!
 //! Our reading: tau is the time for which there has been a reason to brake without a break. After it the present
-//! measures count. A car no faster than the other need not brake. The two margins of 2 m are the two places of `d1`.
+//! measures count. A car no faster than the other road user need not brake. The two margins of 2 m are the two places
+//! of `d1`.
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
@@ -35,7 +36,7 @@ pub struct Fsm {
     pub deceleration: f64,
     /// The hardest deceleration f of the other road user.
     pub leader_deceleration: f64,
-    /// The distance d1 that is to be left between the two when they stand.
+    /// The distance d1 that is to be left between the car and the other road user when both stand.
     pub margin: f64,
     /// The rate at which the deceleration changes, in m/s³.
     pub jerk: f64,
@@ -95,7 +96,8 @@ impl Default for Fsm {
     }
 }
 
-/// Returns 1 up to the unsafe distance, 0 from the safe distance on, and a straight line between the two.
+/// Returns 1 up to the unsafe distance, 0 from the safe distance on, and a linear interpolation between the two
+/// distances.
 fn unsafety(distance: f64, unsafe_below: f64, safe_from: f64) -> f64 {
     if distance <= unsafe_below {
         1.0
@@ -135,14 +137,14 @@ impl Fsm {
         unsafety(gap, needed, needed)
     }
 
-    /// Returns `true` if the other is in the way or would be there before the car has passed it.
+    /// Returns `true` if the other road user is in the car's way, or would be there before the car has passed.
     fn looks_at(&self, s: &Situation) -> bool {
         let passing = (s.gap + s.lengths) / s.closing();
         let meets = s.approach > 0.0 && s.clearance() / s.approach < passing + LATE;
         s.is_ahead() && s.closing() > 0.0 && (s.overlaps() || meets)
     }
 
-    /// Returns the deceleration in m/s² that the two measures ask for.
+    /// Returns the deceleration in m/s² that the proactive and the critical measure ask for.
     fn wanted(&self, s: &Situation) -> f64 {
         let critical = self.critical(s.gap, s.speed, s.acceleration, s.other_speed);
         if critical > 0.0 {

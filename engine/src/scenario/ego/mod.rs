@@ -1,4 +1,4 @@
-//! The ego vehicle: how programs place and read it, and how it moves.
+//! The ego vehicle, with its place and its outputs in a program, and with its motion in a run.
 
 mod quantity;
 mod right_of_way;
@@ -25,7 +25,7 @@ const STANDING: f64 = 0.1;
 pub struct AutonomousVehicle {
     vehicle: Vehicle,
     way: Path,
-    /// True if the car is just to go straight on, without an end.
+    /// True if the car is to go straight on, without an end.
     endless: bool,
     start: f64,
     speed: f64,
@@ -83,18 +83,18 @@ pub(crate) struct Ego {
 }
 
 impl AutonomousVehicle {
-    /// Makes a car whose middle is at `start`, and which is to go straight on.
+    /// Makes a car that starts with its middle at `start` and is to go straight on.
     pub fn at(start: Pose) -> Self {
         let ahead = Path::straight(start.position, start.position + start.forward());
         Self { endless: true, ..Self::along(ahead) }
     }
 
-    /// Makes a car at the beginning of a path, which is the way that it is to go.
+    /// Makes a car at the beginning of a path, which is the way that the car is to go.
     pub fn along(way: Path) -> Self {
         Self { vehicle: Vehicle::BMW_320I, way, endless: false, start: 0.0, speed: 0.0 }
     }
 
-    /// Sets where the car's middle starts: metres along its way.
+    /// Sets the place at which the car's middle starts, in metres along the car's way.
     pub fn starting(mut self, at: f64) -> Self {
         self.start = at;
         self
@@ -188,12 +188,13 @@ impl Car {
         self.shown.clearance.stream()
     }
 
-    /// Is true while the car touches another body.
+    /// Returns a stream that is true while the car touches another body.
     pub fn collides(&self) -> Stream<bool> {
         self.clearance().at_most(0.0)
     }
 
-    /// Returns how far the line is ahead of the car's front bumper, in metres.
+    /// Returns the distance in metres from the car's front bumper to a line ahead; negative if the bumper is past the
+    /// line.
     pub fn gap_along(&self, line: &Line) -> Stream<f64> {
         self.position().distance_to(line) - 0.5 * self.vehicle.length
     }
@@ -213,7 +214,8 @@ impl Car {
         self.asked(Quantity::Jerk)
     }
 
-    /// Returns the greatest slip ratio of the wheels, either way: 0 if all roll, 1 if one is locked or spins in place.
+    /// Returns the greatest slip ratio of the wheels, either way: 0 if all wheels roll, 1 if a wheel is locked or spins
+    /// in place.
     pub fn wheel_slip(&self) -> Stream<f64> {
         self.asked(Quantity::WheelSlip)
     }
@@ -233,7 +235,8 @@ impl Car {
         self.asked(Quantity::TimeToCollision)
     }
 
-    /// Returns the time headway in seconds: the time to where the nearest body straight ahead is now, or infinity.
+    /// Returns the time headway in seconds, which is the time that the car takes to the present place of the nearest
+    /// body straight ahead; infinite without such a body.
     pub fn headway(&self) -> Stream<f64> {
         self.asked(Quantity::Headway)
     }
@@ -249,12 +252,12 @@ impl Car {
         self.asked(Quantity::RightOfWay)
     }
 
-    /// Returns how far the car is to the left of the way that it is to go, in metres.
+    /// Returns the distance of the car from the way that the car is to go, in metres, positive to the left of the way.
     pub fn way_offset(&self) -> Stream<f64> {
         self.asked(Quantity::WayOffset)
     }
 
-    /// Returns the seconds for which the car has been standing: 0 while it moves.
+    /// Returns the seconds for which the car has been standing; 0 while the car moves.
     pub fn standing_time(&self) -> Stream<f64> {
         self.asked(Quantity::StandingTime)
     }
@@ -303,7 +306,7 @@ impl Ego {
         (!self.car.endless).then(|| self.car.way.piece(self.at, self.car.way.length()))
     }
 
-    /// Returns how far the car is to the left of its way, in metres.
+    /// Returns the distance of the car from its way, in metres, positive to the left of the way.
     pub fn way_offset(&self) -> f64 {
         self.car.way.at(self.at).to_local(self.pose().position).y
     }
@@ -314,7 +317,7 @@ impl Ego {
     }
 
     /// Returns the lanes that the car is on, with the car's position along each in metres: the lanes of its way between
-    /// its rear and its front. If the way knows no lanes there, it is the nearest lane in the car's direction.
+    /// its rear and its front. If the way knows no lanes there, the result is the nearest lane in the car's direction.
     pub fn lanes<'n>(&self, network: &'n RoadNetwork) -> impl Iterator<Item = (LaneId, f64)> + use<'n> {
         let half = 0.5 * self.car.vehicle.length;
         let known = self.car.way.lanes(self.at - half, self.at + half);
@@ -356,7 +359,7 @@ impl Ego {
         self.shown.asked.show(self, bodies, network, outputs);
     }
 
-    /// Moves on by a tick over ground of this friction.
+    /// Moves the car on by a tick over ground of this friction.
     pub fn step(&mut self, friction: f64, dt: f64) -> Result<(), Upset> {
         let Control { throttle, steering } = self.control;
         for (what, value) in [("throttle", throttle), ("steering", steering)] {

@@ -26,7 +26,7 @@ pub(super) struct Corner {
     /// The middle of the wheel at rest, as seen from the chassis.
     at: Vector,
     pub front: bool,
-    /// The load on the wheel at rest, in newtons, and the part of it that the spring carries.
+    /// The load on the wheel at rest, in newtons, and the part of the load that the spring carries.
     rest: f64,
     sprung: f64,
     /// The stiffness of the spring, in N/m.
@@ -41,7 +41,7 @@ pub(super) struct Corner {
     side: f64,
     /// The speeds of the wheel in m/s, along and across.
     speed: Vector2<f64>,
-    /// The speed of its tread in m/s.
+    /// The speed of the wheel's tread in m/s.
     tread: f64,
 }
 
@@ -125,7 +125,7 @@ impl Corner {
         (discriminant.sqrt() - self.damper) / stiffness
     }
 
-    /// Returns how far to the left of the car's middle the wheel is, in metres.
+    /// Returns the distance from the car's middle to the wheel, in metres, positive to the left.
     pub fn left(&self) -> f64 {
         f64::from(self.at.y)
     }
@@ -149,7 +149,7 @@ impl Corner {
         (limit * limit - self.side * self.side).max(0.0).sqrt()
     }
 
-    /// Returns how far the wheel is above its position at rest, as seen from the chassis, in metres.
+    /// Returns the height of the wheel above its position at rest, as seen from the chassis, in metres.
     pub fn compression(&self, wheel: &RigidBody, chassis: &Chassis) -> f64 {
         f64::from((wheel.translation() - chassis.frame.translation).dot(chassis.up()))
     }

@@ -5,7 +5,7 @@ use super::letters::letters;
 use super::{Look, fill, painted, stroke};
 use crate::plot::FONT;
 use ab_glyph::FontRef;
-use paracosm_engine::picture::Anchor;
+use crate::birds_eye::Anchor;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,

@@ -8,7 +8,7 @@ pub(super) use canvas::{Canvas, sheet};
 use super::FONT;
 use ab_glyph::FontRef;
 use letters::letters;
-use paracosm_engine::picture::{Contour, Drawing, Paint as Look, PathSegment, PictureItem, Pixel};
+use crate::birds_eye::{Contour, Drawing, Paint as Look, PathSegment, PictureItem, Pixel};
 use std::error::Error as StdError;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
@@ -119,7 +119,7 @@ fn path(contour: &Contour) -> Option<Path> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm_engine::picture::{Anchor, Colour};
+    use crate::birds_eye::{Anchor, Colour};
 
     const WHITE: Colour = [255, 255, 255];
     const RED: Colour = [200, 0, 0];

@@ -1,7 +1,7 @@
 //! The part of the ground that a picture shows, and its scale.
 
 use super::drawing::{Contour, PathSegment, Pixel};
-use crate::road::{Bounds, Curve, RoadNetwork, Surface};
+use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Surface};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_4;
 

@@ -5,9 +5,9 @@ use super::drawing::{Colour, Contour, Drawing, Paint, PathSegment};
 use super::ground::{ground, lanes};
 use super::legend::scale_bar;
 use super::view::View;
-use crate::geometry::Pose;
-use crate::object::{Body, Class};
-use crate::road::{Bounds, RoadNetwork, Route};
+use paracosm_engine::Pose;
+use paracosm_engine::object::{Body, Class};
+use paracosm_engine::road::{Bounds, RoadNetwork, Route};
 
 /// The width or height of a picture in pixels, whichever is greater, without its margins.
 const SIZE: f64 = 1200.0;

@@ -6,8 +6,8 @@
 use super::drawing::{Colour, Contour, Paint, PictureItem};
 use super::ground::seen_from;
 use super::view::View;
-use crate::geometry::Pose;
-use crate::object::{Body, Class, Outline};
+use paracosm_engine::Pose;
+use paracosm_engine::object::{Body, Class, Outline};
 
 /// The colour of the ego vehicle.
 pub(super) const UNDER_TEST: Colour = [0xd5, 0x5e, 0x00];

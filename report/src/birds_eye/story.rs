@@ -10,7 +10,7 @@ use super::pages::{Page, pages};
 use super::record::{Moment, MotionRecord, Scene};
 use super::view::View;
 use super::world::framed;
-use crate::object::Outline;
+use paracosm_engine::object::Outline;
 use nalgebra::Vector2;
 use std::ops::Range;
 

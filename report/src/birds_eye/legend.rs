@@ -3,9 +3,9 @@
 use super::body::{UNDER_TEST, body, class_colour};
 use super::drawing::{Anchor, Colour, Contour, Drawing, PictureItem, Pixel};
 use super::view::View;
-use crate::geometry::Pose;
-use crate::object::{Body, Class};
-use crate::road::Bounds;
+use paracosm_engine::Pose;
+use paracosm_engine::object::{Body, Class};
+use paracosm_engine::road::Bounds;
 use nalgebra::Vector2;
 
 /// The colour of texts.

@@ -2,8 +2,8 @@
 
 use super::drawing::{Colour, Contour, Paint, PathSegment, PictureItem};
 use super::view::View;
-use crate::geometry::Pose;
-use crate::road::{Lane, LaneKind, RoadNetwork, Strip, Surface};
+use paracosm_engine::Pose;
+use paracosm_engine::road::{Lane, LaneKind, RoadNetwork, Strip, Surface};
 use nalgebra::Vector2;
 
 /// The least width in pixels of a strip. Thinner strips are left out.

@@ -5,9 +5,9 @@ use super::drawing::{Contour, Drawing, Paint, PictureItem};
 use super::ground::{directions, ground, seen_from};
 use super::legend::{Entry, PAPER, PLAN_DASH, entries, legend};
 use super::view::{View, across, with_margin};
-use crate::object::BodyState;
-use crate::road::{Bounds, Path, RoadNetwork};
-use crate::run::Run;
+use paracosm_engine::object::BodyState;
+use paracosm_engine::road::{Bounds, Path, RoadNetwork};
+use paracosm_engine::Run;
 use nalgebra::Vector2;
 
 /// The width of a picture in pixels.

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::object::{Body, Class};
-use paracosm_engine::picture::{Anchor, Animation, Drawing, MotionRecord, PathSegment, PictureItem, world};
-use paracosm_engine::road::{Curve, Path, Roundabout};
+use paracosm_report::birds_eye::{Anchor, Animation, Drawing, MotionRecord, PathSegment, PictureItem, RoadPicture, world};
+use paracosm_engine::road::{Curve, Path, Roundabout, RoutePosition};
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Fixture, Mover, Pedestrian, Pose, Program, RoadSegment, Run, Scenario, Setup, Side, driver,
@@ -306,7 +306,7 @@ fn a_story_that_is_too_long_for_one_view_has_several_of_one_size() {
 
 /// Where the ego vehicle is on each frame.
 fn cars(film: &Animation) -> Vec<[f64; 4]> {
-    let car = |frame: &paracosm_engine::picture::Frame| boxes(&frame.drawing, VERMILION).last().copied();
+    let car = |frame: &paracosm_report::birds_eye::Frame| boxes(&frame.drawing, VERMILION).last().copied();
     film.frames.iter().filter_map(car).collect()
 }
 
@@ -342,4 +342,27 @@ fn a_film_never_loses_the_car_under_test_and_has_not_too_many_frames() {
 fn nothing_is_drawn_of_a_run_that_nobody_saw() {
     assert_eq!(MotionRecord::default().story(""), None);
     assert_eq!(MotionRecord::default().film(800.0, ""), None);
+}
+
+#[test]
+fn a_picture_shows_every_surface_and_what_is_laid_over_it() {
+    let net = RoadSegment::new(60.0)
+        .zebra(30.0)
+        .connect("two", Roundabout::new().lanes(2), "three")
+        .connect("roundabout.one", RoadSegment::new(30.0).sidewalk(0.0), "one")
+        .build()
+        .unwrap();
+    let plain = RoadPicture::of(&net).svg();
+    assert!(plain.starts_with("<svg") && plain.ends_with("</svg>\n") && !plain.contains("NaN"));
+    let surfaces = net.strips().iter().map(|strip| strip.surface).collect::<std::collections::HashSet<_>>();
+    let ground = 1;
+    assert_eq!(plain.matches("<path fill=\"#").count(), ground + surfaces.len());
+    let route = net.route(
+        RoutePosition { lane: net.lane_of("road", 1).unwrap(), s: 0.0 },
+        RoutePosition { lane: net.lane_of("road-2", 1).unwrap(), s: 10.0 },
+        20.0,
+    );
+    let car = net.on_lane("road", 1, 10.0).unwrap();
+    let full = RoadPicture::of(&net).route(&route.unwrap(), [1, 2, 3]).body(car, 4.5, 1.8, [0xcc, 0x33, 0x11]).svg();
+    assert!(full.contains("#010203") && full.contains("#cc3311"));
 }

@@ -7,9 +7,9 @@
 use super::body::is_actor;
 use super::record::{MotionRecord, Scene};
 use super::view::{View, across, with_margin};
-use crate::geometry::Pose;
-use crate::object::Body;
-use crate::road::Bounds;
+use paracosm_engine::Pose;
+use paracosm_engine::object::Body;
+use paracosm_engine::road::Bounds;
 use std::ops::Range;
 
 /// The greatest width and height of a page in metres, unless there would be too many pages.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-pub use crate::object::Colour;
+pub use paracosm_engine::object::Colour;
 
 /// A position: pixels to the right of the upper left corner, and pixels below it.
 pub type Pixel = [f64; 2];

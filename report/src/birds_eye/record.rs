@@ -3,10 +3,10 @@
 use super::body::{extent, is_actor};
 use super::view::MARGIN;
 use super::world::NEAR;
-use crate::geometry::Pose;
-use crate::object::Body;
-use crate::road::{Bounds, RoadNetwork};
-use crate::run::Run;
+use paracosm_engine::Pose;
+use paracosm_engine::object::Body;
+use paracosm_engine::road::{Bounds, RoadNetwork};
+use paracosm_engine::Run;
 use nalgebra::Vector2;
 use std::ops::Range;
 use std::sync::Arc;
