@@ -6,7 +6,7 @@ use paracosm::{Campaign, Error, Study};
 fn jogger(s: &mut Scenario) {
     let speed = s.interval("speed", 1.0..=6.0).unit("m/s");
     let gap = s.interval("gap", 5.0..=40.0).unit("m");
-    let friction = s.nominal("friction", 0.2..=0.8, 0.8); // closed: it is 0.8 unless a study opens it
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8); // closed: it is 0.8 unless a campaign opens it
 
     let road = s.place(RoadSegment::new(500.0).lanes(2).friction(friction));
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(13.9));
@@ -16,7 +16,7 @@ fn jogger(s: &mut Scenario) {
     walker.walk(road.on_sidewalk(Side::Left, 80.0), speed).skip_until(&near).take_until(&walker.arrived());
 
     s.duration(20.0);
-    s.premise(&near); // a test in which this never happens and nothing is violated is inconclusive
+    s.premise(&near); // if this never happens and no requirement is violated, the test is inconclusive
     s.require("no-collision", never(car.collides())).unit("m").scale(5.0);
     s.require("progress", eventually(car.travelled().at_least(100.0))).unit("m").scale(50.0);
 }

@@ -1,7 +1,7 @@
 //! Draws a town around a roundabout, with a route through it: `cargo run --release --example town > town.svg`.
 
-use paracosm::report::birds_eye::RoadPicture;
 use paracosm::engine::road::{Composite, RoadError, RoadSegment, Roundabout, RoutePosition, TIntersection};
+use paracosm::report::birds_eye::RoadPicture;
 use std::f64::consts::FRAC_PI_2;
 
 /// Returns a town: four avenues lead from the roundabout to T-intersections, and a street around the town joins these.

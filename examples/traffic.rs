@@ -2,9 +2,9 @@
 //!
 //! Blue cars drive, red cars brake or stand, yellow cars change lanes.
 
-use paracosm::report::birds_eye::{Colour, RoadPicture};
 use paracosm::engine::road::grid_city;
 use paracosm::engine::traffic::{CarState, Traffic, TrafficCar};
+use paracosm::report::birds_eye::{Colour, RoadPicture};
 
 const BLUE: Colour = [0x00, 0x77, 0xbb];
 const RED: Colour = [0xcc, 0x33, 0x11];

@@ -10,7 +10,7 @@ use crate::scenarios;
 /// Lists of the named scenarios, strategies, drivers, measures, sensors and camera settings.
 #[derive(Debug, Clone)]
 pub struct Lists {
-    /// The scenarios of the catalogue.
+    /// The scenarios that come with the software.
     pub scenarios: Vec<Program>,
     /// The strategies, which choose tests.
     pub strategies: Vec<Strategy>,
@@ -18,9 +18,9 @@ pub struct Lists {
     pub drivers: Vec<ListedDriver>,
     /// The measures of the coverage of a space by tests.
     pub measures: Vec<Measure>,
-    /// The sensors of drivers.
+    /// The sensors that drivers can use.
     pub sensors: Vec<sensor::Descriptor>,
-    /// The settings of cameras.
+    /// The settings that a camera can have.
     #[cfg(feature = "camera")]
     pub cameras: Vec<sensor::CameraSetting>,
 }

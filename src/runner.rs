@@ -58,7 +58,7 @@ pub struct Runner<'a> {
 /// The results of a campaign that was run to its end.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// The log: the study with its trials.
+    /// The log of the campaign, which is the study with its trials.
     pub log: Log,
     /// The reason why the campaign ended.
     pub finish: Finish,
@@ -68,20 +68,20 @@ pub struct Report {
     pub coverage: Coverage,
     /// The failure map, or `None` if fewer than two continuous parameters are open.
     pub map: Option<FailureMap>,
-    /// The combinations of discrete values that only failing tests have, or `None` if no discrete parameter is open, or
-    /// if no test failed or no test passed.
+    /// The combinations of discrete values that only failing tests have, or `None` if the search was not possible. The
+    /// search needs an open discrete parameter, a failing test and a passing test.
     pub suspects: Option<SuspectReport>,
-    /// The combinations that further tests found guilty, or `None` if the user did not ask, or if no test failed or no
+    /// The combinations that further tests found guilty, or `None` if no search was asked for, no test failed or no
     /// test passed.
     pub located: Option<LocatedReport>,
-    /// The failure modes of the tests.
+    /// The failure modes of the campaign.
     pub modes: Modes,
-    /// The explanation in words which tests fail, or `None` if too few tests failed or passed.
+    /// The explanation of the failures in words, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
     /// The guarantee of random rows, or `None` if rows are not random, or if the campaign ended before all rows were
     /// run.
     pub promise: Option<Promise>,
-    /// The JUnit report, if the user asked for it.
+    /// The JUnit report, or `None` if the user asked for no report.
     pub junit: Option<Junit>,
 }
 
@@ -150,31 +150,32 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Counts these tests as done, so that the tests of the study complete them.
+    /// Counts the tests of an extension as done, so that new tests complete the tests of the extension.
     pub fn extending(mut self, extension: &'a Extension) -> Self {
         self.extension = Some(extension);
         self
     }
 
-    /// Runs this many tests at a time. Results do not depend on this number.
+    /// Sets the number of tests that run at the same time. Results do not depend on this number.
     pub fn jobs(mut self, tests: NonZeroUsize) -> Self {
         self.jobs = Some(tests);
         self
     }
 
-    /// Continues the campaign in the folder, or begins a campaign if the folder has none.
+    /// Makes the runner continue the campaign in the folder, or begin a campaign if the folder has no campaign.
     pub fn resuming(mut self) -> Self {
         self.resume = true;
         self
     }
 
-    /// Finds the combinations of discrete values behind the failures with at most this many further tests.
+    /// Makes the runner search for the combinations of discrete values behind the failures, by at most `tests` further
+    /// tests.
     pub fn locating(mut self, tests: usize) -> Self {
         self.locate = Some(tests);
         self
     }
 
-    /// Also writes a JUnit report, which CI systems read.
+    /// Makes the runner also write a JUnit report, which CI systems read.
     pub fn with_junit(mut self) -> Self {
         self.junit = true;
         self
@@ -186,7 +187,7 @@ impl<'a> Runner<'a> {
         self
     }
 
-    /// Ends with [`Error::Interrupted`] once `stop` is set.
+    /// Makes the runner end with [`Error::Interrupted`] once the flag `stop` is set.
     pub fn until(mut self, stop: Arc<AtomicBool>) -> Self {
         self.stop = stop;
         self

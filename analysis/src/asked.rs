@@ -5,59 +5,59 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The number of seeds (pairs) from which statistical tests and intervals have enough power. Fewer seeds cause a
-/// remark.
+/// The least number of seeds (one pair of results each) that gives statistical tests and intervals enough power. Fewer
+/// seeds cause a remark.
 pub const ENOUGH_SEEDS: usize = 30;
 
-/// A flaw in a list or in the seeds that a user gave to a comparison or a bench.
+/// A flaw in a list or in the seeds that a user gave to a comparison or a bench of strategies.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ListFlaw {
-    /// A list is empty.
+    /// A list that the user gave is empty.
     #[error("the list of {of} is empty")]
     Empty {
-        /// The kind of things that the list names, in the plural.
+        /// The kind of the list's entries, in the plural, such as `strategies`.
         of: &'static str,
     },
-    /// A list names the same thing twice.
+    /// A list that the user gave has the same entry twice.
     #[error("{name} is twice in the list of {of}, expected once")]
     Twice {
-        /// The kind of things that the list names, in the plural.
+        /// The kind of the list's entries, in the plural, such as `strategies`.
         of: &'static str,
-        /// The name that the list has twice.
+        /// The entry that the list has twice.
         name: String,
     },
-    /// There are too few seeds to compare.
+    /// The number of seeds is below 2, the least number for a comparison.
     #[error("the number of seeds is {seeds}, expected at least 2, or better {ENOUGH_SEEDS}")]
     FewSeeds {
-        /// The number of seeds.
+        /// The number of seeds that the user gave.
         seeds: usize,
     },
-    /// The last seed would be above 2^64 - 1.
+    /// The last of the consecutive seeds would be above 2^64 - 1.
     #[error(
         "{seeds} seeds from the first seed {first} on exceed the greatest seed, {}: choose a smaller first seed",
         u64::MAX
     )]
     LargeSeeds {
-        /// The number of seeds.
+        /// The number of seeds that the user gave.
         seeds: usize,
-        /// The first seed.
+        /// The first of the consecutive seeds that the user gave.
         first: u64,
     },
 }
 
-/// A reason why a study cannot be written to a path.
+/// A reason why the results of a study cannot be written to a path.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PlaceFlaw {
-    /// The folder is not empty.
+    /// The folder for the study is not empty.
     #[error("{} is not empty, expected an empty or a new folder: choose another folder", path.display())]
     NotEmpty {
-        /// The folder.
+        /// The path of the folder that is not empty.
         path: PathBuf,
     },
-    /// The path is that of a file.
+    /// The path belongs to a file and not to a folder.
     #[error("{} is a file, expected a folder to write to", path.display())]
     File {
-        /// The file.
+        /// The path of the file that is in place of a folder.
         path: PathBuf,
     },
 }
@@ -65,8 +65,7 @@ pub enum PlaceFlaw {
 impl Reason for ListFlaw {}
 impl Reason for PlaceFlaw {}
 
-/// Checks that a list that a user gave is not empty and names nothing twice. `of` says in an error what the list
-/// names.
+/// Checks that a list is not empty and has no entry twice. `of` names the kind of the entries in an error.
 ///
 /// # Errors
 /// The list is empty, or names something twice.
@@ -79,7 +78,7 @@ pub fn each_once(of: &'static str, names: impl Iterator<Item = String>) -> Resul
     twice.map_or(Ok(()), |(_, name)| Err(ListFlaw::Twice { of, name: name.clone() }))
 }
 
-/// Checks that there are enough seeds to compare, and that no seed is too large.
+/// Checks that a comparison has at least two seeds, and that no seed is above 2^64 - 1.
 ///
 /// # Errors
 /// There are fewer than two seeds, or the last seed is above 2^64 - 1.
@@ -99,7 +98,7 @@ pub fn few_seeds(seeds: usize) -> Option<String> {
         .then(|| format!("{seeds} seeds are few: the statistical tests have enough power from {ENOUGH_SEEDS} seeds on"))
 }
 
-/// Makes a folder for a study if it does not exist, and checks that it is empty.
+/// Makes a new folder for a study, or checks that an existing folder is empty.
 ///
 /// # Errors
 /// The folder cannot be made or read, or is not empty, or the path is that of a file.
@@ -112,7 +111,7 @@ pub fn new_folder(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Makes a folder if it does not exist.
+/// Makes a folder unless the folder exists.
 ///
 /// # Errors
 /// The folder cannot be made, or the path is that of a file.

@@ -35,87 +35,88 @@ const ROUNDING: f64 = 1e-9;
 /// The share of the time limit for the measures. The search for proofs has the rest.
 const MEASURING: f64 = 0.5;
 
-/// A proof of the sizes of the largest holes of a set of tests.
+/// A proof of the volumes of the largest holes (boxes without a test) in a set of tests.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// The version of the format of certificates.
+    /// The version of the format in which the certificate is written.
     pub format: u32,
-    /// The version of the software.
+    /// The version of the software that made the certificate.
     pub version: String,
-    /// The continuous parameters.
+    /// The continuous parameters of the space of the tests.
     pub continuous: Vec<ParameterInterval>,
-    /// The discrete parameters.
+    /// The discrete parameters of the space of the tests.
     pub discrete: Vec<Choice>,
-    /// For each test, a number in `[0,1]` for each continuous parameter.
+    /// The coordinates of each test, with a number in `[0,1]` for each continuous parameter.
     pub coordinates: Vec<Vec<f64>>,
-    /// For each test, the position of its value for each discrete parameter.
+    /// The levels of each test, with the position of the test's value for each discrete parameter.
     pub levels: Vec<Vec<usize>>,
-    /// The constraints on the discrete parameters. The certificate holds only tests that satisfy them.
+    /// The constraints on the discrete parameters. The certificate holds only tests that satisfy the constraints.
     pub constraints: Vec<String>,
-    /// The claims that the certificate proves.
+    /// The claims about the largest holes that the certificate proves.
     pub claims: Vec<Claim>,
 }
 
-/// A continuous parameter of a certificate.
+/// A continuous parameter in a certificate, with its interval of values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterInterval {
-    /// The name of the parameter.
+    /// The name of the continuous parameter.
     pub name: String,
     /// The parameter's values at the coordinates 0 and 1.
     pub interval: [f64; 2],
 }
 
-/// A discrete parameter of a certificate.
+/// A discrete parameter in a certificate, with its values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// The name of the parameter.
+    /// The name of the discrete parameter.
     pub name: String,
-    /// The values of the parameter, in the order of its levels.
+    /// The values of the discrete parameter, in the order of its levels.
     pub values: Vec<Value>,
 }
 
-/// A bracket of the volume of the largest hole. A witness shows the lower bound, and proofs show the upper bound.
+/// A claim of a certificate, which gives a lower and an upper bound for the volume of the largest hole. A witness shows
+/// the lower bound, and proofs show the upper bound.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
     /// The name of the measure, `dispersion` (over all continuous parameters) or `k-wise-dispersion` (over any k
     /// parameters).
     pub measure: String,
-    /// The number of parameters that are considered together; `None` for `dispersion`.
+    /// The number of parameters in each combination of the k-wise dispersion; `None` for `dispersion`.
     pub k: Option<usize>,
-    /// The volume of the witness, or 0 if there is no witness.
+    /// The lower bound of the volume, which is the volume of the witness, or 0 if there is no witness.
     pub lower: f64,
-    /// The largest hole that was found, if any.
+    /// The largest hole that was found; `None` if no hole was found.
     pub witness: Option<Witness>,
-    /// The combinations of values of discrete parameters that constraints exclude, as positions and levels. Nothing
-    /// is claimed about these combinations.
+    /// The combinations of values of discrete parameters that constraints exclude, as pairs of a parameter's position
+    /// and a level. Nothing is claimed about these combinations.
     pub excluded: Vec<Vec<(usize, usize)>>,
-    /// The proved upper bound of the volume. No hole is larger.
+    /// The proved upper bound of the volume of the largest hole.
     pub upper: f64,
-    /// The reason why the proved upper bound is larger than the measured one, if it is.
+    /// The reason why the proved upper bound is larger than the measured bound, if it is larger.
     pub note: Option<String>,
-    /// The proofs of the upper bound, one for each projection; empty if the upper bound is 1.
+    /// The proofs of the upper bound, one proof for each projection; empty if the upper bound is 1.
     pub proofs: Vec<Proof>,
 }
 
 /// A hole that shows the lower bound of a claim.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Witness {
-    /// The discrete values of the hole, as positions among the discrete parameters and levels.
+    /// The discrete values of the hole, as pairs of a parameter's position among the discrete parameters and a level.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters over which the box extends, as positions among the continuous parameters.
+    /// The continuous parameters over which the hole's box extends, as positions among the continuous parameters.
     pub axes: Vec<usize>,
-    /// The lower corner of the box, in coordinates.
+    /// The lower corner of the hole's box, in coordinates.
     pub lower: Vec<f64>,
-    /// The upper corner of the box, in coordinates.
+    /// The upper corner of the hole's box, in coordinates.
     pub upper: Vec<f64>,
-    /// The same hole as parameter values.
+    /// The place of the hole as parameter values.
     pub values: KwiseWorst,
 }
 
 /// A reason why no certificate can be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CertificateFlaw {
-    /// A parameter has negative values (`~`).
+    /// A parameter has negative values (`~`), which a certificate does not support.
     #[error("a certificate does not support negative values (`~`): it counts every combination in a test as covered")]
     Negatives,
     /// Neither `dispersion` nor `k-wise-dispersion` was measured.
@@ -149,8 +150,8 @@ impl Certificate {
     }
 }
 
-/// Measures coverage as [`Coverage::of`], and makes a certificate of the dispersion and the k-wise dispersion if they
-/// are among the measures. Both steps together keep the time limit.
+/// Measures coverage as [`Coverage::of`] does, and makes a certificate of the measured dispersion and k-wise
+/// dispersion. Both steps together keep the time limit.
 ///
 /// # Errors
 /// Returns an error if there are not `k` parameters or too many combinations of them to count, if neither of the two

@@ -32,40 +32,42 @@ const SURE: f64 = 0.95;
 /// The estimated probability of failure on a grid over two coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailureEstimate {
-    /// The names of the two coordinates.
+    /// The names of the two coordinates of the grid.
     pub names: [String; 2],
-    /// The values of the first coordinate, from the least to the greatest.
+    /// The values of the first coordinate on the grid, from the least to the greatest.
     pub x: Vec<f64>,
-    /// The values of the second coordinate.
+    /// The values of the second coordinate on the grid, from the least to the greatest.
     pub y: Vec<f64>,
-    /// The estimated share of failing tests at each place. All values of `x` at the first value of `y` come first.
+    /// The estimated share of failing tests at each place of the grid. All values of `x` at the first value of `y` come
+    /// first.
     pub shares: Vec<FailingShare>,
-    /// The estimated share of the tests at each place that can be built. `shares` refers to these tests.
+    /// The estimated share of tests whose worlds can be built, at each place of the grid. `shares` refers to these
+    /// tests.
     pub valid: Vec<f64>,
 }
 
-/// The positions of two coordinates among the continuous ones of a study.
+/// The positions of two coordinates among the continuous coordinates of a study.
 pub type Axes = [usize; 2];
 
 /// A reason why a failure map cannot have these axes.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum AxesFlaw {
-    /// A name is that of a discrete parameter.
+    /// The name of an axis belongs to a discrete parameter.
     #[error("`{name}` is a discrete parameter, expected a continuous one: axes can be {}", can.join(", "))]
     Discrete {
-        /// The name of the parameter.
+        /// The name of the discrete parameter.
         name: String,
-        /// The names that axes can have.
+        /// The names of the continuous coordinates that the axes can have.
         can: Vec<String>,
     },
-    /// The tests do not vary a continuous coordinate of this name.
+    /// The name of an axis belongs to no continuous coordinate that the tests vary.
     #[error("the tests do not vary a parameter `{name}`{}; axes can be {}", did_you_mean(.nearest), can.join(", "))]
     Unknown {
-        /// The name that was not found.
+        /// The name of the axis that was not found.
         name: String,
-        /// A similar name that was perhaps meant.
+        /// The name of a similar coordinate that the user perhaps meant.
         nearest: Option<String>,
-        /// The names that axes can have.
+        /// The names of the continuous coordinates that the axes can have.
         can: Vec<String>,
     },
     /// Both axes have the same name.
@@ -73,7 +75,7 @@ pub enum AxesFlaw {
     Same {
         /// The name of both axes.
         name: String,
-        /// The names that axes can have.
+        /// The names of the continuous coordinates that the axes can have.
         can: Vec<String>,
     },
 }
@@ -158,7 +160,7 @@ impl FailureEstimate {
         Ok(if estimate.invalid() < 1.0 { Some(estimate) } else { None })
     }
 
-    /// Returns the estimate at a node; `None` if the node is invalid.
+    /// Returns the estimated share of failing tests at a node of the grid; `None` if the node is invalid.
     pub fn at(&self, i: usize, j: usize) -> Option<&FailingShare> {
         let place = j * self.x.len() + i;
         (self.valid[place] >= LEAST_VALID).then_some(&self.shares[place])
@@ -174,28 +176,27 @@ impl FailureEstimate {
         })
     }
 
-    /// Returns the probability that a test that can be built fails, over both coordinates without the invalid places.
-    /// It is the integral over the grid by the trapezoidal rule.
+    /// Returns the mean probability of failure over the valid places of the grid, for tests that can be built. It is
+    /// the integral over the grid by the trapezoidal rule.
     pub fn mean(&self) -> f64 {
         let sum =
             |of: &dyn Fn(&FailingShare) -> f64| self.places().map(|(share, weight)| weight * of(share)).sum::<f64>();
         sum(&|share| share.mean) / sum(&|_| 1.0)
     }
 
-    /// Returns the share of the valid places that are decided. At these surely more, or surely less, than half of the
-    /// tests fail.
+    /// Returns the share of the valid places at which surely more, or surely less, than half of the tests fail.
     pub fn decided(&self) -> f64 {
         self.places().filter(|(share, _)| decided(share).is_some()).count() as f64 / self.places().count() as f64
     }
 
-    /// Returns the share of the places that are invalid, because most of their tests cannot be built.
+    /// Returns the share of the places that are invalid, because more than half of their tests cannot be built.
     pub fn invalid(&self) -> f64 {
         1.0 - self.places().count() as f64 / self.shares.len() as f64
     }
 
-    /// Returns the estimate as CSV. The columns are the coordinates, the probability, its standard deviation, and
-    /// `fail` or `pass` if surely more or less than half of the tests fail (empty if undecided). A place marked
-    /// `invalid` has no probability.
+    /// Returns the estimated probability of failure on the grid as CSV. The columns are the coordinates, the
+    /// probability, its standard deviation, and `fail` or `pass` if surely more or less than half of the tests fail
+    /// (empty if undecided). A place marked `invalid` has no probability.
     pub fn csv(&self) -> Vec<u8> {
         let mut csv = csv::Writer::from_writer(Vec::new());
         let mut write = |row: [String; 5]| csv.write_record(row).expect("rows of one length fit into memory");
@@ -219,7 +220,7 @@ impl FailureEstimate {
     }
 }
 
-/// Checks whether surely more (`Some(true)`) or surely less (`Some(false)`) than half fails; `None` if undecided.
+/// Returns `Some(true)` if surely more than half of the tests fail, `Some(false)` if surely less, `None` if undecided.
 pub fn decided(share: &FailingShare) -> Option<bool> {
     [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)]
         .into_iter()

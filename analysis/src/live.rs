@@ -33,7 +33,8 @@ pub struct LiveCoverage {
 const MOST_HOLES: usize = 20_000;
 
 impl LiveCoverage {
-    /// Makes the coverage of an empty set of tests. `k` discrete parameters are considered together (default 2).
+    /// Makes the coverage of an empty set of tests, to which tests can be added. `k` discrete parameters are considered
+    /// together (default 2).
     ///
     /// # Errors
     /// No test can satisfy the space's constraints.
@@ -46,7 +47,7 @@ impl LiveCoverage {
         Ok(Self { holes: EmptyBoxes::at_most(dims, most).ok(), combinations: KwiseCounter::new(&rules, k).ok() })
     }
 
-    /// Adds a test to the set.
+    /// Adds a test to the set of tests whose coverage is kept.
     ///
     /// # Errors
     /// The test does not belong to the space. If only its discrete values are wrong, the dispersion counts it.

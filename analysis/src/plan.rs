@@ -20,11 +20,11 @@ use thiserror::Error;
 /// The kind of guarantee that a number of tests gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Guarantee {
-    /// A proof shows that no smaller set of tests suffices, whichever tests the set has.
+    /// A proof shows that every set with fewer tests is too small.
     NeededByAny,
-    /// A proof shows that this set suffices.
+    /// A proof shows that this set of tests suffices.
     Proved,
-    /// This number of random tests suffices with the given probability or a higher one.
+    /// A proof shows that this number of random tests suffices with at least the given probability.
     Probable,
     /// A measurement shows that this number of tests of this strategy suffices, and that one test fewer does not.
     Measured,
@@ -33,7 +33,7 @@ pub enum Guarantee {
 }
 
 impl Guarantee {
-    /// Returns the guarantee in the words that are printed.
+    /// Returns the guarantee in the words in which programs print the guarantee.
     pub fn words(self) -> &'static str {
         match self {
             Self::NeededByAny => "needed by any set",
@@ -54,12 +54,12 @@ impl Serialize for Guarantee {
 /// A number of tests with its guarantee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Need {
-    /// A description of the tests.
+    /// A description of the tests that the number counts.
     pub of: String,
-    /// The strategy that proposes the tests, if a strategy does.
+    /// The strategy that proposes the tests; `None` if no strategy proposes the tests.
     #[serde(skip)]
     pub strategy: Option<Strategy>,
-    /// The number of tests; `None` if it exceeds 64 bits or could not be measured in time.
+    /// The number of tests; `None` if the number exceeds 64 bits or could not be measured in time.
     pub tests: Option<u64>,
     /// A number of tests that is not enough, known from a measurement that ran out of time.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,35 +71,36 @@ pub struct Need {
 /// The numbers of tests that each guarantee of a (k, epsilon)-covering set needs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
-    /// The number of discrete parameters to cover together; `None` if the space has no discrete parameters.
+    /// The number of discrete parameters in each combination to cover; `None` if the space has no discrete parameters.
     pub k: Option<usize>,
-    /// The greatest dispersion allowed for any row.
+    /// The greatest dispersion that a row of discrete values may have.
     pub epsilon: f64,
-    /// The greatest probability allowed that a random set fails to cover.
+    /// The greatest allowed probability that a random set of tests fails to cover.
     pub delta: f64,
-    /// The rows that cover the discrete parameters k-wise; `None` if the space has no discrete parameters.
+    /// The numbers of rows that cover the discrete parameters k-wise; `None` if the space has no discrete parameters.
     pub rows: Option<Vec<Need>>,
-    /// The points that leave no hole above epsilon in the continuous parameters; `None` if the space has none.
+    /// The numbers of points that leave no hole above epsilon; `None` if the space has no continuous parameters.
     pub points: Option<Vec<Need>>,
-    /// The tests that do both, with separate points for each row; `None` if the space is not mixed.
+    /// The numbers of tests that satisfy both k and epsilon, with separate points for each row; `None` if the space is
+    /// not mixed.
     pub tests: Option<Vec<Need>>,
 }
 
-/// A reason why there is no plan.
+/// A reason why the numbers of tests cannot be planned.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PlanFlaw {
-    /// A number that should be a share is not between 0 and 1.
+    /// The epsilon or the delta of the plan is not between 0 and 1.
     #[error("{name} is {found}, expected a number above 0 and below 1")]
     NoShare {
-        /// The name of the number.
+        /// The name of the number that is out of range, `epsilon` or `delta`.
         name: &'static str,
-        /// The value of the number.
+        /// The value of the number that is out of range.
         found: f64,
     },
-    /// The space has no parameters.
+    /// The space has no parameters for which tests could be planned.
     #[error("the space has no parameters, so there is nothing to plan")]
     Empty,
-    /// `k` is given, but the space has no discrete parameters.
+    /// The number `k` is given, but the space has no discrete parameters.
     #[error("--k is a number of discrete parameters, and the space has no discrete parameters: leave it out")]
     NoDiscrete,
 }
@@ -116,9 +117,9 @@ const MOST_COMBINATIONS: u128 = 1 << 31;
 const MOST_MEASURED: usize = 1 << 20;
 
 impl Plan {
-    /// Plans the tests of a space. `demand` may ask for more than all combinations of k values of the discrete
-    /// parameters. Making a covering array takes at most half of `limit` (all of it if there are no continuous
-    /// parameters); the measurements take at most the rest.
+    /// Computes the numbers of tests that each guarantee of coverage of a space needs. `demand` may ask for more than
+    /// all combinations of k values of the discrete parameters. Making a covering array takes at most half of `limit`
+    /// (all of it if there are no continuous parameters); the measurements take at most the rest.
     ///
     /// # Errors
     /// The space is empty, `k` is given without discrete parameters or is not in 1 to their number, or epsilon or
@@ -159,7 +160,8 @@ impl Plan {
     }
 }
 
-/// Returns how many rows cover the discrete parameters k-wise, and the groups of parameters with their own k.
+/// Returns the numbers of rows that cover the discrete parameters k-wise, and the groups of parameters with their own
+/// k.
 fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error> {
     let &CoveringRequest { rules, k, .. } = request;
     let need = |of: &str, tests, guarantee| Need { of: of.into(), strategy: None, tests, over: None, guarantee };
@@ -199,7 +201,7 @@ fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error
     Ok(needs)
 }
 
-/// Returns how many points have a dispersion of at most epsilon.
+/// Returns the numbers of points that have a dispersion of at most epsilon.
 fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> Result<Vec<Need>, Error> {
     let need = |of: &str, tests, guarantee| Need { of: of.to_owned(), strategy: None, tests, over: None, guarantee };
     let proved = |strategy: Strategy, tests| {

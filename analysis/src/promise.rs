@@ -12,11 +12,11 @@ use serde::Serialize;
 /// The guarantee that the random rows of a set of tests give.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Promise {
-    /// The number of discrete parameters that are covered together.
+    /// The number of discrete parameters in each covered combination.
     pub k: usize,
-    /// The greatest probability allowed that a valid combination is missing.
+    /// The greatest allowed probability that a valid combination of values is missing.
     pub delta: f64,
-    /// The number of random rows that keeps this probability.
+    /// The number of random rows with which the probability of a missing combination is at most delta.
     pub rows_for_delta: u64,
     /// The number of rows that were drawn, repeated rows included. It is `rows_for_delta`, or the number of tests if
     /// that is smaller.
@@ -26,7 +26,7 @@ pub struct Promise {
 }
 
 impl Promise {
-    /// Returns the promise of the tests of a campaign; `None` if their rows are not random.
+    /// Returns the guarantee that the random rows of a campaign's tests give; `None` if the rows are not random.
     ///
     /// # Errors
     /// The errors of [`Promise::of`], or the tests that the campaign extends cannot be read.
@@ -35,7 +35,8 @@ impl Promise {
         Self::of(sampling.strategy, &sampling.request(log.study().space(), &existing), sampling.budget as u64)
     }
 
-    /// Returns the promise of `tests` tests of a request; `None` if they have no random rows.
+    /// Returns the guarantee of the first `tests` tests of a strategy for a request; `None` if the tests have no random
+    /// rows.
     ///
     /// # Errors
     /// There are fewer than `k` discrete parameters, the constraints cannot be satisfied, or the constraints make the
@@ -55,8 +56,8 @@ impl Promise {
         Ok(Some(Self { k, delta, rows_for_delta, rows, guaranteed_probability }))
     }
 
-    /// Returns the promise in words. If there are fewer rows than `delta` needs, the words state the number that it
-    /// needs.
+    /// Returns the guarantee of the random rows in words. If there are fewer rows than `delta` needs, the words state
+    /// the number of rows that `delta` needs.
     pub fn words(&self) -> String {
         let Self { k, delta, rows_for_delta, rows, guaranteed_probability } = self;
         let promise = match rounded_down(*guaranteed_probability) {

@@ -4,7 +4,7 @@
 use paracosm_campaign::{Scales, Trial};
 use paracosm_oracles::Verdict;
 
-/// The counts of verdicts and the results of the requirements so far.
+/// A summary of the trials so far, with the counts of verdicts and the results of each requirement.
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
     counts: [usize; 5],
@@ -14,16 +14,16 @@ pub struct Summary {
 /// The worst trial, which violates a requirement most or is nearest to a violation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worst {
-    /// The index of the trial.
+    /// The index of the worst trial.
     pub index: usize,
-    /// The id of the requirement.
+    /// The id of the requirement that the worst trial violates most or is nearest to violating.
     pub requirement: String,
 }
 
 /// The results of a requirement over the trials so far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// The id of the requirement.
+    /// The id of the requirement to which the results belong.
     pub id: String,
     /// The number of trials that violate the requirement.
     pub violated: usize,
@@ -51,17 +51,17 @@ impl Summary {
         &mut self.requirements[position]
     }
 
-    /// Returns the number of tests with this verdict.
+    /// Returns the number of tests with the given verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.counts[verdict as usize]
     }
 
-    /// Returns the number of tests.
+    /// Returns the number of all tests in the summary.
     pub fn tests(&self) -> usize {
         self.counts.iter().sum()
     }
 
-    /// Returns the worst trial by these scales; of equally bad trials the first.
+    /// Returns the worst trial by the given scales of robustness; among equally bad trials the first trial.
     pub fn worst(&self, scales: &Scales) -> Option<Worst> {
         let worst = self.requirements.iter().filter_map(|judged| {
             let (robustness, index) = judged.worst?;

@@ -3,21 +3,21 @@
 use crate::{Error, Folder};
 use serde::Serialize;
 
-/// A result of a campaign that is written as files of its folder.
+/// A result of a campaign that is written to files in the campaign's folder.
 pub trait Artefact {
     /// Returns the names of the artefact's files. No two artefacts share a file name.
     fn files(&self) -> Vec<&'static str>;
 
-    /// Returns the contents of the artefact's file with this name.
+    /// Returns the contents of the artefact's file with the given name.
     ///
     /// # Errors
     /// A picture cannot be drawn.
     fn contents(&self, file: &str) -> Result<Vec<u8>, Error>;
 }
 
-/// A result of a campaign that is written as one JSON file.
+/// A result of a campaign that is written to a single JSON file.
 pub trait JsonArtefact: Serialize {
-    /// The name of the file.
+    /// The name of the JSON file to which the result is written.
     const FILE: &'static str;
 }
 
@@ -31,7 +31,7 @@ impl<T: JsonArtefact> Artefact for T {
     }
 }
 
-/// Formats a value as indented JSON with a final line break, as in all JSON files of a campaign.
+/// Formats a value as indented JSON with a final line break. All JSON files of a campaign have this format.
 pub fn json(value: &impl Serialize) -> Vec<u8> {
     let mut text = serde_json::to_vec_pretty(value).expect("what is known of a campaign is always JSON");
     text.push(b'\n');
@@ -39,7 +39,7 @@ pub fn json(value: &impl Serialize) -> Vec<u8> {
 }
 
 impl Folder {
-    /// Writes the files of an artefact, each whole or not at all.
+    /// Writes each file of an artefact to the campaign's folder, completely or not at all.
     ///
     /// # Errors
     /// A file cannot be drawn or written.

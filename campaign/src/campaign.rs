@@ -28,7 +28,7 @@ const BATCH: usize = 4096;
 /// and few enough that their worlds and drivers fit in memory.
 const AT_ONCE: NonZeroUsize = NonZeroUsize::new(32).expect("it is more than 0");
 
-/// A study that is being run.
+/// A campaign, which runs the tests of a study.
 pub struct Campaign<'a> {
     study: &'a Study,
     jobs: NonZeroUsize,
@@ -46,26 +46,26 @@ pub struct Campaign<'a> {
 /// The reason why a campaign ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finish {
-    /// The budget is spent.
+    /// The campaign has run as many tests as the budget allows.
     Budget,
-    /// The strategy has no more tests.
+    /// The strategy proposes no more tests.
     Exhausted,
     /// An observer ended the campaign, or a test failed in a study that stops at the first failure.
     Stopped,
 }
 
-/// A trial of the log does not belong to the campaign that is to be resumed.
+/// The error that a trial of the log does not belong to the campaign that should be resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("the test of trial {index} of the log differs from the test that this study proposes; was the log edited?")]
 pub struct ForeignTrial {
-    /// The index of the trial.
+    /// The index of the trial that does not belong to the campaign.
     pub index: usize,
 }
 
 impl Reason for ForeignTrial {}
 
 impl<'a> Campaign<'a> {
-    /// Makes a campaign that runs on all cores.
+    /// Makes a campaign that runs the tests of a study on all cores.
     ///
     /// # Errors
     /// The scenario, the driver or the system of the study cannot do what is asked; or the driver uses cameras, and the
@@ -74,7 +74,8 @@ impl<'a> Campaign<'a> {
         Self::until(study, Arc::default())
     }
 
-    /// Makes a campaign that ends with [`Error::Interrupted`] once `stop` is set, whatever a test is waiting for.
+    /// Makes a campaign that ends with [`Error::Interrupted`] once `stop` is set, even while a test waits for an
+    /// answer.
     ///
     /// # Errors
     /// The same errors as [`Campaign::new`].
@@ -96,31 +97,31 @@ impl<'a> Campaign<'a> {
         Ok(self)
     }
 
-    /// Sets the number of threads. The number of threads does not change the results.
+    /// Sets the number of threads that run tests. The number of threads does not change the results.
     pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
         self.jobs = jobs;
         self
     }
 
-    /// Sets the number of tests that run in lockstep if their drivers use cameras, so that their images are drawn
-    /// together; the default is 32. The number does not change the results.
+    /// Sets the number of tests that run in lockstep if their drivers use cameras; the default is 32. The images of
+    /// these tests are drawn together. The number does not change the results.
     pub fn at_once(mut self, tests: NonZeroUsize) -> Self {
         self.at_once = tests;
         self
     }
 
-    /// Takes the first trials from `known` instead of running their tests.
+    /// Sets the trials of an earlier, interrupted run of the campaign, whose tests do not run again.
     pub fn resume(mut self, known: Vec<Trial>) -> Self {
         self.known = known;
         self
     }
 
-    /// Returns the flag that ends the campaign with [`Error::Interrupted`] once it is set.
+    /// Returns the flag that ends the campaign with [`Error::Interrupted`] when the flag is set.
     pub fn stop(&self) -> Arc<AtomicBool> {
         self.stop.clone()
     }
 
-    /// Checks that the strategy can do what the study asks, given the tests that the campaign extends.
+    /// Checks that the strategy accepts the study's space and options and the tests that the campaign extends.
     ///
     /// # Errors
     /// The strategy cannot do what the study asks.
@@ -129,7 +130,8 @@ impl<'a> Campaign<'a> {
         Ok(self.study.generator(existing).map(drop)?)
     }
 
-    /// Runs the tests whose trials are not known yet. Every observer sees every trial in order.
+    /// Runs the campaign, and skips the tests whose trials were set by [`resume`](Self::resume). Every observer sees
+    /// every trial in order.
     ///
     /// # Errors
     /// An observer returns an error, the strategy cannot do what the study asks, a known trial does not belong to this
@@ -195,7 +197,7 @@ impl<'a> Campaign<'a> {
         Ok(finish)
     }
 
-    /// Runs the tests whose trials are not known yet, and keeps the trials in memory.
+    /// Runs the campaign without writing files, and returns the log with all trials.
     ///
     /// # Errors
     /// The same errors as [`Campaign::run`].
@@ -206,8 +208,7 @@ impl<'a> Campaign<'a> {
         Ok(Log::new(study, Learned::new(), extension, trials))
     }
 
-    /// Runs these tests instead of the tests that the strategy proposes; the first of these tests gets the index
-    /// `first`.
+    /// Runs the given tests instead of the tests that the strategy proposes. The first test gets the index `first`.
     ///
     /// # Errors
     /// `watch` returns an error.
@@ -268,7 +269,7 @@ impl<'a> Campaign<'a> {
         }
     }
 
-    /// Returns the darkroom that draws for the drivers.
+    /// Returns the darkroom that draws the camera images for the drivers.
     #[cfg(all(test, feature = "camera"))]
     pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
         self.darkroom.as_ref()

@@ -10,7 +10,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use thiserror::Error;
 
-/// The scenarios that a command or a program can name.
+/// A catalogue that finds scenarios by name or by file.
 ///
 /// ```
 /// use paracosm_campaign::Catalogue;
@@ -27,59 +27,59 @@ pub struct Catalogue {
     readers: Vec<Reader>,
 }
 
-/// A reader that makes programs from files.
+/// A reader that makes the programs of scenarios from files.
 #[derive(Debug, Clone, Copy)]
 pub struct Reader {
-    /// The ending of the files that the reader reads, without the dot.
+    /// The file name extension that the reader accepts, without the dot.
     pub ending: &'static str,
-    /// The kind of the files, in a few words.
+    /// A short description of the kind of files that the reader reads.
     pub about: &'static str,
-    /// Reads a file and returns its program.
+    /// The function that reads a file and returns the program of the scenario in the file.
     pub read: fn(&Path) -> Result<Program, Error>,
 }
 
-/// The error that no scenario has this name.
+/// The error that no scenario has the requested name.
 #[derive(Debug, Error, PartialEq)]
 #[error("no scenario is called `{name}`{}; `paracosm-fuzz list` shows all scenarios", did_you_mean(.nearest))]
 pub struct UnknownScenario {
-    /// The name that was asked for.
+    /// The name that no scenario has.
     pub name: String,
-    /// The name of a scenario that was perhaps meant.
+    /// The most similar name of a scenario; `None` if no name is similar.
     pub nearest: Option<String>,
 }
 
 impl Reason for UnknownScenario {}
 
 impl Catalogue {
-    /// Makes a catalogue of these programs.
+    /// Makes a catalogue of the given programs of scenarios.
     pub fn of(programs: &[&Program]) -> Self {
         Self { programs: programs.iter().copied().cloned().collect(), readers: Vec::new() }
     }
 
-    /// Adds a program. It replaces a program of the same name.
+    /// Adds the program of a scenario to the catalogue. The program replaces a program of the same name.
     pub fn with(mut self, program: Program) -> Self {
         self.programs.retain(|other| other.name() != program.name());
         self.programs.push(program);
         self
     }
 
-    /// Adds a reader of files.
+    /// Adds a reader of scenario files to the catalogue.
     pub fn reading(mut self, reader: Reader) -> Self {
         self.readers.push(reader);
         self
     }
 
-    /// Returns all programs that have a name, in order.
+    /// Returns the programs of the catalogue, in the order in which the programs were added.
     pub fn programs(&self) -> &[Program] {
         &self.programs
     }
 
-    /// Returns the readers of files, in order.
+    /// Returns the readers of scenario files, in the order in which the readers were added.
     pub fn readers(&self) -> &[Reader] {
         &self.readers
     }
 
-    /// Returns the program with this name, or the program in the file with this path.
+    /// Returns the program of the scenario with the given name, or the program in the file with the given path.
     ///
     /// # Errors
     /// No scenario has the name; the error suggests the nearest name. Or a reader cannot make a program from the file.

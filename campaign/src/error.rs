@@ -4,6 +4,7 @@
 //! what was found and what was expected, and says so in words. No part of the software reads the message of an error to
 //! decide what to do.
 
+use paracosm_space::plural;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -16,17 +17,17 @@ pub trait Reason: std::error::Error + Send + Sync + 'static {}
 /// Any error of a campaign, an analysis or a report.
 #[derive(Error)]
 pub enum Error {
-    /// The request makes no sense. Ask for something else.
+    /// The request of the user is invalid. Change the request.
     #[error("{0}")]
     Use(Box<dyn Reason>),
     /// A file has wrong contents. Correct the file.
     #[error(transparent)]
     File(#[from] BadFile),
-    /// Something other than the study failed, for example the disk, a process, or a graphics adapter. Repair it, and
-    /// try again.
+    /// A part of the environment failed, for example the disk, a process, or a graphics adapter. Repair it, and try
+    /// again.
     #[error(transparent)]
     Environment(#[from] Failure),
-    /// The work was told to stop.
+    /// The work was interrupted before its end.
     #[error("interrupted")]
     Interrupted,
 }
@@ -44,15 +45,15 @@ impl<R: Reason> From<R> for Error {
     }
 }
 
-/// A file has wrong contents.
+/// The error that a file has wrong contents.
 #[derive(Debug, Error)]
 #[error("{}{}: {reason}", path.display(), line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct BadFile {
-    /// The file.
+    /// The path of the file.
     pub path: PathBuf,
-    /// The line, from 1, if the error is in one line.
+    /// The number of the wrong line, from 1; `None` if the error is not in a single line.
     pub line: Option<usize>,
-    /// The error in the file, with the found and the expected content.
+    /// The reason why the contents of the file are wrong.
     pub reason: Box<dyn Reason>,
 }
 
@@ -60,24 +61,24 @@ pub struct BadFile {
 #[derive(Debug, Error)]
 pub enum CsvFlaw {
     /// A line has more or fewer fields than the header.
-    #[error("the number of fields is {found}, expected {expected}")]
+    #[error("found {}, expected {expected}", plural(*found as usize, "field"))]
     Fields {
         /// The number of fields in the line.
         found: u64,
         /// The number of fields in the header.
         expected: u64,
     },
-    /// The file is not UTF-8 text.
+    /// The text of the file is not UTF-8.
     #[error("found bytes that are not UTF-8")]
     NoText,
-    /// The file cannot be read for another reason.
+    /// An error of the CSV reader other than a wrong number of fields or bytes that are not UTF-8.
     #[error(transparent)]
     Other(csv::Error),
 }
 
 impl Reason for CsvFlaw {}
 
-/// Something other than the study failed.
+/// A failure of the environment, for example of the disk, a process or a graphics adapter.
 #[derive(Debug, Error)]
 pub enum Failure {
     /// A file or a folder cannot be read or written.
@@ -85,31 +86,31 @@ pub enum Failure {
     Io {
         /// The operation that failed, which is `read`, `write`, `create` or `lock`.
         action: &'static str,
-        /// The file or folder.
+        /// The path of the file or folder that cannot be read or written.
         path: PathBuf,
-        /// The error of the operating system.
+        /// The error that the operating system reported.
         source: std::io::Error,
     },
-    /// A file or a folder was removed while it was in use.
+    /// A file or a folder was removed while the campaign used it.
     #[error("{} was removed while the campaign ran", path.display())]
     Removed {
-        /// The file or folder.
+        /// The path of the removed file or folder.
         path: PathBuf,
     },
     /// A picture cannot be drawn.
     #[error("cannot draw {}: {source}", path.display())]
     Drawing {
-        /// The file of the picture.
+        /// The path of the picture.
         path: PathBuf,
-        /// The error of the plotter.
+        /// The error that occurred while the picture was drawn.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// Threads cannot be started.
+    /// The worker threads cannot be started.
     #[error("cannot start the worker threads (number: {threads}): {source}")]
     Threads {
-        /// The number of threads.
+        /// The number of worker threads that should be started.
         threads: usize,
-        /// The error of the operating system.
+        /// The error that the operating system reported.
         source: rayon::ThreadPoolBuildError,
     },
     /// A system, a driver or a graphics adapter is not available.
@@ -118,17 +119,17 @@ pub enum Failure {
     /// A system or a driver gave no result for any of its first tests.
     #[error("each of the first {tests} tests ended in an error, so the campaign was given up; test {test}: {problem}")]
     Unanswered {
-        /// The number of tests.
+        /// The number of tests that ended without a result.
         tests: usize,
-        /// The index of the first test that states a reason.
+        /// The index of the test whose problem is reported.
         test: usize,
-        /// The problem of that test.
+        /// The problem of the reported test.
         problem: crate::Problem,
     },
 }
 
 impl Error {
-    /// Returns the reason if this is an [`Error::Use`] whose reason has the type `R`.
+    /// Returns the reason of an [`Error::Use`], if the reason has the type `R`.
     pub fn reason<R: Reason>(&self) -> Option<&R> {
         match self {
             Self::Use(reason) => (&**reason as &dyn std::error::Error).downcast_ref(),
@@ -136,18 +137,18 @@ impl Error {
         }
     }
 
-    /// Makes the error of a file operation that failed.
+    /// Returns a function that makes the error of a failed file operation.
     pub fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         move |source| Failure::Io { action, path, source }.into()
     }
 
-    /// Makes the error of a file with wrong contents.
+    /// Makes the error that a file has wrong contents.
     pub fn in_file(path: &Path, line: impl Into<Option<usize>>, reason: impl Reason) -> Self {
         BadFile { path: path.to_owned(), line: line.into(), reason: Box::new(reason) }.into()
     }
 
-    /// Makes the error of a file that is not a valid CSV file.
+    /// Makes the error that a file is not a valid CSV file.
     pub fn in_csv(path: &Path, error: csv::Error) -> Self {
         let line = error.position().map(|position| position.line() as usize);
         let flaw = match error.kind() {
@@ -160,7 +161,7 @@ impl Error {
         Self::in_file(path, line, flaw)
     }
 
-    /// Makes the error of something that is not available.
+    /// Makes the error that a system, a driver or a graphics adapter is not available.
     pub fn unavailable(reason: impl Reason) -> Self {
         Failure::Unavailable(Box::new(reason)).into()
     }

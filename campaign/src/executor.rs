@@ -12,10 +12,10 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 
-/// The prefix of the names of worker threads; it tells a panic of a test from a panic of the program.
+/// The prefix of the names of worker threads. The prefix distinguishes a panic of a test from a panic of the program.
 pub const WORKER: &str = "paracosm-worker";
 
-/// Makes a pool with this number of threads.
+/// Makes a thread pool with the given number of threads.
 ///
 /// # Errors
 /// The system cannot start the threads.
@@ -24,7 +24,7 @@ pub fn pool(workers: usize) -> Result<ThreadPool, Failure> {
     builder.build().map_err(|source| Failure::Threads { threads: workers, source })
 }
 
-/// A desk gives out the remaining work to a worker, and takes its results.
+/// A queue that gives the indices of the remaining work to a worker and takes the worker's results.
 pub struct Desk<'a, T> {
     next: &'a AtomicUsize,
     end: usize,
@@ -33,18 +33,18 @@ pub struct Desk<'a, T> {
 }
 
 impl<T> Desk<'_, T> {
-    /// Returns the next index; `None` if there is none or nobody wants results any more.
+    /// Returns the next index to work on; `None` if no index is left or the work was stopped.
     pub fn next(&self) -> Option<usize> {
         let index = || self.next.fetch_add(1, Ordering::Relaxed);
         (!self.is_closed()).then(index).filter(|index| *index < self.end)
     }
 
-    /// Returns `true` if nobody wants results any more.
+    /// Returns `true` if the work was stopped, so that further results are not used.
     pub fn is_closed(&self) -> bool {
         self.closed.load(Ordering::Relaxed)
     }
 
-    /// Takes the result of an index. `None` means that the worker gave up, and closes the desk.
+    /// Takes the result of the work on an index. `None` means that the worker gave up, and closes the desk.
     pub fn hand_in(&self, index: usize, result: Option<T>) {
         let gives_up = result.is_none();
         if self.results.send((index, result)).is_err() || gives_up {
@@ -53,7 +53,7 @@ impl<T> Desk<'_, T> {
     }
 }
 
-/// Does work on a single thread, even if the work itself would use more threads.
+/// Runs a function on a single thread, even if the function would use more threads.
 ///
 /// # Errors
 /// The system cannot start the thread.
@@ -63,7 +63,7 @@ pub fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     Ok(std::thread::scope(|scope| scope.spawn(|| single.install(work)).join()).expect("the work does not panic"))
 }
 
-/// Calls `work` for every index on the threads of the pool, each thread with a worker of its own. Calls `sink` with the
+/// Calls `work` for every index on the threads of a pool, with a separate worker for each thread. Calls `sink` with the
 /// results in order, up to the first index at which a worker gave up.
 pub fn in_order<W, T: Send, E>(
     pool: &ThreadPool,
@@ -81,8 +81,9 @@ pub fn in_order<W, T: Send, E>(
     from_desk(pool, indices, one_by_one, sink)
 }
 
-/// Works like [`in_order`], for workers that do several things at a time. It calls `work` once on every thread of the
-/// pool; `work` takes indices from the desk and hands in their results.
+/// Calls `work` once on every thread of a pool, and passes the results to `sink` in the order of the indices. `work`
+/// takes indices from the desk and hands in their results, so that a worker can work on several indices at a time.
+/// Otherwise it works like [`in_order`].
 pub fn from_desk<T: Send, E>(
     pool: &ThreadPool,
     indices: Range<usize>,

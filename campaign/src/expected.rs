@@ -12,7 +12,7 @@ const GIVEN_UP: usize = 50;
 /// other. A signal that is merely missing does not count: other tests may have it, so that it takes [`GIVEN_UP`] tests.
 const MISFITS: usize = 3;
 
-/// The checks of a campaign's trials, with the facts learned so far.
+/// A check of the trials of a campaign, which finds changed requirements and systems that do not answer.
 #[derive(Debug, Clone)]
 pub struct Expected {
     /// True if an external process answers; other studies are not checked.
@@ -30,7 +30,7 @@ pub struct Expected {
 }
 
 impl Expected {
-    /// Makes the checks of a study, after these trials.
+    /// Makes the check for the trials of a study that follow the given trials.
     pub fn of(study: &Study, trials: &[Trial]) -> Self {
         let is_external = match study.subject() {
             Subject::Scenario(simulation) => simulation.driver().is_external(),
@@ -42,7 +42,8 @@ impl Expected {
         expected
     }
 
-    /// Returns the trial; or a trial in error if its requirements differ from those of the first answer.
+    /// Returns the given trial, or a trial with the verdict `error` if the requirements differ from the first answer's
+    /// requirements.
     pub fn check(&mut self, trial: Trial) -> Trial {
         self.learn(&trial);
         let found = requirements(&trial);
@@ -59,7 +60,7 @@ impl Expected {
         }
     }
 
-    /// Checks that it makes sense to continue.
+    /// Returns an error if the system or the driver gave no result for any of the first tests.
     ///
     /// # Errors
     /// The system or the driver gave no result for any of the first tests.

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// Tests that a campaign counts as done.
+/// Existing tests, which a campaign counts as done and does not run.
 #[derive(Debug, Clone)]
 pub struct Extension {
     record: ExtensionRecord,
@@ -29,35 +29,36 @@ enum Kept {
     In(PathBuf),
 }
 
-/// The record of the tests that a campaign counts as done.
+/// The origin, the number and the hash of the tests that a campaign counts as done.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtensionRecord {
-    /// The file from which the tests were read.
+    /// The path of the file from which the tests were read.
     pub name: String,
-    /// The number of tests.
+    /// The number of tests that count as done.
     pub tests: usize,
     /// The hash of the tests, which is the 128-bit XXH3 of `extended.csv`.
     pub hash: String,
 }
 
-/// A file does not hold the tests that a campaign extends.
+/// The error that a file does not hold the tests that a campaign extends.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "the campaign extends {} with hash {}; found {} with hash {}",
     plural(expected.tests, "test"), expected.hash, plural(found.tests, "test"), found.hash
 )]
 pub struct OtherTests {
-    /// The record of the tests in the file.
+    /// The number and the hash of the tests in the file.
     pub found: ExtensionRecord,
-    /// The record of the tests that the campaign extends.
+    /// The number and the hash of the tests that the campaign extends.
     pub expected: ExtensionRecord,
 }
 
 impl Reason for OtherTests {}
 
 impl Extension {
-    /// Reads tests of a study's space. A column with the name of a fixed parameter must not differ from its value.
+    /// Reads existing tests of a study from a CSV file. A column with the name of a fixed parameter must have the fixed
+    /// value.
     ///
     /// # Errors
     /// The file cannot be read, does not hold tests of the open parameters, or has other values for fixed parameters.
@@ -72,17 +73,18 @@ impl Extension {
         Self { record, tests: Kept::Here(values) }
     }
 
-    /// Returns the tests of this record, which a campaign keeps in a file. They are read when they are needed.
+    /// Makes an extension from a record of the tests and from the file in which the campaign keeps the tests. The tests
+    /// are read when they are needed.
     pub fn kept(record: ExtensionRecord, path: PathBuf) -> Self {
         Self { record, tests: Kept::In(path) }
     }
 
-    /// Returns the record of the tests.
+    /// Returns the origin, the number and the hash of the tests.
     pub fn record(&self) -> &ExtensionRecord {
         &self.record
     }
 
-    /// Returns the tests as points.
+    /// Returns the tests as points of a space.
     ///
     /// # Errors
     /// The file of the tests cannot be read, or holds other tests.
@@ -90,7 +92,7 @@ impl Extension {
         self.values(space)?.iter().map(|test| Ok(space.encode(test)?)).collect()
     }
 
-    /// Returns the tests in the format of `extended.csv`.
+    /// Returns the tests as CSV, in the format of `extended.csv`.
     ///
     /// # Errors
     /// The same errors as [`points`](Self::points).

@@ -6,19 +6,19 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A file that must not be replaced.
+/// The error that a file exists already and must not be replaced.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} exists, and {what} does not replace a file: choose another name", path.display())]
 pub struct Exists {
-    /// The file.
+    /// The path of the existing file.
     pub path: PathBuf,
-    /// The thing that was to be written, with its article.
+    /// The kind of file that should be written, with an article, for example "a regression file".
     pub what: &'static str,
 }
 
 impl Reason for Exists {}
 
-/// Checks that a file does not exist yet.
+/// Checks that no file exists at a path.
 ///
 /// # Errors
 /// The file exists; `what` names the thing that was to be written, with its article.
@@ -26,7 +26,7 @@ pub fn is_new(path: &Path, what: &'static str) -> Result<(), Exists> {
     if path.exists() { Err(Exists { path: path.to_owned(), what }) } else { Ok(()) }
 }
 
-/// Writes a file in such a way that nobody ever sees it half-written, not even after a crash.
+/// Writes a file completely or not at all, even if the program crashes.
 ///
 /// # Errors
 /// The file cannot be written, for example because the disk is full.

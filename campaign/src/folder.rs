@@ -22,7 +22,7 @@ pub(crate) const STUDY: &str = "campaign.json";
 pub(crate) const TRIALS: &str = "trials.jsonl";
 /// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
-/// The files of artefacts, which are derived from the trials at the end of a campaign or later.
+/// The names of the files that hold results derived from the trials of a campaign.
 pub const DERIVED: [&str; 13] = [
     "trials.csv",
     "coverage.json",
@@ -39,7 +39,7 @@ pub const DERIVED: [&str; 13] = [
     "junit.xml",
 ];
 
-/// The folder of a campaign, open for appending.
+/// The folder of a campaign, to which trials and results are written.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
@@ -62,44 +62,44 @@ pub enum FolderFlaw {
     Occupied {
         /// The path of the folder.
         path: PathBuf,
-        /// A file of the campaign.
+        /// The name of a file that belongs to the existing campaign.
         name: &'static str,
     },
-    /// The folder holds files of a campaign, but no study.
+    /// The folder holds files of a campaign, but no `campaign.json`.
     #[error("{} has {name} but no {STUDY}, so the campaign cannot be continued", path.display())]
     NoStudy {
         /// The path of the folder.
         path: PathBuf,
-        /// A file of the campaign.
+        /// The name of a file in the folder that belongs to a campaign.
         name: &'static str,
     },
-    /// The folder holds another campaign.
+    /// The folder holds the campaign of a different study.
     #[error("{} holds a different campaign: its `{key}` is {there}, that of this command is {here}", path.display())]
     OtherStudy {
         /// The path of the folder.
         path: PathBuf,
-        /// The entry of campaign.json in which the two campaigns differ.
+        /// The name of the first entry of `campaign.json` that differs from the given study.
         key: String,
-        /// The value of this entry in the folder.
+        /// The value of the differing entry in the folder.
         there: String,
-        /// The value of this entry in the study of this command.
+        /// The value of the differing entry in the given study.
         here: String,
     },
     /// Another process writes to the folder.
     #[error("another process is writing to {}; wait until it ends", path.display())]
     InUse {
-        /// The path of the log, which the other process has locked.
+        /// The path of the log, which another process has locked.
         path: PathBuf,
     },
 }
 
-/// The error of a file whose name is reserved for a campaign's own files.
+/// The error that a file name is reserved for a campaign's own files.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} has the name of a campaign's own file, which {what} must not replace", path.display())]
 pub struct NotYours {
     /// The path of the file with the reserved name.
     pub path: PathBuf,
-    /// The description of the content that was to be written, with an article.
+    /// The kind of content that should be written, with an article, for example "a trace".
     pub what: &'static str,
 }
 
@@ -107,7 +107,7 @@ impl Reason for FolderFlaw {}
 impl Reason for NotYours {}
 
 impl Folder {
-    /// Begins a campaign in a folder, and makes the folder if it does not exist.
+    /// Begins a campaign in a folder, and creates the folder if necessary.
     ///
     /// # Errors
     /// The folder cannot be written, or holds a campaign.
@@ -124,8 +124,8 @@ impl Folder {
         Self::open(path)
     }
 
-    /// Continues the campaign of this study in its folder, and returns the trials that are there. Begins the campaign
-    /// if there is none yet.
+    /// Opens the folder of a study's campaign to continue the campaign, and returns the trials in the log. Begins the
+    /// campaign if the folder holds no campaign yet.
     ///
     /// # Errors
     /// The folder holds another campaign, or a log that is broken before its last line.
@@ -188,7 +188,7 @@ impl Folder {
         self.log.write_all(line.as_bytes()).map_err(Error::io("write", &file))
     }
 
-    /// Writes a file beside the trials, whole or not at all.
+    /// Writes a file to the campaign's folder, completely or not at all.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -196,8 +196,7 @@ impl Folder {
         write_whole(&self.path.join(name), contents)
     }
 
-    /// Returns `true` if a file with this name in a campaign's folder belongs to the campaign, so that nobody else may
-    /// write it.
+    /// Returns `true` if the campaign reserves the given file name for its own files.
     pub fn owns(name: &OsStr) -> bool {
         [STUDY, TRIALS, EXTENDED].into_iter().chain(DERIVED).any(|ours| ours == name)
     }
@@ -230,24 +229,9 @@ fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Resu
     let there = StudyFile::parse(&text, &Catalogue::default());
     let there = there.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
     let here = StudyFile::new(study, &Learned::new(), extension);
-    let [there, here] = [there, here].map(|study| serde_json::to_value(study).expect("a study is always JSON"));
-    // The same tests may come from another file, and a campaign that learns scales on its way remains the same
-    // campaign.
-    let [tests_there, tests_here] = [&there, &here].map(|study| {
-        let mut study = study.clone();
-        if let Some(extends) = study.get_mut("extends") {
-            *extends = extends["hash"].take();
-        }
-        if let Some(entries) = study.as_object_mut() {
-            entries.remove("learned_scales");
-        }
-        // A text explains a requirement and decides nothing, so another version may word it differently.
-        for requirement in study["requirements"].as_array_mut().into_iter().flatten() {
-            requirement.as_object_mut().map(|entries| entries.remove("text"));
-        }
-        study
-    });
+    let (tests_there, tests_here) = (there.identity(), here.identity());
     let Some(key) = differing_key(&tests_there, &tests_here) else { return Ok(()) };
+    let [there, here] = [there, here].map(|study| serde_json::to_value(study).expect("a study is always JSON"));
     let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);
     let (there, here) = (show(&there), show(&here));
     Err(FolderFlaw::OtherStudy { path: path.to_owned(), key: key.to_owned(), there, here }.into())

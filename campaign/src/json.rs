@@ -4,7 +4,8 @@
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A number of a log, or none. JSON has infinities as words and NaN as null.
+/// A number in a log, which may be infinite or missing. JSON has infinities as words, and NaN or a missing number as
+/// null.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number(pub Option<f64>);
 
@@ -31,7 +32,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// Returns the first key in which two objects differ, if they differ.
+/// Returns the first key at which two JSON objects have different values; `None` if the objects are equal.
 pub fn differing_key<'v>(there: &'v serde_json::Value, here: &'v serde_json::Value) -> Option<&'v str> {
     let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key.as_str());
     keys.into_iter().find(|key| there.get(key) != here.get(key))

@@ -5,8 +5,8 @@ use crate::{Problem, ProblemKind, Trial};
 use paracosm_engine::{Judgement, Violation};
 use paracosm_oracles::{EvaluationError, Trace, Truth, Verdict};
 
-/// Judges a trial by the requirements that were given with its study, in addition to those by which it was judged
-/// before.
+/// Judges the trace of a trial by the given requirements, and adds the judgements to the trial. The given requirements
+/// are the requirements of the study that the scenario itself does not judge.
 ///
 /// A formula that cannot be evaluated ends the trial with an error. If there are several errors, an error that every
 /// trace would have takes precedence over an error of this trace alone.

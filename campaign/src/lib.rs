@@ -71,7 +71,7 @@ pub use trace_file::{read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};
 pub use worker::Worker;
 
-/// The types of all errors in a user's request, which are the reasons behind [`Error::Use`] and [`BadFile`].
+/// The error types that [`Error::Use`] and [`BadFile`] hold as reasons.
 pub mod reasons {
     pub use crate::black_box::{AnswerFlaw, NoSystem, NotStarted, TimeoutFlaw};
     pub use crate::campaign::ForeignTrial;

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A campaign that was run, completely or in part. All analyses take a log.
+/// The log of a campaign, with the study and the trials of all tests that were run. All analyses take a log.
 #[derive(Debug, Clone)]
 pub struct Log {
     study: Study,
@@ -20,26 +20,26 @@ pub struct Log {
     trials: Vec<Trial>,
 }
 
-/// The path is the folder of a campaign, but a space was given as well.
+/// The error that a space was given for the folder of a campaign, which has its own space.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} is the folder of a campaign, which has its own space: leave --space out", path.display())]
 pub struct HasSpace {
-    /// The folder.
+    /// The path of the campaign's folder.
     pub path: PathBuf,
 }
 
 impl Reason for HasSpace {}
 
 impl Log {
-    /// Makes the log of these trials of a study. Scales that the campaign has not learned yet are learned from the
-    /// trials.
+    /// Makes a log from a study and the trials of the study's tests. Scales that the campaign has not learned yet are
+    /// learned from the trials.
     pub fn new(study: Study, learned: Learned, extension: Option<Extension>, trials: Vec<Trial>) -> Self {
         let mut scales = Scales::of(&study, learned);
         scales.learn(&trials);
         Self { study, scales, extension, trials }
     }
 
-    /// Reads the study and the trials in the folder of a campaign.
+    /// Reads the log of a campaign from the campaign's folder.
     ///
     /// # Errors
     /// The folder holds no campaign, or one of its files is broken. If the catalogue does not have the scenario, the
@@ -60,27 +60,27 @@ impl Log {
         &self.study
     }
 
-    /// Returns the scales of the requirements.
+    /// Returns the scales of the requirements, by which values of robustness are compared.
     pub fn scales(&self) -> &Scales {
         &self.scales
     }
 
-    /// Returns the tests that count as done.
+    /// Returns the tests that the campaign extends; `None` if the campaign extends no tests.
     pub fn extension(&self) -> Option<&Extension> {
         self.extension.as_ref()
     }
 
-    /// Returns the trials, in the order of their indices from 0 on.
+    /// Returns the trials of the campaign, in the order of their indices.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
     }
 
-    /// Returns the same campaign with other trials.
+    /// Returns a copy of the log with the given trials in place of the present trials.
     pub fn with_trials(&self, trials: Vec<Trial>) -> Self {
         Self { trials, ..self.clone() }
     }
 
-    /// Returns the tests that count as done, as points.
+    /// Returns the tests that the campaign extends, as points of the space.
     ///
     /// # Errors
     /// The file of the tests cannot be read, or holds other tests.
@@ -88,8 +88,8 @@ impl Log {
         self.extension.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(self.study.space()))
     }
 
-    /// Returns the tests that cover a place of the space, which are all except those with the verdict `error` or
-    /// `invalid`. Tests that count as done come first.
+    /// Returns all tests of the campaign except tests with the verdict `error` or `invalid`. Tests that count as done
+    /// come first.
     ///
     /// # Errors
     /// A test does not belong to the space, or the tests that count as done cannot be read.
@@ -103,7 +103,7 @@ impl Log {
     }
 }
 
-/// Reads tests of a space from a CSV file, or the tests of the campaign in a folder.
+/// Reads tests from a CSV file or from the folder of a campaign.
 ///
 /// # Errors
 /// The file cannot be read, or does not hold tests of the space; or a space is given for a folder.

@@ -4,12 +4,12 @@ use crate::scales::Learned;
 use crate::{Error, Trial};
 use std::ops::ControlFlow;
 
-/// Watches a campaign. An observer sees every trial in the order of the indices, whatever the number of threads. It may
-/// end the campaign, but changes nothing about its tests.
+/// An observer of a campaign, which sees every trial and can end the campaign. An observer sees every trial in the
+/// order of the indices, whatever the number of threads. It may end the campaign, but changes nothing about its tests.
 ///
 /// A closure that takes a `&Trial` is an observer that sees new trials.
 pub trait Observer {
-    /// Sees that the campaign begins.
+    /// Is called when the campaign begins.
     ///
     /// # Errors
     /// An error of the observer ends the campaign.
@@ -17,13 +17,13 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Sees the next trial that was run.
+    /// Is called with each new trial, in the order of the indices.
     ///
     /// # Errors
     /// An error of the observer ends the campaign.
     fn trial(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error>;
 
-    /// Sees a trial that was run before the campaign was resumed. These trials come before the new ones.
+    /// Is called with each trial that was run before the campaign was resumed. These trials come before the new ones.
     ///
     /// # Errors
     /// An error of the observer ends the campaign.
@@ -31,7 +31,7 @@ pub trait Observer {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Sees that the campaign has run its last test. The results that are derived from the trials come next.
+    /// Is called when the campaign has run its last test. The results that are derived from the trials come next.
     ///
     /// # Errors
     /// An error of the observer ends the work.
@@ -39,7 +39,8 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Sees the learned scales of requirements that state no scale, as soon as the campaign has learned them.
+    /// Is called with all learned scales each time the campaign has learned the scale of a requirement that states no
+    /// scale.
     ///
     /// # Errors
     /// An error of the observer ends the campaign.

@@ -21,7 +21,7 @@ pub const ARRIVAL: Duration = Duration::from_secs(1);
 /// The longest time that a process may take to end by itself after its standard input is closed.
 const FAREWELL: Duration = Duration::from_millis(500);
 
-/// A process with its standard streams.
+/// An external process with its standard streams.
 pub struct Process {
     child: Child,
     complaints: Arc<Mutex<VecDeque<u8>>>,
@@ -29,7 +29,8 @@ pub struct Process {
 }
 
 impl Process {
-    /// Starts the command of these words, of which there is at least one, with additional variables in its environment.
+    /// Starts the process of a command, with additional environment variables. The command is a list of words, which
+    /// must not be empty and begins with the program.
     pub fn start(words: &[String], environment: &[(&str, String)]) -> io::Result<Self> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).envs(environment.iter().map(|(name, value)| (name, value)));
@@ -43,17 +44,17 @@ impl Process {
         Ok(process)
     }
 
-    /// Returns the standard input of the process, if nobody has taken it yet.
+    /// Takes the standard input of the process; `None` if the standard input was taken before.
     pub fn stdin(&mut self) -> Option<ChildStdin> {
         self.child.stdin.take()
     }
 
-    /// Returns the standard output of the process, if nobody has taken it yet.
+    /// Takes the standard output of the process; `None` if the standard output was taken before.
     pub fn stdout(&mut self) -> Option<ChildStdout> {
         self.child.stdout.take()
     }
 
-    /// Keeps the end of a stream among the last words of the process.
+    /// Reads a stream of the process, and keeps the last bytes for messages about the end of the process.
     pub fn keep_last_of(&mut self, stream: impl Read + Send + 'static) {
         let kept = self.complaints.clone();
         self.listeners.push(thread::spawn(move || keep_last(stream, &kept)));
@@ -64,15 +65,14 @@ impl Process {
         self.child.try_wait().ok().flatten()
     }
 
-    /// Returns the exit status of the process, if it ends within a moment. A process closes its streams before its end
-    /// is known.
+    /// Waits up to 1 s for the end of the process, and returns the exit status if the process has ended. A process
+    /// closes its streams before its end is known.
     pub fn ended(&mut self) -> Option<ExitStatus> {
         wait_until(ARRIVAL, || self.status().is_some());
         self.status()
     }
 
-    /// Returns a description of what happened to the process, with its last words. Ends the process if it has not ended
-    /// yet.
+    /// Ends the process if it still runs, and returns the text `how` together with the last output of the process.
     pub fn post_mortem(&mut self, how: String) -> String {
         self.end();
         wait_until(ARRIVAL, || self.listeners.iter().all(JoinHandle::is_finished));
@@ -84,7 +84,7 @@ impl Process {
         }
     }
 
-    /// Ends the process and everything that it started, at once.
+    /// Kills the process and all processes that it started.
     pub fn end(&mut self) {
         // Processes that have ended already cannot be ended.
         #[cfg(unix)]
@@ -128,13 +128,13 @@ fn keep_last(mut stream: impl Read, kept: &Mutex<VecDeque<u8>>) {
     }
 }
 
-/// The reason why a text is not a command.
+/// The reason why a text is not a valid command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CommandFlaw {
     /// A quote is opened and not closed.
     #[error("a quote is not closed")]
     OpenQuote,
-    /// The command has no word, or an empty first word.
+    /// The command is empty, or its first word is empty.
     #[error("found no program, expected a command that starts a program")]
     NoProgram,
 }

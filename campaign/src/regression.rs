@@ -14,19 +14,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A test with its expected result.
+/// A regression test, which is a test with a study and an expected result.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Regression {
-    /// The description of the test, in a sentence.
+    /// The description of the regression test in one sentence.
     pub about: String,
-    /// The expected result.
+    /// The expected result of the test.
     pub expect: Expectation,
     /// The ids of the requirements that the test violated when the file was written.
     pub violates: Vec<String>,
-    /// The values of the open parameters.
+    /// The values of the open parameters in the test.
     pub test: Values,
-    /// The fingerprint of the trace when the file was written; without it, traces are not compared.
+    /// The hash of the trace when the file was written; `None` if traces are not compared.
     pub trace_hash: Option<String>,
     study: StudyFile,
 }
@@ -37,46 +37,46 @@ pub struct Regression {
 pub enum Expectation {
     /// The test violates all requirements that it violated when the file was written.
     Fail,
-    /// The test violates nothing.
+    /// The verdict of the test is `pass`.
     Pass,
 }
 
 /// The result of a regression test that was run again.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Replayed {
-    /// The expected result.
+    /// The expected result of the test.
     pub expect: Expectation,
-    /// True if the result was the expected one.
+    /// True if the test had the expected result.
     pub as_expected: bool,
-    /// True if the trace was exactly the same; `None` if that cannot be expected, because the test should now pass, or
-    /// was written by another version of the software, or without a trace.
+    /// True if the trace was exactly equal to the recorded trace; `None` if the traces cannot be compared. This is so
+    /// if the test should now pass, or was written by another version of the software, or without a trace.
     pub same_trace: Option<bool>,
-    /// The test with its new result.
+    /// The trial of the new run of the test.
     pub trial: Trial,
 }
 
 /// The error in a regression file.
 #[derive(Debug, Error)]
 pub enum RegressionFlaw {
-    /// The file is not a regression file.
+    /// The contents of the file do not have the form of a regression test.
     #[error("the file is not a regression test: {0}")]
     Json(serde_json::Error),
     /// The test does not belong to the study of the file.
     #[error("`test`: {0}")]
     Test(SpaceError),
-    /// The file names a requirement that its study does not have.
+    /// The file names a requirement that the study of the file does not have.
     #[error("`violates`: no requirement is called `{id}`")]
     NoRequirement {
-        /// The id.
+        /// The id that no requirement of the study has.
         id: String,
     },
 }
 
-/// The name cannot be that of a regression file.
+/// The error that a regression file cannot have the given name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} cannot be a regression file, expected a name like regressions/NAME.json", path.display())]
 pub struct NoRegressionName {
-    /// The file.
+    /// The path with the invalid file name.
     pub path: PathBuf,
 }
 
@@ -84,7 +84,7 @@ impl Reason for RegressionFlaw {}
 impl Reason for NoRegressionName {}
 
 impl Regression {
-    /// Makes the regression test of a failing trial, which is expected to fail.
+    /// Makes a regression test from a failing trial, with the expectation that the test fails again.
     pub fn new(about: String, study: &Study, trial: &Trial) -> Self {
         let violates = trial.violated().map(str::to_owned).collect();
         let study = StudyFile { study: study.of_one_test(), learned: Default::default(), extends: None };
@@ -92,7 +92,7 @@ impl Regression {
         Self { about, expect: Expectation::Fail, violates, test, trace_hash, study }
     }
 
-    /// Reads a regression file.
+    /// Reads a regression test from a file.
     ///
     /// # Errors
     /// The file cannot be read, is not a regression file, or its test does not belong to its study.
@@ -113,7 +113,7 @@ impl Regression {
         }
     }
 
-    /// Writes a file that does not exist yet, and makes its folder if necessary.
+    /// Writes the regression test to a new file, and creates the folder of the file if necessary.
     ///
     /// # Errors
     /// The file exists or cannot be written.
@@ -138,12 +138,12 @@ impl Regression {
         Ok(is_new(path, "a regression file")?)
     }
 
-    /// Returns the study that the test belongs to.
+    /// Returns the study to which the regression test belongs.
     pub fn study(&self) -> &Study {
         &self.study.study
     }
 
-    /// Runs the test again.
+    /// Runs the test again, and compares the result with the expected result.
     ///
     /// # Errors
     /// The study cannot be run.

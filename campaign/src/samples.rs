@@ -4,47 +4,47 @@ use crate::Reason;
 use paracosm_space::plural;
 use thiserror::Error;
 
-/// The reason why samples are not a trace. A trace has times in seconds, evenly spaced from 0 on, and a number for
-/// every signal at each time.
+/// The reason why a list of samples is not a valid trace. A trace has times in seconds, evenly spaced from 0 on, and a
+/// number for every signal at each time.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TraceFlaw {
-    /// There are no times.
+    /// The samples have no signal `time`.
     #[error("found {}, expected `time` among them", found(.signals))]
     NoTime {
-        /// The signals that were found.
+        /// The names of the signals that were found.
         signals: Vec<String>,
     },
-    /// There is nothing but times.
+    /// The samples have no signal except `time`.
     #[error("found no signal beside `time`, expected at least one signal")]
     NoSignal,
-    /// Two signals have one name.
+    /// Two signals have the same name.
     #[error("two signals are called `{signal}`")]
     Twice {
-        /// The name of the two signals.
+        /// The name that two signals share.
         signal: String,
     },
-    /// There are too few samples to tell the sample period.
+    /// The trace has too few samples to determine the sample period.
     #[error("found {}, expected at least 2", plural(*samples, "sample"))]
     TooShort {
-        /// The number of samples.
+        /// The number of samples in the trace.
         samples: usize,
     },
-    /// A signal has more or fewer samples than there are times.
+    /// The number of samples of a signal differs from the number of times.
     #[error("`{signal}` has {}, expected {expected}, as many as `time`", plural(*found, "sample"))]
     Length {
-        /// The name of the signal.
+        /// The name of the signal with the error.
         signal: String,
         /// The number of samples of the signal.
         found: usize,
-        /// The number of times.
+        /// The expected number of samples, which is the number of times.
         expected: usize,
     },
     /// A sample is not a number.
     #[error("`{signal}` is `{found}` at sample {sample}, expected a number")]
     NoNumber {
-        /// The name of the signal.
+        /// The name of the signal with the error.
         signal: String,
-        /// The text that was found.
+        /// The text that was found in place of a number.
         found: String,
         /// The index of the sample, from 0.
         sample: usize,
@@ -55,37 +55,37 @@ pub enum TraceFlaw {
         time.map(|time| format!(", {time} s")).unwrap_or_default()
     )]
     NoValue {
-        /// The name of the signal.
+        /// The name of the signal with the error.
         signal: String,
         /// The index of the sample, from 0.
         sample: usize,
-        /// The time of the sample, if it is known.
+        /// The time of the sample in seconds, if the time is known.
         time: Option<f64>,
     },
-    /// The first time is not 0.
+    /// The first time of the trace is not 0.
     #[error("the trace begins at {at} s, expected 0 s")]
     Begins {
-        /// The first time.
+        /// The first time of the trace, in seconds.
         at: f64,
     },
-    /// A time is not later than the time before it.
+    /// A time is not later than the previous time.
     #[error("`time` goes from {from} to {to} at sample {sample}, expected it to rise")]
     Falls {
-        /// The time of the sample before.
+        /// The time of the previous sample, in seconds.
         from: f64,
-        /// The time of the sample.
+        /// The time of the sample, in seconds.
         to: f64,
         /// The index of the sample, from 0.
         sample: usize,
     },
-    /// The distance between two times differs from the sample period.
+    /// The distance between two successive times differs from the sample period.
     #[error("the samples are not evenly spaced: sample {sample} is at {found} s, expected {expected} s")]
     Uneven {
         /// The index of the sample, from 0.
         sample: usize,
-        /// The time of the sample.
+        /// The time of the sample, in seconds.
         found: f64,
-        /// The time that the sample should have.
+        /// The expected time of the sample, in seconds.
         expected: f64,
     },
 }

@@ -17,7 +17,7 @@ const MOST: f64 = 10.0;
 /// The scales that a campaign has learned, by the ids of the requirements and in the units of the requirements.
 pub type Learned = BTreeMap<String, f64>;
 
-/// The scales of all requirements of a study.
+/// The scales of a study's requirements, by which values of robustness are compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scales {
     stated: BTreeMap<String, f64>,
@@ -25,18 +25,18 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Joins the scales that a study states and the scales that its campaign has learned.
+    /// Combines the scales that a study states with the scales that the study's campaign has learned.
     pub fn of(study: &Study, learned: Learned) -> Self {
         let stated = study.requirements().iter().filter_map(|stated| Some((stated.id.clone(), stated.scale?)));
         Self { stated: stated.collect(), learned }
     }
 
-    /// Returns the scales that were learned.
+    /// Returns the scales that the campaign has learned.
     pub fn learned(&self) -> &Learned {
         &self.learned
     }
 
-    /// Learns the scales that are not known yet from the next trials of the campaign.
+    /// Learns the unknown scales of requirements from the robustness in the given trials.
     pub fn learn(&mut self, trials: &[Trial]) {
         let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
         for trial in trials.iter().filter(|trial| trial.covers()) {
@@ -54,27 +54,28 @@ impl Scales {
         self.stated.get(id).or_else(|| self.learned.get(id)).copied()
     }
 
-    /// Returns a robustness of this requirement in multiples of its scale. The scale is 1 if it is not known because
+    /// Returns the given robustness divided by the scale of the requirement. The scale is 1 if it is not known because
     /// every robustness so far was 0 or infinite.
     pub fn normalised(&self, id: &str, robustness: f64) -> f64 {
         robustness / self.known(id).unwrap_or(1.0)
     }
 
-    /// Returns the robustness of a requirement in multiples of its scale, clipped to [-10, 10]; `None` if the trial has
-    /// no result or did not decide the requirement.
+    /// Returns the robustness of a requirement in a trial, divided by the requirement's scale and clipped to [-10, 10].
+    /// `None` if the trial has no result or did not decide the requirement.
     pub fn clipped(&self, trial: &Trial, id: &str) -> Option<f64> {
         let robustness = trial.robustness(id).filter(|_| trial.covers())?;
         Some(self.normalised(id, robustness).clamp(-MOST, MOST))
     }
 
-    /// Returns the objective of a single search, which is the robustness of the worst of all requirements, in multiples
-    /// of its scale and clipped to [-10, 10]; `None` if the trial has no result or decided nothing.
+    /// Returns the smallest scaled robustness of all requirements in a trial, clipped to [-10, 10]. A single search
+    /// minimises this number. `None` if the trial has no result or decided no requirement.
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
         trial.requirements().filter_map(|id| self.clipped(trial, id)).min_by(f64::total_cmp)
     }
 
-    /// Returns the requirement that a trial comes nearest to violating, or violates most. It comes with its robustness
-    /// in multiples of its scale; `None` if the trial has no result or decided nothing.
+    /// Returns the requirement with the smallest scaled robustness in a trial, together with this robustness. The trial
+    /// comes nearest to violating this requirement, or violates it most. `None` if the trial has no result or decided
+    /// no requirement.
     pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
         let worth = |id: &'t str| Some((id, self.normalised(id, trial.robustness(id)?)));
         trial.requirements().filter(|_| trial.covers()).filter_map(worth).min_by(|a, b| a.1.total_cmp(&b.1))

@@ -12,41 +12,42 @@ use thiserror::Error;
 /// The endings of the names of PICT models; all other files are read as TOML.
 const PICT: [&str; 3] = ["pict", "txt", "model"];
 
-/// The contents of the file of a space.
+/// The contents of a file that describes a space of parameters.
 #[derive(Debug, Clone)]
 pub struct SpaceFile {
-    /// The space with its parameters.
+    /// The space of parameters that the file describes.
     pub space: Space,
-    /// The combinations that a PICT model requires in addition to all combinations of k values.
+    /// The combinations of values that a PICT model requires in addition to all combinations of values of any k
+    /// parameters.
     pub demand: Demand,
-    /// Notes on how the file was understood, a sentence each.
+    /// Notes about the interpretation of the file, each in one sentence.
     pub notes: Vec<String>,
 }
 
-/// The error in the file of a space.
+/// The error in a file that describes a space of parameters.
 #[derive(Debug, Error)]
 pub enum SpaceFileFlaw {
-    /// The file is not UTF-8 text.
+    /// The text of the file is not UTF-8.
     #[error("found bytes that are not UTF-8, expected a text in UTF-8")]
     NoText,
     /// The file is not a valid PICT model.
     #[error("column {}: {}", .0.column, .0.flaw)]
     Pict(PictError),
-    /// The file does not describe a valid space.
+    /// The file does not describe a valid space of parameters.
     #[error("{}{}", .0.at().map(|at| format!("column {}: ", at.column)).unwrap_or_default(), .0)]
     Space(SpaceError),
 }
 
 impl Reason for SpaceFileFlaw {}
 
-/// Returns `true` if the name of a file is that of a PICT model.
+/// Returns `true` if a file name ends in `.pict`, `.txt` or `.model`, which are the endings of PICT models.
 pub fn is_model(path: &Path) -> bool {
     let ending = path.extension().and_then(OsStr::to_str);
     ending.is_some_and(|ending| PICT.contains(&ending.to_lowercase().as_str()))
 }
 
 impl SpaceFile {
-    /// Reads a PICT model if the name of the file is that of a model, otherwise a SPACE.toml.
+    /// Reads a space from a PICT model or from a TOML file, depending on the ending of the file name.
     ///
     /// # Errors
     /// The file cannot be read or is not valid, or no test satisfies its constraints. The error names the line, and the

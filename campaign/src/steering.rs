@@ -11,7 +11,7 @@ use crate::{Study, Trial};
 use paracosm_generators::{Bandit, Generator, GeneratorError};
 use paracosm_space::Point;
 
-/// The source of a campaign's tests.
+/// The source of a campaign's tests, which uses the results of earlier tests.
 pub struct Steering<'a> {
     study: &'a Study,
     /// The tests that count as done.
@@ -28,7 +28,8 @@ enum Steered {
 }
 
 impl<'a> Steering<'a> {
-    /// Makes the source of the tests of a study. The tests complete the `existing` tests.
+    /// Makes the source of the tests of a study, which uses the study's own generator. The tests complete the
+    /// `existing` tests.
     ///
     /// # Errors
     /// The same errors as [`Study::generator`].
@@ -50,7 +51,7 @@ impl<'a> Steering<'a> {
         Ok(steering)
     }
 
-    /// Returns the next tests, at most `n`; no tests if the strategy is exhausted.
+    /// Returns at most `n` new tests; no tests if the strategy is exhausted.
     pub fn ask(&mut self, n: usize) -> Vec<Point> {
         match &mut self.search {
             Steered::One(search) => search.ask(n),
@@ -58,7 +59,7 @@ impl<'a> Steering<'a> {
         }
     }
 
-    /// Reports the results of tests that were asked for.
+    /// Reports the trials of tests that [`ask`](Self::ask) returned.
     ///
     /// # Errors
     /// The same errors as [`Study::generator`].
@@ -84,7 +85,7 @@ impl<'a> Steering<'a> {
         Ok(())
     }
 
-    /// Returns the scales by which the searches measure robustness.
+    /// Returns the scales of the requirements, by which the searches compare values of robustness.
     pub fn scales(&self) -> &Scales {
         &self.scales
     }

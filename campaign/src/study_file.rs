@@ -14,11 +14,12 @@ const FORMAT: u32 = 1;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "Entries", into = "Entries")]
 pub struct StudyFile {
-    /// The study. After reading it has no program yet; [`Study::with_program_of`] finds the program.
+    /// The study that the file describes. After reading it has no program yet; [`Study::with_program_of`] finds the
+    /// program.
     pub study: Study,
     /// The scales that the campaign has learned.
     pub learned: Learned,
-    /// The tests that count as done.
+    /// The number and the hash of the tests that the campaign extends; `None` if the campaign extends no tests.
     pub extends: Option<ExtensionRecord>,
 }
 
@@ -59,10 +60,10 @@ struct Entries {
 /// The reason why a file does not hold a study that this software understands.
 #[derive(Debug, Error)]
 pub enum FormatFlaw {
-    /// The file has the format of another version.
+    /// The file has a different version of the format.
     #[error("found format {found}, expected {FORMAT}: version {version} of the software wrote the campaign")]
     Format {
-        /// The number of the format.
+        /// The number of the format in the file.
         found: u32,
         /// The version of the software that wrote the file.
         version: String,
@@ -70,7 +71,7 @@ pub enum FormatFlaw {
     /// The file names a strategy, a family or an aim that does not exist.
     #[error(transparent)]
     Sampling(#[from] GeneratorError),
-    /// The file is not JSON, or its JSON is not a study.
+    /// The file is not JSON, or the JSON does not describe a study.
     #[error("{0}")]
     Json(serde_json::Error),
 }
@@ -78,7 +79,7 @@ pub enum FormatFlaw {
 impl Reason for FormatFlaw {}
 
 impl FormatFlaw {
-    /// Returns the line, from 1, of an error in the JSON.
+    /// Returns the line number, from 1, of an error in the JSON; `None` for other errors.
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::Json(error) => Some(error.line()),
@@ -88,13 +89,13 @@ impl FormatFlaw {
 }
 
 impl StudyFile {
-    /// Joins a study, the scales that its campaign has learned, and the tests that it extends.
+    /// Makes the contents of `campaign.json` from a study, the learned scales, and the tests that the campaign extends.
     pub fn new(study: &Study, learned: &Learned, extension: Option<&Extension>) -> Self {
         let extends = extension.map(|extension| extension.record().clone());
         Self { study: study.clone(), learned: learned.clone(), extends }
     }
 
-    /// Reads the text of a file, and looks for the program of its scenario.
+    /// Reads the text of a `campaign.json`, and looks for the program of the scenario in a catalogue.
     ///
     /// # Errors
     /// The text is not a study, or is of another version.
@@ -104,7 +105,25 @@ impl StudyFile {
         Ok(Self { study: file.study.with_program_of(catalogue), ..file })
     }
 
-    /// Returns the text of the file.
+    /// Returns the entries that determine the tests of the campaign and the verdicts on the tests. Two files with the
+    /// same entries hold the same campaign. The result does not have the learned scales, which a campaign learns on its
+    /// way; the name of the file that the campaign extends, since the same tests may stand in another file; and the
+    /// texts that explain requirements, which another version of the software may word differently.
+    pub fn identity(&self) -> serde_json::Value {
+        let mut entries = serde_json::to_value(self).expect("a study is always JSON");
+        if let Some(extends) = entries.get_mut("extends") {
+            *extends = extends["hash"].take();
+        }
+        if let Some(entries) = entries.as_object_mut() {
+            entries.remove("learned_scales");
+        }
+        for requirement in entries["requirements"].as_array_mut().into_iter().flatten() {
+            requirement.as_object_mut().map(|entries| entries.remove("text"));
+        }
+        entries
+    }
+
+    /// Returns the study, the learned scales and the extended tests as the text of a `campaign.json`.
     pub fn text(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).expect("a study is always JSON");
         text.push('\n');

@@ -12,89 +12,90 @@ use thiserror::Error;
 /// The most numbers (some gigabytes of tests) that are kept in memory; larger sets are refused.
 const MOST_NUMBERS: usize = 50_000_000;
 
-/// A set of tests, with the space that they are points of.
+/// A set of tests, with the space to which the tests belong.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TestSet {
-    /// The space of the tests.
+    /// The space to which the tests belong.
     pub space: Space,
-    /// The coordinates of the tests.
+    /// The coordinates of the tests in the space.
     pub points: Vec<Point>,
-    /// The number of discrete parameters that the tests were made to cover together, if it is known.
+    /// The number of discrete parameters whose combinations the tests should cover; `None` if the number is not known.
     pub k: Option<usize>,
-    /// The combinations that the tests should cover in addition to all combinations of k values. Negative values matter
-    /// only to the combinations of discrete values; all tests count for the continuous parameters.
+    /// The combinations of values that the tests should cover in addition to all combinations of values of any k
+    /// parameters. Negative values matter only to the combinations of discrete values; all tests count for the
+    /// continuous parameters.
     pub demand: Demand,
 }
 
-/// The tests do not fit in memory.
+/// The error that a set of tests does not fit in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("{} of {} do not fit in memory: at most {MOST_NUMBERS} numbers", plural(*tests, "test"), plural(*parameters, "parameter"))]
 pub struct TooManyTests {
-    /// The number of tests.
+    /// The number of tests in the set.
     pub tests: usize,
-    /// The number of parameters.
+    /// The number of parameters of each test.
     pub parameters: usize,
 }
 
-/// The error in the header of a file of tests.
+/// The error in the header of a CSV file of tests.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum HeaderFlaw {
-    /// The file has no header.
+    /// The CSV file is empty and has no header.
     #[error("the file is empty, expected a header with the names of the columns")]
     Empty,
-    /// Numbers stand in place of the header.
+    /// The first line of the file has numbers instead of the names of columns.
     #[error("found numbers, expected a header with the names of the columns")]
     Numbers,
-    /// The columns are separated by semicolons.
+    /// The columns of the CSV file are separated by semicolons.
     #[error("the columns seem to be separated by `;`, expected `,`")]
     Semicolons,
-    /// A column is missing.
+    /// The file has no column for a coordinate of the space.
     #[error("no column is called `{name}`{}", nearest.as_ref().map(|column| format!(" (is it `{column}`?)")).unwrap_or_default())]
     NoColumn {
-        /// The name of the coordinate.
+        /// The name of the missing column.
         name: String,
-        /// The name of a column that was perhaps meant.
+        /// The most similar name of a column; `None` if no name is similar.
         nearest: Option<String>,
     },
 }
 
-/// The error in a test of a file.
+/// The reason why a test in a CSV file is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CellFlaw {
-    /// The cell is empty.
+    /// A cell of the test is empty.
     #[error(
         "found an empty cell, expected a value{}",
         if *is_mixed { "; tests to complete may have empty cells only if no parameter is continuous" } else { "" }
     )]
     Open {
-        /// True if some parameters are continuous and others discrete.
+        /// True if the space has both continuous and discrete parameters.
         is_mixed: bool,
     },
-    /// The cell holds a word, but a number is expected.
+    /// A cell of the test holds a word in place of a number.
     #[error("found `{found}`, expected a number")]
     NoNumber {
-        /// The value that was found.
+        /// The value that was found in place of a number.
         found: Value,
     },
-    /// The value differs from the value at which the parameter is fixed.
+    /// A value of the test differs from the fixed value of the parameter.
     #[error("found {found}, but `{name}` is fixed at {value}; --open {name} lets it vary")]
     Fixed {
-        /// The value that was found.
+        /// The value that was found in the file.
         found: Value,
         /// The name of the parameter.
         name: String,
-        /// The fixed value.
+        /// The fixed value of the parameter.
         value: Value,
     },
-    /// The parameter does not take the value.
+    /// The parameter does not accept the value.
     #[error(transparent)]
     Parameter(ParameterError),
-    /// The values are not a test of the space.
+    /// The values of the test are not a valid test of the space.
     #[error(transparent)]
     Space(SpaceError),
 }
 
-/// An error in a test of a file, with its column.
+/// The error that a test in a CSV file is invalid, with the name of the column.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "{}{flaw}{}",
@@ -102,21 +103,21 @@ pub enum CellFlaw {
     if *is_made_up { "; name the space of the tests with --space SPACE.toml" } else { "" }
 )]
 pub struct WrongCell {
-    /// The name of the column, if the error is that of one column.
+    /// The name of the column with the error; `None` if the error is not in a single column.
     pub column: Option<String>,
-    /// The error in the test.
+    /// The reason why the test is invalid.
     pub flaw: CellFlaw,
     /// True if no space was given, so that the columns were read as coordinates.
     pub is_made_up: bool,
 }
 
-/// The path is a folder, but a file of tests is expected.
+/// The error that a path leads to a folder instead of a file of tests.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "{} is a folder, expected a CSV; a campaign has its tests in {}", path.display(), path.join("trials.csv").display()
 )]
 pub struct IsFolder {
-    /// The folder.
+    /// The path of the folder.
     pub path: PathBuf,
 }
 
@@ -126,12 +127,12 @@ impl Reason for WrongCell {}
 impl Reason for IsFolder {}
 
 impl TestSet {
-    /// Makes a set of tests without further information.
+    /// Makes a set of tests from a space and the coordinates of the tests.
     pub fn new(space: Space, points: Vec<Point>) -> Self {
         Self { space, points, k: None, demand: Demand::default() }
     }
 
-    /// Checks that this number of tests, with this number of parameters, fits in memory.
+    /// Checks that the given number of tests, each with the given number of parameters, fits in memory.
     ///
     /// # Errors
     /// The tests are more than 50 million numbers.
@@ -142,7 +143,7 @@ impl TestSet {
         Err(TooManyTests { tests, parameters })
     }
 
-    /// Reads the tests in a file.
+    /// Reads a set of tests from a CSV file.
     ///
     /// Without a space, all columns are continuous coordinates in `[0,1]`. With a space, columns that are not
     /// parameters of the space are ignored, and so are tests of a campaign with the verdict `error` or `invalid`.
@@ -158,8 +159,8 @@ impl TestSet {
         Ok(Self::new(file.space, points))
     }
 
-    /// Reads tests of a space without continuous parameters, in which some levels may be open. An empty cell is `None`.
-    /// Each test comes with its line.
+    /// Reads tests with open levels from a CSV file, for a space without continuous parameters. An empty cell is
+    /// `None`. Each test comes with its line.
     ///
     /// # Errors
     /// The same errors as [`TestSet::read`].
@@ -185,7 +186,7 @@ impl TestSet {
     }
 }
 
-/// A test of discrete parameters that may leave some levels open.
+/// A test of discrete parameters, with the index of each level or `None` for an open level.
 pub type PartialRow = Vec<Option<usize>>;
 
 /// Returns `true` if a cell leaves a parameter open. The cell is empty then, and the empty word is not a level of the
@@ -203,8 +204,8 @@ fn value(text: &str, parameter: &Parameter) -> Value {
     written(text).or_else(|| written(text.trim())).cloned().unwrap_or_else(|| Value::parse(text))
 }
 
-/// Reads the values of tests of a space. If a column has the name of a fixed parameter (which is not part of the
-/// space), its values must be the fixed ones.
+/// Reads tests from a CSV file as values of the parameters of a space. If a column has the name of a fixed parameter
+/// (which is not part of the space), the values in the column must be the fixed value.
 ///
 /// # Errors
 /// The same errors as [`TestSet::read`], or a column differs from a fixed value.

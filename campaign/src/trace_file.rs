@@ -11,7 +11,7 @@ use std::path::Path;
 /// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 0.01;
 
-/// Writes a trace as CSV, with a column `time` in seconds, then one for each signal.
+/// Writes a trace to a CSV file, with a column `time` in seconds and a column for each signal.
 ///
 /// # Errors
 /// The file cannot be written, or has the name of a file that belongs to a campaign.
@@ -29,9 +29,10 @@ pub fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
 }
 
-/// Reads a trace from CSV, in the format of [`write_trace`]. The columns are `time` in seconds, evenly spaced from 0
-/// on, and one for each signal, with numbers, `true` and `false`. After each sample from the second on, `goes_on` gets
-/// the trace so far. If it returns `false`, the trace is returned as one that was cut short; otherwise it is complete.
+/// Reads a trace from CSV, in the format that [`write_trace`] writes. The columns are `time` in seconds, evenly spaced
+/// from 0 on, and one for each signal, with numbers, `true` and `false`. After each sample from the second on,
+/// `goes_on` gets the trace so far. If it returns `false`, the trace is returned as one that was cut short; otherwise
+/// it is complete.
 ///
 /// # Errors
 /// `goes_on` returns an error; or the source, called `path`, is not a valid table: the error says in which line and
@@ -159,7 +160,7 @@ mod tests {
             ("", "expected `time`"),
             ("time\n0\n", "no signal beside `time`"),
             ("time,x,x\n", "two signals are called `x`"),
-            ("time,x\n0,1\n", "found 1 samples, expected two"),
+            ("time,x\n0,1\n", "found 1 sample, expected at least 2"),
             ("time,x\n1,1\n", "line 2: the trace begins at 1 s, expected 0 s"),
             ("time,x\n0,1\n0,1\n", "line 3: `time` goes from 0 to 0 at sample 1, expected it to rise"),
             ("time,x\n0,1\n1,NaN\n", "line 3: `x` is `NaN` at sample 1, expected a number"),

@@ -7,21 +7,21 @@ use thiserror::Error;
 /// The error in a line of a log.
 #[derive(Debug, Error)]
 pub enum LogFlaw {
-    /// The file is not UTF-8 text.
+    /// The text of the file is not UTF-8.
     #[error("found bytes that are not UTF-8, expected a trial as JSON")]
     NoText,
-    /// The line ends with a carriage return, as on another operating system.
+    /// The line ends with a carriage return.
     #[error("found a carriage return at the end of the line, expected none")]
     CarriageReturn,
-    /// The line is not a trial.
+    /// The line is not a trial in JSON.
     #[error("the line is not a trial: {0}")]
     NoTrial(serde_json::Error),
-    /// The index of the trial is not the number of its line.
+    /// The index of the trial does not match the number of the line.
     #[error("found trial {found}, expected trial {expected}")]
     Index {
-        /// The index of the trial.
+        /// The index that the trial has.
         found: usize,
-        /// The index that the line should have.
+        /// The index that the trial should have, which matches the number of the line.
         expected: usize,
     },
 }

@@ -19,7 +19,7 @@ use paracosm_space::Values;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Runs the tests of a study, one at a time or many in lockstep.
+/// A worker that runs tests of a study, one test at a time or many tests in lockstep.
 pub struct Worker<'a> {
     study: &'a Study,
     bench: Bench<'a>,
@@ -41,7 +41,7 @@ impl<'a> Worker<'a> {
         Self::until(study, Arc::default())
     }
 
-    /// Makes a worker that no longer waits for a system or a driver once `stop` is set.
+    /// Makes a worker that stops waiting for a system or a driver once `stop` is set.
     pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let mut worker = Self::beside(study, stop, None)?;
         if let Bench::Simulator(simulator) = &mut worker.bench {
@@ -65,7 +65,8 @@ impl<'a> Worker<'a> {
         self.study
     }
 
-    /// Starts the system, if the study tests a system; otherwise the first test starts it.
+    /// Starts the external system of the study, and does nothing for a scenario. Without this call, the first test
+    /// starts the system.
     ///
     /// # Errors
     /// The system cannot be started.
@@ -76,7 +77,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs a test, and returns its trial and, if there is one, its trace.
+    /// Runs a test, and returns the trial and the trace; the trace is `None` if the test has no trace.
     pub fn run(&mut self, index: usize, test: &Values) -> (Trial, Option<Trace>) {
         let Self { study, bench } = self;
         match bench {
@@ -88,13 +89,13 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs a test as [`run`](Self::run) does. `see` gets the run of a scenario whenever the driver is asked, and at
-    /// the end.
+    /// Runs a test, and calls `see` with the run of a scenario whenever the driver is asked, and at the end. Otherwise
+    /// it works like [`run`](Self::run).
     pub fn watch(&mut self, index: usize, test: &Values, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
         self.film(index, test, None, see)
     }
 
-    /// Runs a test as [`watch`](Self::watch) does, while these cameras film the run of a scenario.
+    /// Runs a test as [`watch`](Self::watch) does, while the given cameras film the simulated run.
     pub fn film(
         &mut self,
         index: usize,
@@ -112,14 +113,14 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs a test of a log again. `see` gets the run of a scenario whenever the driver is asked, and at the end. The
-    /// trial is the same as the campaign would have made.
+    /// Runs a test of a log again, and returns the new trial and the new trace. `see` gets the run of a scenario
+    /// whenever the driver is asked, and at the end. The trial is the same as the campaign would have made.
     pub fn replay(&mut self, log: &Log, logged: &Trial, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
         let (trial, trace) = self.watch(logged.index, &logged.test, see);
         (Expected::of(self.study, &log.trials()[..logged.index]).check(trial), trace)
     }
 
-    /// Returns the cameras of the driver; no cameras if the driver uses none.
+    /// Returns the cameras of the driver; the result is empty if the driver uses no cameras.
     ///
     /// # Errors
     /// No driver can be made.
@@ -131,7 +132,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Returns the darkroom that draws for the drivers, if they use cameras.
+    /// Returns the darkroom that draws the camera images for the drivers; `None` if no darkroom is open.
     pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
         match &self.bench {
             Bench::Simulator(simulator) => simulator.darkroom(),
@@ -139,8 +140,8 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs the tests of a scenario that the desk gives out, `at_once` at a time, until `stopped`. The first test has
-    /// the index `first`.
+    /// Runs the tests of a scenario that `desk` gives out, `at_once` tests at a time, until `stopped` returns `true`.
+    /// The first test has the index `first`.
     pub fn run_in_lockstep(
         &mut self,
         (desk, at_once): (&Desk<Trial>, usize),

@@ -4,25 +4,25 @@ use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// A certified interval around an exact value: `lower <= exact <= upper`.
+/// A certified interval that contains an exact value, so that `lower <= exact <= upper`.
 ///
 /// `lower == upper` means that the value was computed to the end. It is exact but for the rounding of that
 /// computation: a product of differences for a volume, a distance for a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
-    /// The lower bound, which is the largest value that was found.
+    /// The lower bound on the exact value, which is the largest value that the search found.
     pub lower: f64,
-    /// The upper bound, which is the smallest value that the exact value is proved not to exceed.
+    /// The upper bound on the exact value, which is the smallest bound that the search proved.
     pub upper: f64,
 }
 
 impl Bracket {
-    /// Makes the bracket of a value that is known exactly.
+    /// Makes a bracket whose lower and upper bound are the given exact value.
     pub fn exact(value: f64) -> Self {
         Self { lower: value, upper: value }
     }
 
-    /// Returns `true` if the value was computed to the end.
+    /// Returns `true` if the lower and the upper bound are equal, so that the value is exact.
     pub fn is_exact(&self) -> bool {
         self.lower == self.upper
     }
@@ -36,39 +36,40 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// Makes a deadline without a limit, so that the search runs to the end.
+    /// Makes a deadline that never passes, so that the search runs until the result is complete.
     pub const fn never() -> Self {
         Self { at: None, called: None }
     }
 
-    /// Makes a deadline `limit` from now. The deadline is unlimited if the clock cannot represent that moment.
+    /// Makes a deadline that passes at `limit` from now. It is unlimited if the clock cannot represent that moment.
     pub fn after(limit: Duration) -> Self {
         Self { at: Instant::now().checked_add(limit), called: None }
     }
 
-    /// Adds a flag to the deadline. The deadline passes at the same moment as before, or as soon as `called` is set.
+    /// Returns the deadline with a flag that ends the search early. The deadline passes at the same moment as before,
+    /// or as soon as `called` is set.
     pub const fn or_when(self, called: &'static AtomicBool) -> Self {
         Self { called: Some(called), ..self }
     }
 
-    /// Returns an earlier deadline, at which `share` of the remaining time has gone by. Without a time limit it stays
-    /// unlimited.
+    /// Returns an earlier deadline, which passes after `share` of the remaining time, or never without a time limit.
     pub fn part(self, share: f64) -> Self {
         Self { at: self.left().map(|left| Instant::now() + left.mul_f64(share)), ..self }
     }
 
-    /// The remaining time if nobody sets the flag; `None` without a time limit.
+    /// Returns the remaining time, which ends earlier if the flag is set; `None` without a time limit.
     pub(crate) fn left(self) -> Option<Duration> {
         self.at.map(|at| at.saturating_duration_since(Instant::now()))
     }
 
-    /// Returns `true` if the deadline has passed.
+    /// Returns `true` if the time limit is over or the flag of the deadline is set.
     pub fn passed(&self) -> bool {
         self.called.is_some_and(|flag| flag.load(Ordering::Relaxed)) || self.at.is_some_and(|at| Instant::now() >= at)
     }
 }
 
-/// A deadline for a search with short steps: reading the clock takes as long as looking at some hundred numbers.
+/// A deadline for a search with short steps. It reads the clock only from time to time, because reading the clock takes
+/// as long as looking at some hundred numbers.
 #[derive(Debug)]
 pub(crate) struct Watch {
     deadline: Deadline,
@@ -83,7 +84,8 @@ impl Watch {
         Self { deadline, work: 0 }
     }
 
-    /// Counts `work` more numbers. Returns `true` if the deadline was seen to pass, now or before.
+    /// Counts the numbers that a step looked at, and checks the deadline from time to time. Returns `true` if the
+    /// deadline was seen to pass, now or before.
     pub(crate) fn passed_after(&mut self, work: usize) -> bool {
         self.work = self.work.saturating_add(work);
         if self.work < Self::WORK_BETWEEN_LOOKS {

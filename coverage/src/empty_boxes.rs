@@ -44,7 +44,7 @@ const WALL: u32 = u32::MAX;
 /// The number of boxes that are looked at together.
 const BLOCK: usize = 128;
 
-/// The maximal empty boxes of a set of points in the unit cube that grows by one point at a time.
+/// The maximal empty boxes among points in the unit cube, kept up to date while points are added one at a time.
 ///
 /// ```
 /// use paracosm_coverage::empty_boxes::EmptyBoxes;
@@ -78,7 +78,7 @@ pub struct EmptyBoxes {
     largest: LargestEmptyBox,
 }
 
-/// A view of one of the maximal empty boxes.
+/// A view of a single maximal empty box among the points.
 #[derive(Debug, Clone, Copy)]
 pub struct EmptyBox<'a> {
     boxes: &'a EmptyBoxes,
@@ -92,14 +92,14 @@ impl EmptyBox<'_> {
         (lower[self.at], upper[self.at])
     }
 
-    /// Returns the volume of the box, as a share of the volume of the cube.
+    /// Returns the volume of the box, as a share of the volume of the unit cube.
     pub fn volume(&self) -> f64 {
         self.boxes.volumes[self.at]
     }
 }
 
 impl EmptyBoxes {
-    /// Makes the boxes of a set without points, which are a single box, the whole cube.
+    /// Makes the empty boxes of a set without points, which are a single box, the whole cube.
     ///
     /// # Errors
     /// `dims` is 0.
@@ -107,8 +107,8 @@ impl EmptyBoxes {
         Self::at_most(dims, usize::MAX)
     }
 
-    /// Makes the boxes of a set without points, and keeps at most `most` boxes. If there are more, the smaller boxes
-    /// are forgotten.
+    /// Makes the empty boxes of a set without points, with the limit that at most `most` boxes are kept. If there are
+    /// more boxes, the smaller boxes are forgotten.
     ///
     /// The largest box is known for certain as long as it is larger than any box that was forgotten, because boxes
     /// only shrink.
@@ -133,7 +133,7 @@ impl EmptyBoxes {
         })
     }
 
-    /// Adds a point.
+    /// Adds a point to the set, and divides the empty boxes that hold the point.
     ///
     /// # Errors
     /// The point has another number of coordinates, or a coordinate is not in `[0,1]`. The boxes are then unchanged.
@@ -174,13 +174,13 @@ impl EmptyBoxes {
         Ok(())
     }
 
-    /// Returns a largest empty box.
+    /// Returns the largest empty box among the points added so far.
     pub fn largest(&self) -> &LargestEmptyBox {
         &self.largest
     }
 
-    /// Returns the dispersion of the points. It is exact unless a box was forgotten that is larger than all boxes
-    /// that are left.
+    /// Returns the dispersion of the points added so far. It is exact unless a box was forgotten that is larger than
+    /// all boxes that are left.
     pub fn dispersion(&self) -> Bracket {
         let lower = self.largest.volume();
         if self.forgotten <= lower {
@@ -191,13 +191,13 @@ impl EmptyBoxes {
         Bracket { lower, upper: upper.min(1.0) }
     }
 
-    /// Returns the number of boxes, which is at least 1.
+    /// Returns the number of empty boxes that are kept, which is at least 1.
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.volumes.len()
     }
 
-    /// Iterates over the boxes larger than `volume`.
+    /// Iterates over the kept empty boxes that are larger than `volume`.
     pub fn larger_than(&self, volume: f64) -> impl Iterator<Item = EmptyBox<'_>> {
         let found = self.volumes.iter().enumerate().filter(move |(_, other)| **other > volume);
         found.map(|(at, _)| EmptyBox { boxes: self, at })

@@ -6,7 +6,7 @@ use crate::star::{Sides, largest_difference};
 use crate::{Bracket, Deadline, PointSet};
 
 impl Measure {
-    /// The extreme discrepancy.
+    /// The measure "extreme discrepancy", which compares volume and share of tests over all axis-parallel boxes.
     pub const EXTREME: Self = Self::of(&Descriptor {
         name: "extreme",
         key: "extreme_discrepancy",
@@ -22,9 +22,9 @@ impl Measure {
 /// The largest number of combinations of coordinates for which the search takes milliseconds.
 const QUICK: f64 = 4e6;
 
-/// Computes the extreme discrepancy of a set of points. It is the largest of `vol (a,b) - #{a < x < b} / n` and `#{a
-/// <= x <= b} / n - vol [a,b]` over all axis-parallel boxes in the unit cube (Niederreiter, Random Number Generation
-/// and Quasi-Monte Carlo Methods, 1992, section 2.1).
+/// Computes the extreme discrepancy of a set of points. The extreme discrepancy is the largest of `vol (a,b) - #{a < x
+/// < b} / n` and `#{a <= x <= b} / n - vol [a,b]` over all axis-parallel boxes in the unit cube (Niederreiter, Random
+/// Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
 /// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. The
 /// discrepancy of a set without points is 1, because the whole cube is uncovered.

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 impl Measure {
-    /// The largest dispersion that any k parameters show.
+    /// The measure "k-wise dispersion", which is the volume of the largest hole in the space of any k parameters.
     pub const K_WISE_DISPERSION: Self = Self::of(&Descriptor {
         name: "k-wise-dispersion",
         key: "k_wise_dispersion",
@@ -37,15 +37,15 @@ impl Measure {
 /// The number of projections in a block.
 const BLOCK: usize = 64;
 
-/// The k-wise dispersion of a set of tests, with the place of the largest hole.
+/// The k-wise dispersion of a set of tests, with the parameters, values and box of the largest hole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KwiseDispersion {
-    /// The largest dispersion.
+    /// The k-wise dispersion, which is the volume of the largest hole over all choices of k parameters.
     pub volume: Bracket,
-    /// The discrete parameters among the k parameters with their values, as positions among the discrete parameters and
+    /// The discrete parameters of the largest hole with their values, as positions among the discrete parameters and
     /// levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters among the k parameters, by their positions among the continuous parameters.
+    /// The continuous parameters of the largest hole, as positions among the continuous parameters.
     pub axes: Vec<usize>,
     /// The largest empty box over the continuous parameters in `axes`; `None` if none of the k parameters is
     /// continuous.
@@ -53,8 +53,8 @@ pub struct KwiseDispersion {
 }
 
 impl KwiseDispersion {
-    /// Makes the k-wise dispersion of tests without continuous parameters. The dispersion is 0 if the tests cover all
-    /// combinations, otherwise 1.
+    /// Makes the k-wise dispersion from the k-wise coverage of tests without continuous parameters. The dispersion is 0
+    /// if the tests cover all combinations, otherwise 1.
     pub fn of_coverage(counted: KwiseCoverage) -> Self {
         let (volume, fixed) = match counted.missing.into_iter().next() {
             Some(missing) => (1.0, missing),
@@ -64,18 +64,18 @@ impl KwiseDispersion {
     }
 }
 
-/// A choice of parameters with a value for each chosen discrete parameter. A projection selects the tests with these
-/// values, and looks at these tests along the chosen continuous parameters.
+/// A choice of parameters with a value for each chosen discrete parameter. A projection selects the tests with the
+/// chosen values, and shows these tests along the chosen continuous parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Projection {
-    /// The discrete parameters with their values, as positions among the discrete parameters and levels.
+    /// The chosen discrete parameters with their values, as positions among the discrete parameters and levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters, by their positions among the continuous parameters.
+    /// The chosen continuous parameters, as positions among the continuous parameters.
     pub axes: Vec<usize>,
 }
 
 impl Projection {
-    /// Returns `true` if a test has the values of the projection.
+    /// Returns `true` if a test has the discrete values of the projection.
     ///
     /// # Panics
     /// The test has too few discrete coordinates.
@@ -83,7 +83,7 @@ impl Projection {
         self.fixed.iter().all(|&(parameter, level)| test.discrete[parameter] == level)
     }
 
-    /// Returns the coordinates of a test along the axes of the projection.
+    /// Returns the coordinates of a test along the continuous parameters of the projection.
     ///
     /// # Panics
     /// The test has too few continuous coordinates.
@@ -91,15 +91,16 @@ impl Projection {
         self.axes.iter().map(|&axis| test.continuous[axis]).collect()
     }
 
-    /// Returns the tests as points over the axes. The projection must have an axis.
+    /// Returns the coordinates of tests along the axes of the projection, as a set of points. The projection must have
+    /// an axis.
     pub(crate) fn points<'a>(&self, tests: impl Iterator<Item = &'a Point>) -> PointSet {
         PointSet::new(self.axes.len(), tests.map(|test| self.of(test))).expect("the tests are of the unit cube")
     }
 }
 
-/// Iterates over all choices of `k` parameters out of `dims` continuous parameters and the discrete parameters of
-/// `rules`, each with all valid combinations of values. The order is lexicographic, with the continuous parameters
-/// first.
+/// Iterates over all projections, which are all choices of `k` parameters, each with all valid combinations of discrete
+/// values. The parameters are `dims` continuous parameters and the discrete parameters of `rules`. The order is
+/// lexicographic, with the continuous parameters first.
 ///
 /// # Errors
 /// `k` is 0 or more than the number of parameters, or a discrete parameter has no level.
@@ -108,8 +109,8 @@ pub fn projections(dims: usize, rules: &Rules, k: usize) -> Result<impl Iterator
     Ok(all.filter(|projection| rules.is_valid(&projection.fixed)))
 }
 
-/// Computes the largest dispersion over all choices of `k` parameters out of `dims` continuous parameters and the
-/// discrete parameters of `rules`, and over all valid combinations of their values.
+/// Computes the largest dispersion over all choices of `k` parameters, with all valid combinations of discrete values.
+/// The parameters are `dims` continuous parameters and the discrete parameters of `rules`.
 ///
 /// The result is exact unless `deadline` cuts the search short. Its upper bound is then 1 if some projection was not
 /// even begun.
@@ -145,9 +146,9 @@ pub fn kwise_dispersion(
     Ok(worst)
 }
 
-/// Computes the largest dispersion among tests with the same discrete values, over all discrete values that some test
-/// has. The result is the smallest epsilon for which the tests are (k, epsilon)-covering, if the tests cover k-wise.
-/// The result is 1 if there is no test.
+/// Computes the largest dispersion of the groups of tests that have the same discrete values. The result is the
+/// smallest epsilon for which the tests are (k, epsilon)-covering, if the tests cover k-wise. The result is 1 if there
+/// is no test.
 ///
 /// # Panics
 /// There is no continuous parameter, or a test does not belong to the space.

@@ -18,7 +18,7 @@ use crate::{Deadline, PointSet};
 use rayon::prelude::*;
 
 impl Measure {
-    /// The L2-star discrepancy.
+    /// The measure "L2-star discrepancy", which compares volume and share of tests over boxes at the origin.
     pub const L2_STAR: Self = Self::of(&Descriptor {
         name: "l2-star",
         key: "l2_star",
@@ -32,7 +32,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// The square of the centered discrepancy.
+    /// The measure "centered discrepancy, squared", which uses boxes from a test to its nearest corner of the cube.
     pub const CENTERED: Self = Self::of(&Descriptor {
         name: "centered",
         key: "centered",
@@ -46,7 +46,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// The square of the wraparound discrepancy.
+    /// The measure "wraparound discrepancy, squared", which uses boxes that may cross the border of the cube.
     pub const WRAPAROUND: Self = Self::of(&Descriptor {
         name: "wraparound",
         key: "wraparound",
@@ -60,7 +60,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// The square of the mixture discrepancy.
+    /// The measure "mixture discrepancy, squared", which combines centered and wraparound discrepancy.
     pub const MIXTURE: Self = Self::of(&Descriptor {
         name: "mixture",
         key: "mixture",
@@ -87,9 +87,9 @@ pub fn centered(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 13.0 / 12.0, single, prepare, pair)
 }
 
-/// Computes the squared wraparound L2 discrepancy, over boxes that may leave the cube on one side and come back on the
-/// other side. The result agrees with `scipy.stats.qmc.discrepancy(method="WD")`. Source: Hickernell, Lattice rules:
-/// how well do they measure up?, 1998.
+/// Computes the squared wraparound L2 discrepancy, over boxes that may leave the cube and come back on the opposite
+/// side. The result agrees with `scipy.stats.qmc.discrepancy(method="WD")`. Source: Hickernell, Lattice rules: how well
+/// do they measure up?, 1998.
 pub fn wraparound(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let pair = |x: Prepared, y: Prepared| {
         let apart = (x.0 - y.0).abs();
@@ -115,7 +115,7 @@ pub fn mixture(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 19.0 / 12.0, single, prepare, pair)
 }
 
-/// Computes the L2-star discrepancy (the root, not the square). This discrepancy is the root mean square, over all
+/// Computes the L2-star discrepancy of a set of points, not squared. This discrepancy is the root mean square, over all
 /// boxes anchored at 0, of the difference between volume and share of points. The result agrees with
 /// `scipy.stats.qmc.discrepancy(method="L2-star")`. Source: Warnock, Computational investigations of low-discrepancy
 /// point sets, 1972.

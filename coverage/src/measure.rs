@@ -10,12 +10,12 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A measure of how well tests cover their space, as a handle to its [`Descriptor`]. Two measures with the same name
-/// are equal.
+/// A measure of the coverage of a space by tests, as a handle to the measure's [`Descriptor`]. Two measures with the
+/// same name are equal.
 #[derive(Clone, Copy)]
 pub struct Measure(&'static Descriptor);
 
-/// The description of a measure with its names, its meaning, when it is taken, and how it is computed.
+/// The description of a measure, with the names, the meaning and the computation of the measure.
 #[derive(Debug)]
 pub struct Descriptor {
     /// The name by which users ask for the measure. No two measures have the same name.
@@ -28,8 +28,8 @@ pub struct Descriptor {
     pub title: &'static str,
     /// The meaning of the measure, in one line.
     pub about: &'static str,
-    /// The rank of the measure when several are taken. A measure with a lower pace is taken first, and leaves the
-    /// rest of its time to the others.
+    /// The rank of the measure in the order in which several measures are taken. A measure with a lower pace is taken
+    /// first, and leaves the rest of its time to the later measures.
     pub pace: u8,
     /// The condition under which a comparison of strategies takes the measure.
     pub compare: Compare,
@@ -42,54 +42,56 @@ pub struct Descriptor {
 pub enum Compare {
     /// The comparison always takes the measure.
     Always,
-    /// The comparison takes the measure if the user names it, or if it is quick for the given numbers of dimensions
-    /// and points.
+    /// The comparison takes the measure if the user names the measure, or if the function returns `true` for the
+    /// numbers of dimensions and points.
     WhereQuick(fn(usize, usize) -> bool),
-    /// The comparison takes the measure only if the user names it.
+    /// The comparison takes the measure only if the user names the measure.
     WhereNamed,
     /// The comparison takes the measure if the sets of points have more than k dimensions.
     BeyondK,
-    /// The comparison never takes the measure, because it says nothing about points of the cube.
+    /// The comparison never takes the measure, because the measure does not depend on points of the cube.
     Never,
 }
 
-/// The way in which a measure is computed.
+/// The kind of result of a measure, with the function that computes the result.
 #[derive(Debug, Clone, Copy)]
 pub enum Computation {
-    /// A number in closed form; `None` if there are no points or the deadline passes first.
+    /// A function for a number in closed form; `None` if there are no points or the deadline passes first.
     Number(fn(&PointSet, Deadline) -> Option<f64>),
-    /// A number that is exact unless the deadline cuts the search short.
+    /// A function for a number that is exact unless the deadline cuts the search short.
     Bracket(fn(&PointSet, Deadline) -> Bracket),
-    /// The largest empty box. A callback receives the bracket of its volume while it narrows.
+    /// A function that finds the largest empty box. A callback receives the bracket of the volume while the bracket
+    /// narrows.
     Hole(fn(&PointSet, Deadline, &mut dyn FnMut(Bracket)) -> Dispersion),
-    /// The largest empty ball; `None` if there are no points.
+    /// A function that finds the largest empty ball; `None` if there are no points.
     Ball(fn(&PointSet, Deadline) -> Option<Fill>),
-    /// The combinations of discrete values that the tests contain.
+    /// The measure counts the combinations of discrete values that the tests contain.
     Combinations,
-    /// The largest hole that any k parameters show, discrete and continuous parameters together.
+    /// The measure finds the largest hole in the space of any k parameters, discrete and continuous parameters
+    /// together.
     KwiseHole,
 }
 
-/// The result of a measure of the continuous parameters.
+/// The result of a measure that depends on the continuous parameters only.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finding {
-    /// A number; `None` if there were no points or the deadline passed first.
+    /// A number that is the result of a measure; `None` if there were no points or the deadline passed first.
     Number(Option<f64>),
-    /// A number that is exact or lies between two bounds.
+    /// A number that is the result of a measure, as a bracket with a lower and an upper bound.
     Bracket(Bracket),
-    /// The largest empty box.
+    /// The largest empty box, as the result of a measure.
     Hole(Dispersion),
-    /// The largest empty ball; `None` if there were no points.
+    /// The largest empty ball, as the result of a measure; `None` if there were no points.
     Ball(Option<Fill>),
 }
 
 impl Measure {
-    /// Makes the measure of a descriptor.
+    /// Makes a measure from its descriptor.
     pub const fn of(descriptor: &'static Descriptor) -> Self {
         Self(descriptor)
     }
 
-    /// Iterates over all measures, in the order in which they are shown.
+    /// Iterates over all measures of this crate, in the order in which reports show the measures.
     pub fn all() -> impl Iterator<Item = Self> {
         crate::MEASURES.iter().copied()
     }
@@ -104,8 +106,8 @@ impl Measure {
         self.0
     }
 
-    /// Measures `points`; returns `None` if the measure is not about the continuous parameters alone. `watch`
-    /// receives the bracket while it narrows.
+    /// Computes the measure for `points`; returns `None` if the measure needs more than continuous coordinates. `watch`
+    /// receives the bracket while the bracket narrows.
     pub fn take(self, points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Option<Finding> {
         match self.0.method {
             Computation::Number(number) => Some(Finding::Number(number(points, deadline))),
@@ -116,7 +118,7 @@ impl Measure {
         }
     }
 
-    /// Returns `true` if the measure is about the continuous parameters alone.
+    /// Returns `true` if the measure depends on the continuous parameters only.
     pub fn is_of_points(self) -> bool {
         !matches!(self.0.method, Computation::Combinations | Computation::KwiseHole)
     }
@@ -146,9 +148,9 @@ impl fmt::Display for Measure {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no measure is called `{name}`{}; the measures are {}", did_you_mean(.nearest), names().join(", "))]
 pub struct UnknownMeasure {
-    /// The name that no measure has.
+    /// The given name, which no measure has.
     pub name: String,
-    /// The name of a measure that was perhaps meant.
+    /// The name of the measure that the user perhaps meant; `None` if no measure has a similar name.
     pub nearest: Option<&'static str>,
 }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// A set of points in `[0,1]^d`, stored one after the other in one allocation.
+/// A set of points in the unit cube `[0,1]^d`, stored in one allocation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointSet {
     dims: usize,
@@ -12,33 +12,33 @@ pub struct PointSet {
 /// The reason why a list of numbers is not a set of points in the unit cube.
 #[derive(Debug, Error, PartialEq)]
 pub enum PointSetError {
-    /// The number of coordinates is 0.
+    /// The number of coordinates of a point is 0.
     #[error("points need at least one coordinate, found 0")]
     NoDimension,
-    /// A point has too many or too few coordinates.
+    /// The number of coordinates of a point differs from the number of coordinates of the set.
     #[error("point {index} has a wrong number of coordinates: found {found}, expected {expected}")]
     Ragged {
-        /// The position of the point, from 0.
+        /// The position of the wrong point among the points, from 0.
         index: usize,
-        /// The number of coordinates of the point.
+        /// The number of coordinates of the wrong point.
         found: usize,
-        /// The number of coordinates that was expected.
+        /// The expected number of coordinates of each point.
         expected: usize,
     },
-    /// A coordinate is not in `[0,1]`, or is NaN.
+    /// A coordinate of a point is not in `[0,1]`, or is NaN.
     #[error("point {index}, coordinate {axis}: found {value}, expected a number in [0, 1]")]
     OutsideCube {
-        /// The position of the point, from 0.
+        /// The position of the wrong point among the points, from 0.
         index: usize,
-        /// The position of the coordinate, from 0.
+        /// The position of the wrong coordinate in the point, from 0.
         axis: usize,
-        /// The value of the coordinate.
+        /// The value of the wrong coordinate.
         value: f64,
     },
 }
 
 impl PointSet {
-    /// Makes a set of points with `dims` coordinates each.
+    /// Makes a set of points that have `dims` coordinates each.
     ///
     /// # Errors
     /// `dims` is 0, a point has another number of coordinates, or a coordinate is not in `[0,1]`.
@@ -65,22 +65,22 @@ impl PointSet {
         self.dims
     }
 
-    /// Returns the number of points.
+    /// Returns the number of points in the set.
     pub fn len(&self) -> usize {
         self.coordinates.len() / self.dims
     }
 
-    /// Returns `true` if the set has no point.
+    /// Returns `true` if the set of points has no point.
     pub fn is_empty(&self) -> bool {
         self.coordinates.is_empty()
     }
 
-    /// Iterates over the points in order.
+    /// Iterates over the points of the set, in the order in which the set was made.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[f64]> + Clone {
         self.coordinates.chunks_exact(self.dims)
     }
 
-    /// Returns the point at `index`.
+    /// Returns the coordinates of the point at position `index`.
     ///
     /// # Panics
     /// `index` is not below [`PointSet::len`].

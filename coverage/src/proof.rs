@@ -29,7 +29,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The share by which a bound is larger than the volume of a box that needs no pivot.
+/// The relative safety margin of a proof against rounding. A box needs no pivot if its volume is at most `1 - MARGIN`
+/// times the bound.
 pub const MARGIN: f64 = 1e-12;
 
 /// The largest number of bounds to try if the known bound takes too many pivots, or may not be the least possible.
@@ -38,50 +39,50 @@ const ATTEMPTS: usize = 10;
 /// A bound that exceeds the largest unproved bound by at most this share is not improved further.
 const ENOUGH: f64 = 1e-3;
 
-/// The projections of the space that a claim is about.
+/// The projections of the space for which a bound is proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// All continuous parameters at once, for all values of the discrete parameters. It is the claim of
+    /// All continuous parameters together, without regard to the discrete parameters. The bound is then a bound on
     /// [`dispersion`](crate::dispersion::dispersion).
     Continuous,
-    /// Every choice of the given number of parameters, with all values of the discrete ones. It is the claim of
-    /// [`kwise_dispersion`](crate::kwise_dispersion::kwise_dispersion).
+    /// Every choice of the given number of parameters, with all valid values of the chosen discrete parameters. The
+    /// bound is then a bound on [`kwise_dispersion`](crate::kwise_dispersion::kwise_dispersion).
     Every(usize),
 }
 
 /// The limits of the search for a proof.
 #[derive(Debug, Clone, Copy)]
 pub struct Budget {
-    /// The greatest number of pivots, over all projections.
+    /// The greatest total number of pivots in the proofs for all projections.
     pub pivots: usize,
-    /// The deadline of the search.
+    /// The deadline of the search for a proof.
     pub deadline: Deadline,
 }
 
-/// The proof of a bound for one projection.
+/// The proof that the empty boxes of one projection do not exceed a volume.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Proof {
     /// The discrete parameters of the projection with their values, as positions among the discrete parameters and
     /// levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters of the projection, by their positions among the continuous parameters.
+    /// The continuous parameters of the projection, as positions among the continuous parameters.
     pub axes: Vec<usize>,
-    /// The pivots of the tree, as positions of tests.
+    /// The pivots that prove the bound, as positions among the tests. A pivot is a test that divides a box.
     pub pivots: Vec<usize>,
 }
 
-/// An upper bound with its proofs.
+/// A proved upper bound on the volume of empty boxes, with its proofs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proved {
     /// The upper bound on the volume of the empty boxes of all projections.
     pub upper: f64,
-    /// A proof for each projection, in lexicographic order with the continuous parameters first. The list is empty if
-    /// the bound is 1, because no volume exceeds 1.
+    /// A proof of the bound for each projection, in lexicographic order with the continuous parameters first. The list
+    /// is empty if the bound is 1, because no volume exceeds 1.
     pub proofs: Vec<Proof>,
 }
 
-/// Proves an upper bound on the largest volume of an empty box. The bound is the upper bound of the bracket `volume`,
-/// a weaker bound if the budget is too small, or a stronger one if the bracket is not exact and a stronger one is
+/// Proves an upper bound on the largest volume of an empty box. The bound is the upper bound of the bracket `volume`, a
+/// weaker bound if the budget is too small, or a stronger bound if the bracket is not exact and a stronger bound is
 /// found. The bound of an exact bracket is above the volume by a few times [`MARGIN`].
 ///
 /// `rules` are the rules of the discrete parameters, and `dims` is the number of continuous parameters. The result

@@ -17,7 +17,7 @@ pub(crate) use search::largest_difference;
 pub(crate) use sides::Sides;
 
 impl Measure {
-    /// The star discrepancy.
+    /// The measure "star discrepancy", which compares volume and share of tests over boxes at the origin.
     pub const STAR: Self = Self::of(&Descriptor {
         name: "star",
         key: "star_discrepancy",
@@ -30,9 +30,9 @@ impl Measure {
     });
 }
 
-/// Computes the star discrepancy of a set of points. It is the largest of `vol [0,y) - #{x < y} / n` and `#{x <= y} /
-/// n - vol [0,y)` over all `y` in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo
-/// Methods, 1992, section 2.1).
+/// Computes the star discrepancy of a set of points. The star discrepancy is the largest of `vol [0,y) - #{x < y} / n`
+/// and `#{x <= y} / n - vol [0,y)` over all `y` in the unit cube (Niederreiter, Random Number Generation and
+/// Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
 /// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. The
 /// discrepancy of a set without points is 1, because the whole cube is uncovered.

@@ -279,5 +279,5 @@ fn tests_that_cannot_be_compared_are_refused() {
     assert_eq!(Locator::new(&rules, &[0, 0], &[0, 0]).unwrap_err(), LocateError::Same);
     assert_eq!(Locator::new(&rules, &[1, 0], &[0, 0]).unwrap_err(), LocateError::Invalid { role: "failing" });
     let message = Locator::new(&rules, &[0, 0], &[0]).unwrap_err().to_string();
-    assert_eq!(message, "test 1 has 1 levels, expected 2");
+    assert_eq!(message, "test 1 has 1 level, expected 2");
 }

@@ -162,7 +162,7 @@ fn without_failures_or_without_passes_nobody_is_suspect() {
 fn a_test_of_another_space_is_refused_by_its_position() {
     let tests = [JudgedTest { levels: vec![0, 2], failed: true }];
     let message = suspects(&Rules::free(&[2, 2]), &tests, 1, 10).unwrap_err().to_string();
-    assert!(message.starts_with("test 0, parameter 1: level 2"), "{message}");
+    assert!(message.starts_with("test 0, parameter 1: found level 2"), "{message}");
     let message = suspects(&Rules::free(&[2, 2]), &[], 3, 10).unwrap_err().to_string();
-    assert_eq!(message, "k is 3, expected 1 to 2, the number of parameters");
+    assert_eq!(message, "k is 3, expected a number from 1 to 2, the number of parameters");
 }

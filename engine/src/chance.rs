@@ -9,7 +9,7 @@ const POISSON_AT_ONCE: f64 = 30.0;
 /// The greatest mean of a Poisson number. A greater mean is reduced to it.
 const POISSON_MOST: f64 = 1e6;
 
-/// The source of the random numbers of one reading.
+/// The source of the random numbers of one sensor reading.
 #[derive(Debug, Clone)]
 pub struct Chance {
     random: Pcg64,
@@ -18,7 +18,7 @@ pub struct Chance {
 }
 
 impl Chance {
-    /// Makes the source of a reading from the rig's seed, the sensor's name and the number of the reading.
+    /// Makes the source of random numbers from the rig's seed, the sensor's name and the number of the reading.
     pub fn of(seed: u64, name: &str, number: u64) -> Self {
         let key = mixed(mixed(mixed(seed) ^ hashed(name)) ^ number);
         Self { random: Pcg64::seed_from_u64(key), spare: None }
@@ -29,7 +29,7 @@ impl Chance {
         self.random.random()
     }
 
-    /// Returns `true` with this probability.
+    /// Returns `true` with the given probability.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.unit() < probability
     }
@@ -48,12 +48,12 @@ impl Chance {
         })
     }
 
-    /// Returns an exponential random number with this mean.
+    /// Returns an exponential random number with the given mean.
     pub fn exponential(&mut self, mean: f64) -> f64 {
         -mean * libm::log(1.0 - self.unit())
     }
 
-    /// Returns a Poisson random number with this mean (by multiplying uniform numbers, Knuth 1969). A mean above a
+    /// Returns a Poisson random number with the given mean (by multiplying uniform numbers, Knuth 1969). A mean above a
     /// million counts as a million.
     pub fn poisson(&mut self, mean: f64) -> usize {
         let mut count = 0;
@@ -85,7 +85,8 @@ pub(crate) fn mixed(number: u64) -> u64 {
     z ^ z >> 31
 }
 
-/// Returns two independent standard normal numbers (Box and Muller 1958), from libm: the same on every machine.
+/// Returns two independent standard normal numbers (Box and Muller 1958). They use libm and are the same on every
+/// machine.
 pub(crate) fn gaussian(random: &mut Pcg64) -> Vector2<f64> {
     // 1 - u is in (0, 1], where the logarithm is finite.
     let radius = libm::sqrt(-2.0 * libm::log(1.0 - random.random::<f64>()));

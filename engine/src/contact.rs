@@ -8,33 +8,33 @@ use std::fmt;
 pub struct Contact {
     /// The name of the object that the ego vehicle touched.
     pub with: String,
-    /// The class of the object.
+    /// The class of the object that the ego vehicle touched.
     pub class: Class,
     /// The side of the ego vehicle that touched the object.
     pub face: Face,
     /// The motion of the ego vehicle at the contact.
     pub motion: ContactMotion,
-    /// The speed of the ego vehicle, in m/s.
+    /// The speed of the ego vehicle at the contact, in m/s.
     pub speed: f64,
-    /// The speed of the object, in m/s.
+    /// The speed of the object at the contact, in m/s.
     pub other_speed: f64,
 }
 
 /// A side of the ego vehicle's body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Face {
-    /// The front.
+    /// The front of the ego vehicle.
     Front,
-    /// The left side.
+    /// The left side of the ego vehicle.
     Left,
-    /// The right side.
+    /// The right side of the ego vehicle.
     Right,
-    /// The rear.
+    /// The rear of the ego vehicle.
     Rear,
 }
 
 impl Face {
-    /// All sides of the body.
+    /// All sides of the ego vehicle's body.
     pub const ALL: [Self; 4] = [Self::Front, Self::Left, Self::Right, Self::Rear];
 }
 
@@ -52,16 +52,16 @@ impl fmt::Display for Face {
 /// The motion of the ego vehicle at a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContactMotion {
-    /// The car drives and does not brake.
+    /// The ego vehicle drives and does not brake.
     Driving,
-    /// The car brakes by more than 0.5 m/s².
+    /// The ego vehicle brakes by more than 0.5 m/s².
     Braking,
-    /// The car is slower than 0.1 m/s.
+    /// The ego vehicle is slower than 0.1 m/s.
     Standing,
 }
 
 impl ContactMotion {
-    /// All kinds of motion.
+    /// All kinds of motion of the ego vehicle at a contact.
     pub const ALL: [Self; 3] = [Self::Driving, Self::Braking, Self::Standing];
 }
 

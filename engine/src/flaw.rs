@@ -33,50 +33,50 @@ pub enum WorldFlaw {
     /// A stream has two definitions.
     #[error("the stream `{stream}` is defined twice")]
     DefinedTwice {
-        /// The name of the stream.
+        /// The name of the stream with two definitions.
         stream: String,
     },
     /// A parameter has a value of a wrong type.
     #[error("parameter `{parameter}` has the value {value}, expected a value of the parameter's type")]
     OtherType {
-        /// The name of the parameter.
+        /// The name of the parameter whose value has a wrong type.
         parameter: String,
-        /// The value that was found.
+        /// The value that has a wrong type.
         value: Value,
     },
-    /// A parameter cannot vary over time with this shape.
+    /// A parameter cannot vary over time with the given shape.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A parameter varies over time, but the world needs a single value of it.
+    /// A parameter varies over time, but the world needs a single value of the parameter.
     #[error("parameter `{parameter}` varies over time, but the scenario needs a single value of it for the whole run")]
     Varies {
-        /// The name of the parameter.
+        /// The name of the parameter that varies over time.
         parameter: String,
     },
     /// A parameter that does not vary over time has several values.
     #[error("parameter `{parameter}` has several values, {value}, but does not vary over time: give it a single value")]
     DoesNotVary {
-        /// The name of the parameter.
+        /// The name of the parameter that has several values.
         parameter: String,
-        /// The values that were found.
+        /// The values of the parameter.
         value: Value,
     },
     /// A parameter that varies over time has too many or too few values.
     #[error("the number of values of parameter `{parameter}` is {found}, expected {expected} for a {shape}")]
     Coordinates {
-        /// The name of the parameter.
+        /// The name of the parameter with too many or too few values.
         parameter: String,
-        /// The number of values that were found.
+        /// The number of values that the parameter has.
         found: usize,
         /// The number of values that the shape needs.
         expected: usize,
-        /// The shape of the parameter's signal.
+        /// The shape of the parameter's signal over time.
         shape: Shape,
     },
     /// The share of the roadside that is filled with objects is not a number from 0 to 1.
     #[error("the share of the roadside that is filled is {fullness}, expected a number from 0 to 1")]
     Roadside {
-        /// The share that was given.
+        /// The share of the roadside that the program wants to fill.
         fullness: f64,
     },
     /// The program sets the friction of the roads twice.
@@ -88,25 +88,25 @@ pub enum WorldFlaw {
     /// The program refuses the test by [`Scenario::refuse`](crate::Scenario::refuse).
     #[error("{why}")]
     Refused {
-        /// The reason that the program gives.
+        /// The reason why the program refuses the test.
         why: String,
     },
     /// The duration of a lane change of a traffic car is not a finite number above 0.
     #[error("{traffic}: the lane change of car {car} takes {seconds} s, expected a finite number above 0")]
     LaneChange {
-        /// The name of the traffic in the world.
+        /// The name of the traffic object in the world.
         traffic: String,
-        /// The index of the car.
+        /// The index of the car that changes lanes.
         car: usize,
         /// The duration of the lane change, in seconds.
         seconds: f64,
     },
-    /// The traffic has no car with this index.
+    /// The traffic has no car with the given index.
     #[error("{traffic}: car {car} does not exist: the number of cars is {count}, and they are counted from 0")]
     NoCar {
-        /// The name of the traffic in the world.
+        /// The name of the traffic object in the world.
         traffic: String,
-        /// The index that the program asked for.
+        /// The index of the car that does not exist.
         car: usize,
         /// The number of cars in the traffic.
         count: usize,
@@ -114,9 +114,9 @@ pub enum WorldFlaw {
     /// The world does not have exactly one ego vehicle and exactly one road network.
     #[error("the number of ego vehicles is {cars} and the number of road networks is {roads}, expected one of each")]
     Cars {
-        /// The number of ego vehicles.
+        /// The number of ego vehicles in the world.
         cars: usize,
-        /// The number of road networks.
+        /// The number of road networks in the world.
         roads: usize,
     },
     /// The duration of a run is not a positive number.
@@ -144,19 +144,19 @@ pub enum WorldFlaw {
     /// Two requirements have the same name.
     #[error("requirement `{id}` is stated twice: give each requirement an id of its own")]
     RequirementTwice {
-        /// The name of the requirements.
+        /// The name that both requirements have.
         id: String,
     },
     /// Two streams that requirements refer to have the same name.
     #[error("two streams of requirements are called `{stream}`: give them different names by `named`")]
     SameName {
-        /// The name of the streams.
+        /// The name that both streams have.
         stream: String,
     },
     /// A stream of a requirement has the name of an output of an object.
     #[error("a stream of a requirement is called `{stream}`, the name of an object's output: rename it by `named`")]
     NameOfOutput {
-        /// The name of the stream.
+        /// The name that the stream and the output have.
         stream: String,
     },
 }
@@ -168,21 +168,21 @@ pub enum ObjectFlaw {
     /// The length, width or height of a body is not a finite number above 0.
     #[error("is {length} m long, {width} m wide and {height} m tall, expected finite lengths above 0")]
     Measures {
-        /// The length, in metres.
+        /// The length of the body, in metres.
         length: f64,
-        /// The width, in metres.
+        /// The width of the body, in metres.
         width: f64,
-        /// The height, in metres.
+        /// The height of the body, in metres.
         height: f64,
     },
     /// The pose at which a body starts is not finite.
     #[error("stands at ({x}, {y}) with the heading {heading}, expected finite numbers")]
     Pose {
-        /// The x coordinate, in metres.
+        /// The x coordinate of the body, in metres.
         x: f64,
-        /// The y coordinate, in metres.
+        /// The y coordinate of the body, in metres.
         y: f64,
-        /// The heading, in radians.
+        /// The heading of the body, in radians.
         heading: f64,
     },
     /// An object that the physics moves has no body or several bodies.
@@ -194,21 +194,21 @@ pub enum ObjectFlaw {
     /// The mass of the object is not a finite number above 0.
     #[error("weighs {mass} kg, expected a finite number above 0")]
     Mass {
-        /// The mass, in kg.
+        /// The mass of the object, in kg.
         mass: f64,
     },
     /// A piece of the object's path has a length that is not a number from 0 on.
     #[error("has a {line} with a piece of {piece} m, expected a finite length from 0 on")]
     Piece {
-        /// The word for the path: `path` or `way`.
+        /// The word for the path in the message, `path` or `way`.
         line: &'static str,
-        /// The length of the piece, in metres.
+        /// The length of the piece of the path, in metres.
         piece: f64,
     },
     /// The object starts before the beginning or beyond the end of its path.
     #[error("starts {start} m along a {line} of {length} m, expected a start from 0 to this length")]
     Start {
-        /// The word for the path: `path` or `way`.
+        /// The word for the path in the message, `path` or `way`.
         line: &'static str,
         /// The start of the object, in metres along the path.
         start: f64,
@@ -218,15 +218,15 @@ pub enum ObjectFlaw {
     /// The speed at which the object starts is out of range.
     #[error("has the speed {speed} m/s, expected 0 to {most} m/s")]
     Speed {
-        /// The speed, in m/s.
+        /// The speed at which the object starts, in m/s.
         speed: f64,
-        /// The greatest speed, in m/s.
+        /// The greatest speed at which the object may start, in m/s.
         most: f64,
     },
     /// The description of the vehicle is not valid.
     #[error("cannot be built: {0}")]
     Vehicle(#[from] VehicleFlaw),
-    /// The traffic cannot begin.
+    /// The cars of the traffic cannot begin to drive.
     #[error("cannot begin: {0}")]
     Traffic(#[from] TrafficError),
     /// The object reports its own mistake by [`ObjectDraft::refuse`](crate::ObjectDraft::refuse).

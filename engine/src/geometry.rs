@@ -3,29 +3,29 @@
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 
-/// A position with a heading.
+/// A position in the ground plane with a heading.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
-    /// The position in metres: x along the road, y to the left of the road.
+    /// The position in metres, with x along the road and y to the left of the road.
     pub position: Vector2<f64>,
     /// The heading in radians, counter-clockwise from x.
     pub heading: f64,
 }
 
 impl Pose {
-    /// The unit vector that the heading points along.
+    /// Returns the unit vector in the direction of the heading.
     pub fn forward(&self) -> Vector2<f64> {
         let (sin, cos) = libm::sincos(self.heading);
         Vector2::new(cos, sin)
     }
 
-    /// The unit vector to the left of the heading.
+    /// Returns the unit vector to the left of the heading.
     pub fn left(&self) -> Vector2<f64> {
         let forward = self.forward();
         Vector2::new(-forward.y, forward.x)
     }
 
-    /// Returns a point of the plane as seen from this pose, in metres: x ahead, y to the left.
+    /// Returns a point of the plane as seen from this pose, in metres, with x ahead and y to the left.
     pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
         let ahead = self.forward();
         let offset = point - self.position;
@@ -37,7 +37,7 @@ impl Pose {
         Pose { position: self.to_local(pose.position), heading: wrapped(pose.heading - self.heading) }
     }
 
-    /// Returns a direction of the plane as seen from this pose: x ahead, y to the left.
+    /// Returns a direction of the plane as seen from this pose, as a vector with x ahead and y to the left.
     pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
         let ahead = self.forward();
         Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
@@ -48,7 +48,7 @@ impl Pose {
         self.forward() * local.x + self.left() * local.y
     }
 
-    /// Returns `true` if position and heading are finite: neither infinite nor NaN.
+    /// Returns `true` if position and heading are neither infinite nor NaN.
     pub fn is_finite(&self) -> bool {
         self.position.iter().all(|metres| metres.is_finite()) && self.heading.is_finite()
     }
@@ -62,7 +62,7 @@ impl Pose {
     }
 }
 
-/// A line across a road, with the direction in which traffic meets it.
+/// A line across a road, with the direction of the traffic that crosses it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
     pub(crate) name: String,
@@ -71,7 +71,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Returns how far the line lies ahead of a position, in metres; negative if the line lies behind it.
+    /// Returns the distance in metres from a position to the line ahead; negative if the line lies behind the position.
     pub fn ahead_of(&self, position: Vector2<f64>) -> f64 {
         (self.point - position).dot(&self.direction)
     }
@@ -80,9 +80,9 @@ impl Line {
 /// A side of a road, seen in the direction of the road.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The left side, where y is positive: beside the lanes of the opposite direction.
+    /// The left side, where y is positive, beside the lanes of the opposite direction.
     Left,
-    /// The right side, where y is negative: beside lane 1.
+    /// The right side, where y is negative, beside lane 1.
     Right,
 }
 

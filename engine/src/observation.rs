@@ -5,7 +5,7 @@ use crate::object::{Class, Outline};
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 
-/// The facts that a driver is told before a run begins.
+/// The facts that a driver gets before a run begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Briefing {
     /// The speed in m/s that the driver is to keep if nothing is in the way.
@@ -14,16 +14,16 @@ pub struct Briefing {
     pub vehicle: Vehicle,
 }
 
-/// Another body, as it truly is. A driver may make its own perception of it.
+/// The true state of a body, as seen from the car. A driver may derive its own perception from the true state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Other {
     /// The number of the body, from 0 on, which is the same during the whole run.
     pub id: usize,
     /// The class of the body.
     pub class: Class,
-    /// The position of the body's middle as seen from the car's middle, in metres: x ahead, y to the left.
+    /// The position of the body's middle in metres, as seen from the car's middle (x ahead, y to the left).
     pub position: Vector2<f64>,
-    /// The body's velocity over the ground in the same directions, in m/s.
+    /// The velocity of the body over the ground in m/s, along the axes of the car.
     pub velocity: Vector2<f64>,
     /// The direction in which the body points, in radians counter-clockwise from the car's heading.
     pub heading: f64,
@@ -47,7 +47,7 @@ pub struct Observation {
     pub speed: f64,
     /// The distance that the car has covered, in metres.
     pub travelled: f64,
-    /// The pose of the car as seen from its start, as perfect odometry would tell it.
+    /// The pose of the car relative to its start, as perfect odometry measures the pose.
     pub odometry: Pose,
     /// The way that the car is to go.
     pub way: Way,
@@ -58,18 +58,18 @@ pub struct Observation {
 /// The way that a car is to go, as seen from the car's middle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Way {
-    /// The distance of the car to the left of the way, in metres.
+    /// The lateral distance of the car from the way in metres, positive to the left of the way.
     pub offset: f64,
-    /// The angle by which the car points to the left of the way, in radians.
+    /// The angle from the direction of the way to the car's heading in radians, positive to the left.
     pub heading: f64,
-    /// Points of the way ahead, every [`Way::SPACING`] metres, the nearest first.
+    /// The points of the way ahead of the car, every [`Way::SPACING`] metres, the nearest first.
     pub ahead: [Ahead; 16],
 }
 
 /// A point of the way ahead.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ahead {
-    /// The position of the point as seen from the car's middle, in metres: x ahead, y to the left.
+    /// The position of the point in metres, as seen from the car's middle (x ahead, y to the left).
     pub position: Vector2<f64>,
     /// The curvature of the way at the point, in 1/m, positive to the left.
     pub curvature: f64,
@@ -79,14 +79,14 @@ impl Way {
     /// The distance in metres along the way from one point ahead to the next.
     pub const SPACING: f64 = 2.5;
 
-    /// Returns the point of the way that is nearest to this many metres ahead along the way.
+    /// Returns the point whose distance ahead along the way is nearest to the given number of metres.
     pub fn at(&self, metres: f64) -> &Ahead {
         let index = (metres / Self::SPACING).round() as usize;
         &self.ahead[index.clamp(1, self.ahead.len()) - 1]
     }
 }
 
-/// The control that a driver gives until it is asked again.
+/// The throttle and the steering that a driver sets until the next question to the driver.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Control {
     /// The throttle, from -1 (full brakes) to 1 (full power).

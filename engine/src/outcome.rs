@@ -12,7 +12,7 @@ use thiserror::Error;
 pub struct Outcome {
     /// The ending of the test.
     pub ending: Ending,
-    /// The judgement of each requirement, in their order. Empty if nothing could be judged.
+    /// The judgements of all requirements, in the order of the requirements. Empty if the run could not be judged.
     pub judgements: Vec<Judgement>,
     /// The measurements of the run; `None` if there was no run.
     pub measured: Option<Measurements>,
@@ -21,7 +21,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Makes the outcome of a test without a run that could be judged.
+    /// Makes the outcome of a test that has no run, or whose run broke.
     pub fn broken(ending: impl Into<Ending>) -> Self {
         Self { ending: ending.into(), judgements: Vec::new(), measured: None, trace: None }
     }
@@ -44,11 +44,11 @@ pub enum Ending {
     Pass,
     /// A requirement is violated.
     Fail,
-    /// The situation that the test is about never came about, or a requirement stayed undecided.
+    /// The premise of the test never occurred, or a requirement stayed undecided.
     Inconclusive,
     /// The world of the test cannot be built.
     Invalid(Invalid),
-    /// The run broke.
+    /// The run ended with an error.
     Error(Breakdown),
 }
 
@@ -64,7 +64,7 @@ impl Ending {
         }
     }
 
-    /// Returns the reason in words why there was no run or no complete run; `None` if the run was complete.
+    /// Returns the reason for a missing or incomplete run, in words; `None` if the run was complete.
     pub fn message(&self) -> Option<String> {
         match self {
             Self::Pass | Self::Fail | Self::Inconclusive => None,
@@ -92,7 +92,7 @@ pub enum Invalid {
     /// The program refuses the values of the test.
     #[error(transparent)]
     World(ProgramError),
-    /// Two bodies are in the same place.
+    /// Two bodies overlap at the start of the run.
     #[error("{first} and {second} overlap at the start; place them apart")]
     Overlap {
         /// The name of the first body.
@@ -102,16 +102,16 @@ pub enum Invalid {
     },
 }
 
-/// The reason why a run broke.
+/// The reason why a run ended with an error.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Breakdown {
-    /// The program cannot be run on such a test at all.
+    /// The program cannot be run on the test, because their parameters differ or are not valid.
     #[error(transparent)]
     Program(ProgramError),
     /// The world reached an impossible state.
     #[error("{cause} at {time:.3} s")]
     World {
-        /// The cause.
+        /// The cause of the breakdown.
         cause: Upset,
         /// The time of the breakdown, in seconds since the run began.
         time: f64,
@@ -138,20 +138,20 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Makes a judgement with this robustness and without a violation.
+    /// Makes a judgement without a violation, from a requirement's id and robustness.
     pub fn new(requirement: impl Into<String>, robustness: Option<f64>) -> Self {
         Self { requirement: requirement.into(), robustness, violation: None }
     }
 }
 
-/// The cause of a violated requirement's robustness: its time, place and part of the formula.
+/// The cause of a violated requirement's robustness, as a time, a place and a part of the formula.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
     /// The critical time in seconds, at which the robustness depends on `part`.
     pub time: f64,
-    /// The distance that the ego vehicle had covered by then, in metres; `None` if there is no car.
+    /// The distance that the ego vehicle had covered at the critical time, in metres; `None` if there is no car.
     pub travelled: Option<f64>,
-    /// The speed of the car at that time, in m/s; `None` if there is no car.
+    /// The speed of the ego vehicle at the critical time, in m/s; `None` if there is no car.
     pub speed: Option<f64>,
     /// The sub-formula on which the robustness depends, as text.
     pub part: String,
@@ -162,7 +162,7 @@ const SAME_TICK: f64 = 1e-6;
 
 impl Violation {
     /// Explains the robustness of a formula on a trace. Between two samples, `travelled` and `speed` are interpolated
-    /// linearly, as the formula does in dense time. `None` if the formula does not fit the trace.
+    /// linearly, as in dense time. `None` if the formula does not fit the trace.
     pub fn of(formula: &Formula, semantics: Semantics, trace: &Trace) -> Option<Self> {
         let cause = formula.explain_in(semantics, trace).ok().flatten()?;
         let ticks = cause.time / trace.dt();

@@ -10,7 +10,7 @@ use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A scenario: a named function from a test to a world.
+/// A scenario, which is a named function from a test to a world.
 ///
 /// ```
 /// use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario};
@@ -44,14 +44,14 @@ impl fmt::Debug for Build {
     }
 }
 
-/// The parameters that a program asks for, and its requirements of runs.
+/// The parameters and requirements that a program declares.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
-    /// The parameters in the order in which the program asks for them.
+    /// The parameters of the program, in the order of their declaration.
     pub parameters: Vec<Declared>,
     /// The requirements that the program states.
     pub requirements: Vec<Requirement>,
-    /// The duration of a run in seconds, unless a contact ends it.
+    /// The duration in seconds of a run without a contact.
     pub duration: f64,
     /// The duration of a tick in seconds.
     pub dt: f64,
@@ -67,7 +67,7 @@ impl Declaration {
 /// The reason why a program cannot be run.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum ProgramError {
-    /// The program's parameters form no space.
+    /// The program's parameters form no valid space, for example because two parameters have the same name.
     #[error("scenario `{program}`: {source}")]
     Parameters {
         /// The name of the scenario.
@@ -83,7 +83,7 @@ pub enum ProgramError {
         /// The flaws of the world.
         flaws: Vec<WorldFlaw>,
     },
-    /// With a test, the program asks for other parameters than the test gives.
+    /// The parameters that the program asks for differ from the parameters of the test.
     #[error("scenario `{program}` asked for other parameters than the test has; these are on one side only: {}", names.join(", "))]
     OtherParameters {
         /// The name of the scenario.
@@ -101,7 +101,7 @@ fn joined(flaws: &[WorldFlaw]) -> String {
 const MOST_TICKS: f64 = 1e7;
 
 impl Program {
-    /// Makes the scenario with this name that a function builds. `about` describes it in one line.
+    /// Makes a scenario from its name, its description in one line and the function that builds its world.
     pub const fn new(name: &'static str, about: &'static str, build: fn(&mut Scenario)) -> Self {
         Self { name: Cow::Borrowed(name), about: Cow::Borrowed(about), build: Build::Function(build) }
     }
@@ -126,7 +126,7 @@ impl Program {
         &self.about
     }
 
-    /// Builds the program's world in a scenario. A program that extends another calls this first.
+    /// Builds the program's world in a scenario. A program that extends another program calls this first.
     pub fn build(&self, scenario: &mut Scenario) {
         match &self.build {
             Build::Function(build) => build(scenario),
@@ -147,7 +147,7 @@ impl Program {
         Ok(Declaration { parameters, requirements, duration: scenario.duration, dt: scenario.dt })
     }
 
-    /// Checks that the program can build its world for this test.
+    /// Checks that the program can build its world for a test.
     ///
     /// # Errors
     /// The program cannot build its world, or it asks for other parameters than the test gives.

@@ -6,14 +6,14 @@ use paracosm_space::{Domain, Parameter, Shape, Space, Value, Values};
 /// A parameter that a program asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declared {
-    /// The name, domain, unit and nominal value.
+    /// The parameter with its name, domain, unit and nominal value.
     pub parameter: Parameter,
-    /// True if tests vary the parameter by default; a study may decide otherwise.
+    /// True if the parameter is open by default; a study may change this default.
     pub open: bool,
 }
 
 impl Declared {
-    /// Returns the nominal value; if none is declared, the middle of an interval or the first level of a choice.
+    /// Returns the nominal value of the parameter; by default the middle of an interval or the first level of a choice.
     pub fn nominal(&self) -> Value {
         self.parameter.default.clone().unwrap_or_else(|| match &self.parameter.domain {
             Domain::Interval { lo, hi } => Value::Number(0.5 * (lo + hi)),
@@ -23,7 +23,7 @@ impl Declared {
     }
 }
 
-/// The values that a test gives to all parameters of a program, and the shapes of the parameters that vary.
+/// The values that a test gives to all parameters of a program, and the shapes of the parameters that vary over time.
 ///
 /// Plain values are a test, too: their parameters vary as the program declares.
 #[derive(Debug, Clone, Copy)]
@@ -33,17 +33,17 @@ pub struct Test<'a> {
 }
 
 impl<'a> Test<'a> {
-    /// Makes a test of these values. The parameters of `space` vary as the space says.
+    /// Makes a test from the values of all parameters and the space that gives the shapes of the parameters.
     pub fn new(values: &'a Values, space: &'a Space) -> Self {
         Self { values, space: Some(space) }
     }
 
-    /// Returns a hash of the values by their names, whatever their order. Two tests hardly ever have the same.
+    /// Returns a hash of the values by their names, whatever their order. Two tests hardly ever have the same hash.
     pub(crate) fn key(&self) -> u64 {
         self.values.iter().map(|(name, value)| entry(name, value)).fold(0, u64::wrapping_add)
     }
 
-    /// Returns the shape of a parameter's signal, if the test says it.
+    /// Returns the shape of a parameter's signal; `None` if the test leaves the shape to the program.
     pub(crate) fn signal(&self, name: &str) -> Option<Option<Shape>> {
         self.space?.parameter(name).ok().map(|parameter| parameter.signal)
     }

@@ -6,7 +6,7 @@ use crate::vehicle::VehicleState;
 use nalgebra::Vector2;
 use thiserror::Error;
 
-/// The reason why a world cannot go on at some moment.
+/// The reason why the simulation of a world cannot go on.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Upset {
     /// A signal is NaN or absent. No comparison with NaN holds, so it would satisfy every `never`.
@@ -15,20 +15,20 @@ pub enum Upset {
         /// The name of the signal.
         signal: String,
     },
-    /// A condition is out of its range.
+    /// A condition of the world, such as fog or friction, is out of its range.
     #[error("the {what} is {value}, expected {expected}")]
     Condition {
         /// The name of the condition.
         what: &'static str,
         /// The value of the condition.
         value: f64,
-        /// The possible values, in words.
+        /// The possible values of the condition, in words.
         expected: &'static str,
     },
-    /// A control is out of its range.
+    /// A control of the driver is out of its range.
     #[error("the driver's {what} is {value}, expected -1 to 1")]
     Control {
-        /// The name of the control: throttle or steering.
+        /// The name of the control, which is throttle or steering.
         what: &'static str,
         /// The value of the control.
         value: f64,
@@ -44,7 +44,7 @@ pub enum Upset {
     Place {
         /// The name of the object.
         object: String,
-        /// The pose that the object would have.
+        /// The pose that is not finite.
         pose: Pose,
     },
     /// The velocity of an object is not finite.
@@ -52,7 +52,7 @@ pub enum Upset {
     Velocity {
         /// The name of the object.
         object: String,
-        /// The velocity that the object would have.
+        /// The velocity that is not finite.
         velocity: Vector2<f64>,
     },
 }

@@ -8,11 +8,11 @@ const CLOUDBURST: f64 = 50.0;
 /// The light and weather at one moment, as cameras see them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weather {
-    /// The light, from 0 (night) to 1 (broad daylight).
+    /// The brightness of the light, from 0 (night) to 1 (broad daylight).
     pub light: f64,
-    /// The fog, from 0 (none) to 1 (so thick that nothing can be seen).
+    /// The density of the fog, from 0 (no fog) to 1 (so thick that nothing can be seen).
     pub fog: f64,
-    /// The rain, from 0 (none) to 1 (a cloudburst of 50 mm/h).
+    /// The intensity of the rain, from 0 (no rain) to 1 (a cloudburst of 50 mm/h).
     pub rain: f64,
     /// The elevation of the sun, in radians above the horizon.
     pub sun_elevation: f64,
@@ -25,9 +25,9 @@ pub struct Weather {
 pub(crate) struct WeatherPart {
     pub name: &'static str,
     pub range: RangeInclusive<f64>,
-    /// The range in words, for messages.
+    /// The range of the value in words, for messages.
     pub expected: &'static str,
-    /// Returns the field of the weather that holds this part.
+    /// The function that returns the field of the weather for this part.
     pub of: fn(&mut Weather) -> &mut f64,
 }
 
@@ -39,7 +39,7 @@ impl Default for Weather {
 }
 
 impl Weather {
-    /// Returns the rate of the rain, in mm/h.
+    /// Returns the rate of the rain in mm/h.
     pub fn rain_rate(&self) -> f64 {
         CLOUDBURST * self.rain
     }

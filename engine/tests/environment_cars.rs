@@ -207,7 +207,8 @@ fn a_car_that_is_not_there_is_a_mistake_of_the_scenario() {
         fleet.change_lane(6, Side::Left, 3.0, &Stream::from(true));
     });
     for car in 2..=6 {
-        let expected = format!("traffic: there is no car {car}, cars are counted from 0 and there are 2");
+        let expected =
+            format!("traffic: car {car} does not exist: the number of cars is 2, and they are counted from 0");
         assert_eq!(refusal.matches(&expected).count(), 1, "{refusal}");
     }
 }
@@ -232,7 +233,7 @@ fn a_lane_change_takes_a_finite_time() {
         }
     });
     for seconds in ["0", "-1", "NaN", "inf"] {
-        let expected = format!("traffic: car 1 changes lanes within {seconds} s, expected a finite number above 0");
+        let expected = format!("traffic: the lane change of car 1 takes {seconds} s, expected a finite number above 0");
         assert!(refusal.contains(&expected), "{refusal}");
     }
 }

@@ -156,7 +156,7 @@ fn a_driver_that_cannot_drive_says_why() {
         outcome.ending.message().unwrap()
     };
     let blind = told(driver(cameras(&[("front", camera(10.0, 0.0, 0.0))]), false));
-    assert!(blind.contains("camera `front`") && blind.contains("nothing draws"), "{blind}");
+    assert!(blind.contains("camera `front`") && blind.contains("nothing renders images"), "{blind}");
     let wrong = told(driver(cameras(&[("rear", camera(0.0, 0.0, 0.0))]), false));
     assert!(wrong.contains("rear") && wrong.contains("period"), "{wrong}");
     let tired = told(Equipped { until: 1.0, ..driver(Cameras::default(), true) });

@@ -238,13 +238,16 @@ fn mistakes_are_named() {
         s.place(RoadSegment::new(10.0).friction(0.5));
     });
     assert!(twice.contains("the scenario sets the friction of the roads twice: set it only once"), "{twice}");
-    assert!(twice.contains("1 ego vehicles on 2 roads"), "{twice}");
+    assert!(twice.contains("the number of ego vehicles is 1 and the number of road networks is 2"), "{twice}");
     let beyond = refusal(|s| {
         let (road, _) = rolling(s);
         s.place(Mover::car(road.path(1)).starting(400.0));
         s.place(Fixture::tree(road.on_lane(7, 10.0)));
     });
-    assert!(beyond.contains("other starts 400 m along a path of 300 m"), "{beyond}");
+    assert!(
+        beyond.contains("other starts 400 m along a path of 300 m, expected a start from 0 to this length"),
+        "{beyond}"
+    );
     assert!(beyond.contains("`road` has no lane 7; it has 1 to 2 and -1 to -2"), "{beyond}");
     let flat = refusal(|s| {
         let (road, _) = rolling(s);
@@ -262,16 +265,21 @@ fn what_is_no_number_is_a_mistake_and_no_panic() {
         s.place(Mover::truck(road.path(1)).starting(f64::NAN));
         s.duration(1e12);
     });
-    assert!(paths.contains("other has a path that has a piece NaN m long"), "{paths}");
+    assert!(paths.contains("other has a path with a piece of NaN m"), "{paths}");
     assert!(paths.contains("truck starts NaN m along"), "{paths}");
-    assert!(paths.contains("a run has 100000000000000 ticks, expected at most 10000000"), "{paths}");
+    assert!(
+        paths.contains(
+            "a run has 100000000000000 ticks, expected at most 10000000: make the run shorter or its ticks longer"
+        ),
+        "{paths}"
+    );
     let car = refusal(|s| {
         let road = s.place(RoadSegment::new(100.0));
         let nowhere = Pose { position: Vector2::new(f64::NAN, 0.0), ..road.on_lane(1, 10.0) };
         s.place(AutonomousVehicle::at(nowhere));
         s.duration(-1.0);
     });
-    assert!(car.contains("car has a way that has a piece"), "{car}");
+    assert!(car.contains("car has a way with a piece"), "{car}");
     let fog = run(|s| {
         let (_, car) = rolling(s);
         s.place(Environment::new().fog(car.speed()));
@@ -316,7 +324,10 @@ fn an_input_that_makes_no_sense_ends_the_run_with_its_name() {
         s.require("some", eventually(car.speed().above(1.0)));
     });
     assert_eq!(outcome.verdict(), Verdict::Error);
-    assert_eq!(outcome.ending.message().unwrap(), "`other.speed` is -10, expected a number from 0 on at 0.000 s");
+    assert_eq!(
+        outcome.ending.message().unwrap(),
+        "the value of the input `other.speed` is -10, expected a number from 0 on at 0.000 s"
+    );
 }
 
 #[test]

@@ -332,7 +332,8 @@ proptest! {
                 Ok(net) => {
                     let found = net.project(Vector2::new(size.clamp(-1e9, 1e9), 0.0));
                     prop_assert!(found.distance >= 0.0 || size.is_nan());
-                    let mut corners = net.strips().iter().flat_map(|strip| strip.outline(0.01));
+                    let strips = net.strips();
+                    let mut corners = strips.iter().flat_map(|strip| strip.outline(0.01));
                     prop_assert!(corners.all(|corner| corner.iter().all(|number| number.is_finite())));
                 }
                 Err(error) => prop_assert!(!error.to_string().is_empty()),

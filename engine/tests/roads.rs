@@ -40,7 +40,10 @@ fn the_papers_example_has_its_roads_where_their_connections_put_them() {
 #[test]
 fn different_lane_counts_and_widths_are_refused_with_both_points() {
     let net = RoadSegment::new(50.0).named("a").connect("two", RoadSegment::new(50.0).lanes(6).named("b"), "one");
-    assert_eq!(refusal(net), "`a.two` with 2 lanes cannot be connected to `b.one` with 6");
+    assert_eq!(
+        refusal(net),
+        "`a.two` with 2 lanes cannot be connected to `b.one` with 6 lanes, expected equal numbers"
+    );
     let net =
         RoadSegment::new(50.0).named("a").connect("two", RoadSegment::new(50.0).lane_width(3.0).named("b"), "one");
     assert_eq!(refusal(net), "`a.two` with lanes of 3.5 m cannot be connected to `b.one` with lanes of 3 m");
@@ -61,9 +64,9 @@ fn a_point_connected_twice_is_refused_with_all_three_points() {
 fn unknown_points_and_elements_are_named_with_the_nearest() {
     let (main, side) = (RoadSegment::new(50.0).named("main"), RoadSegment::new(50.0).named("side"));
     let refused = |at: &str, end: &str| refusal(main.clone().connect(at, side.clone(), end));
-    assert_eq!(refused("tow", "one"), "`main` has no point `tow` (did you mean `two`?); it has one, two");
-    assert_eq!(refused("three", "one"), "`main` has no point `three`; it has one, two");
-    assert_eq!(refused("two", "side.oen"), "`side` has no point `oen` (did you mean `one`?); it has one, two");
+    assert_eq!(refused("tow", "one"), "`main` has no point `tow` (did you mean `two`?); its points are one, two");
+    assert_eq!(refused("three", "one"), "`main` has no point `three`; its points are one, two");
+    assert_eq!(refused("two", "side.oen"), "`side` has no point `oen` (did you mean `one`?); its points are one, two");
     assert_eq!(refused("maim.two", "one"), "no road element is called `maim` (did you mean `main`?)");
     let net = main.connect("two", side, "one").build().unwrap();
     let message = |error: RoadError| error.to_string();
@@ -77,14 +80,17 @@ fn unknown_points_and_elements_are_named_with_the_nearest() {
     );
     assert_eq!(
         net.on_lane("side", 1, 50.5).map_err(message).unwrap_err(),
-        "a place 50.5 m along `side` is asked for, which is 50 m long"
+        "there is no place 50.5 m along `side`, which is 50 m long"
     );
 }
 
 #[test]
 fn two_elements_of_one_name_are_refused_and_those_without_a_name_are_numbered() {
     let road = |name: &str| RoadSegment::new(50.0).named(name);
-    assert_eq!(refusal(road("a").connect("two", road("a"), "one")), "two road elements are called `a`");
+    assert_eq!(
+        refusal(road("a").connect("two", road("a"), "one")),
+        "two road elements are called `a`: give each element a name of its own"
+    );
     let pair = || RoadSegment::new(20.0).connect("two", RoadSegment::new(20.0), "one");
     let net = pair().connect("road-2.two", pair(), "one").connect("road-4.two", road("road-5"), "one");
     let net = net.connect("road-5.two", RoadSegment::new(20.0), "one").build().unwrap();
@@ -113,7 +119,10 @@ fn elements_that_cannot_be_are_refused() {
     assert!(refused(Roundabout::new().arms(2).into()).contains("has 2 arms, expected 3 to 8"));
     assert!(refused(Roundabout::new().arms(i32::MAX).into()).contains("arms"));
     let nowhere = Pose { position: Vector2::new(f64::NAN, 0.0), heading: 0.0 };
-    assert_eq!(refused(RoadSegment::new(50.0).at(nowhere)), "`road` is put at (NaN, 0), heading 0, expected numbers");
+    assert_eq!(
+        refused(RoadSegment::new(50.0).at(nowhere)),
+        "`road` is put at (NaN, 0), heading 0, expected finite numbers"
+    );
     let narrow = refused(Roundabout::new().arms(8).into());
     assert!(narrow.contains("at least"), "{narrow}");
     // What is said to be enough is.
@@ -153,7 +162,7 @@ fn roads_of_11_m_have_room_11_m_apart_and_not_nearer() {
     assert!((gap - 11.1).abs() < 1e-9, "{gap}");
     back(11.0).build().unwrap();
     let refused = refusal(back(10.9));
-    assert!(refused.starts_with("`road` and `road-"), "{refused}");
+    assert!(refused.starts_with("the road elements `road` and `road-"), "{refused}");
 }
 
 /// A square of straight roads and bends, its last road too long by `excess` and the last bend too wide by `turn`.

@@ -74,7 +74,7 @@ fn a_causal_cycle_is_refused_with_the_names_on_it() {
         s.require("fast", eventually(limited.at_least(0.0)));
     });
     let expected = "a stream depends on its own value at the same tick: \
-        `map` -> `+` -> `demand` -> `min` -> `limited` -> `map`; put a `pre` on the way";
+        `map` -> `+` -> `demand` -> `min` -> `limited` -> `map`; put a `pre` on this cycle";
     assert!(cycle.contains(expected), "{cycle}");
 }
 
@@ -95,7 +95,7 @@ fn a_stream_that_is_announced_is_to_be_defined_once() {
         let gap = s.forward::<f64>("gap");
         s.require("gap", never(gap.below(1.0)));
     });
-    assert!(missing.contains("the stream `gap` is read, but nothing defines it"), "{missing}");
+    assert!(missing.contains("the stream `gap` is read, but nothing defines it; call `define` on it"), "{missing}");
     let twice = refusal(|s| {
         rolling(s);
         let gap = s.forward("gap");
@@ -152,7 +152,10 @@ fn a_parameter_is_a_constant_or_a_signal_as_the_test_says() {
 #[test]
 fn values_that_do_not_make_the_signal_are_refused() {
     let error = varying(Some(Shape::PiecewiseLinear { pieces: 2 }), [0.0, 1.0].into()).unwrap_err();
-    assert!(error.contains("`friction` has 2 values, expected 3 of a piecewise-linear(2)"), "{error}");
+    assert!(
+        error.contains("the number of values of parameter `friction` is 2, expected 3 for a piecewise-linear(2)"),
+        "{error}"
+    );
     let error = varying(None, [0.0, 1.0].into()).unwrap_err();
     assert!(error.contains("does not vary over time"), "{error}");
 }
@@ -193,7 +196,7 @@ fn a_shape_that_does_not_suit_its_parameter_is_refused_in_every_run() {
     }
     let test = [("weather".to_owned(), "fog".into()), ("light".to_owned(), 0.5.into())].into_iter().collect();
     let error = run(build, &test).unwrap_err();
-    assert!(error.contains("`weather`: a choice is piecewise constant"), "{error}");
+    assert!(error.contains("`weather`: found a signal of the shape polynomial(2) for a choice"), "{error}");
     assert!(error.contains("`light`: the signal piecewise-constant(0) has 0 coordinates"), "{error}");
 }
 
@@ -229,12 +232,12 @@ fn streams_that_a_trace_could_not_tell_apart_are_refused() {
         s.require("slow", never(car.speed().map(|speed| speed).above(50.0)));
         s.require("near", never(car.speed().map(|speed| speed * speed).above(900.0)));
     });
-    assert!(closures.contains("are called `map(car.speed)`: tell them apart by `named`"), "{closures}");
+    assert!(closures.contains("are called `map(car.speed)`: give them different names by `named`"), "{closures}");
     let output = refusal(|s| {
         let car = rolling(s);
         s.require("slow", never((car.speed() * 3.6).named("car.speed").above(50.0)));
     });
-    assert!(output.contains("a stream is called `car.speed`"), "{output}");
+    assert!(output.contains("a stream of a requirement is called `car.speed`"), "{output}");
     let fine: fn(&mut Scenario) = |s| {
         let car = rolling(s);
         let squared = car.speed().map(|speed| speed * speed);

@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn what_it_cannot_run_is_answered_with_an_error_that_says_why() {
-        assert!(answered(json!({"throttle": 1}))["error"].as_str().unwrap().contains("no `brake`"));
+        assert!(answered(json!({"throttle": 1}))["error"].as_str().unwrap().contains("no value for the input `brake`"));
         assert!(answered(json!({"throttle": [], "brake": 1}))["error"].as_str().unwrap().contains("`throttle` is"));
         assert!(answered(json!({"throttle": ["a"], "brake": 1}))["error"].as_str().unwrap().contains("`throttle` is"));
         assert!(answer("nonsense").is_err());

@@ -42,11 +42,11 @@ fn it_answers_line_by_line_and_refuses_other_names() {
     let answers = String::from_utf8(answers.stdout).unwrap();
     let lines: Vec<&str> = answers.lines().collect();
     assert!(lines[0].starts_with("{\"index\":0,\"trace\":{\"time\":[0.0,0.1,"), "{answers}");
-    assert_eq!(lines[1], "{\"index\":1,\"error\":\"the test has no `throttle`\"}");
+    assert_eq!(lines[1], "{\"index\":1,\"error\":\"the test has no value for the input `throttle`\"}");
     for (arguments, says) in [
         (&["system"][..], "expected `automatic-transmission`"),
         (&["system", "manual"], "no system is called `manual`"),
-        (&["fig9", "manual"], "found `manual` after the study"),
+        (&["fig9", "manual"], "found the argument `manual` after the name of the study"),
     ] {
         let refused = experiments(arguments, "");
         assert_eq!(refused.status.code(), Some(2));

@@ -4,21 +4,21 @@ use crate::GeneratorError;
 use paracosm_space::nearest;
 use std::str::FromStr;
 
-/// The measure that greedy tests make small.
+/// The measure that the strategy `greedy` makes small.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aim {
-    /// The largest empty box over all continuous parameters, for each row of the discrete family separately.
+    /// The dispersion, which is the volume of the largest empty box, separately for each row of discrete values.
     Dispersion,
-    /// The largest dispersion that any k parameters show, discrete and continuous ones; no family of rows is used
-    /// then.
+    /// The k-wise dispersion, which is the volume of the largest hole in the space of any k parameters. Discrete and
+    /// continuous parameters count; no family of rows is used then.
     KwiseDispersion,
 }
 
 impl Aim {
-    /// All measures that `greedy` can aim at.
+    /// All measures that the strategy `greedy` can make small.
     pub const ALL: [Self; 2] = [Self::Dispersion, Self::KwiseDispersion];
 
-    /// Returns the name of the measure.
+    /// Returns the name of the measure that `greedy` makes small.
     pub fn name(self) -> &'static str {
         match self {
             Self::Dispersion => "dispersion",

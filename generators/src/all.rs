@@ -9,14 +9,14 @@ use std::str::FromStr;
 pub enum Purpose {
     /// The tests cover the space.
     Cover,
-    /// The tests cover the space together with tests that exist.
+    /// The tests cover the space together with existing tests.
     Complete,
-    /// The tests find a first failure, as few of them as possible.
+    /// The tests find a first failure with as few tests as possible.
     FirstFailure,
 }
 
 impl Strategy {
-    /// Returns the default strategy for a purpose.
+    /// Returns the default strategy for tests with the given purpose.
     pub const fn usual(purpose: Purpose) -> Self {
         match purpose {
             Purpose::Cover => Self::HALTON,
@@ -25,7 +25,7 @@ impl Strategy {
         }
     }
 
-    /// Iterates over all strategies that come with the software.
+    /// Iterates over all strategies of this crate, in the order in which lists show the strategies.
     pub fn all() -> impl Iterator<Item = Self> {
         sequence::ALL.iter().chain(&[Self::GREEDY]).chain(adaptive::ALL).copied()
     }

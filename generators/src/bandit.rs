@@ -17,8 +17,8 @@ const CURIOSITY: f64 = 0.2;
 /// A turn has brought something new if it lowered the least robustness by more than this share of the range.
 const NEW: f64 = 0.01;
 
-/// A set of searches that compete for tests. Its proposals follow from the proposals of the searches and from the
-/// results.
+/// A bandit algorithm that divides the tests among several searches. Its proposals follow from the proposals of the
+/// searches and from the results.
 pub struct Bandit {
     arms: Vec<Arm>,
     turns: usize,
@@ -35,13 +35,13 @@ struct Arm {
 }
 
 impl Bandit {
-    /// Makes a bandit of these searches. There must be at least one.
+    /// Makes a bandit that divides the tests among the given searches. There must be at least one search.
     pub fn new(searches: Vec<Box<dyn Generator>>) -> Self {
         let arm = |search| Arm { search, turns: 0, worth: 0.0, range: None };
         Self { arms: searches.into_iter().map(arm).collect(), turns: 0, active: 0 }
     }
 
-    /// Returns the next tests, at most `n`, all of one search.
+    /// Returns at most `n` new tests, which are all proposals of the same search.
     ///
     /// There may be fewer than `n`. There are none once the search has nothing more to propose.
     pub fn ask(&mut self, n: usize) -> Vec<Point> {
@@ -55,8 +55,8 @@ impl Bandit {
         self.arms[self.active].search.ask(n)
     }
 
-    /// Tells the results of tests, which need not be the tests of the last request. For each test, `robustness` has
-    /// the robustness of every requirement in the order of the searches; `None` if it is unknown.
+    /// Passes the results of tests to all searches. The tests need not be the tests of the last request. For each test,
+    /// `robustness` has the robustness of every requirement in the order of the searches; `None` if it is unknown.
     pub fn tell(&mut self, tests: &[Point], robustness: &[Vec<Option<f64>>]) {
         for (index, arm) in self.arms.iter_mut().enumerate() {
             let told: Vec<Option<f64>> = robustness.iter().map(|all| all.get(index).copied().flatten()).collect();

@@ -12,7 +12,7 @@ use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_space::{Point, Space};
 
 impl Strategy {
-    /// Builds a generator of this strategy.
+    /// Builds the generator that proposes the tests of a request by this strategy.
     ///
     /// In a space with discrete parameters the generator ends after the budget, or without continuous parameters
     /// after all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every

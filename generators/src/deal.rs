@@ -10,11 +10,12 @@
 /// The assignment of tests to rows and to indices of the sequence.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Deal {
-    /// The number of rows.
+    /// The number of rows of discrete values.
     pub(crate) rows: u64,
-    /// The number of indices that a row owns: the number of tests of the row with the most tests.
+    /// The number of indices of the sequence that a row owns, which is the number of tests of the row with the most
+    /// tests.
     pub(crate) block: u64,
-    /// The number of tests.
+    /// The number of tests of all rows.
     pub(crate) budget: u64,
 }
 
@@ -23,17 +24,17 @@ impl Deal {
         Self { rows, block: budget.div_ceil(rows), budget }
     }
 
-    /// The number of indices that the rows with at least one test own together.
+    /// Returns the number of indices that the rows with at least one test own together.
     pub(crate) fn indices(&self) -> u64 {
         self.rows.min(self.budget).saturating_mul(self.block)
     }
 
-    /// The number of tests of a row.
+    /// Returns the number of tests of a row.
     pub(crate) fn tests_of(&self, row: u64) -> u64 {
         self.budget / self.rows + u64::from(row < self.budget % self.rows)
     }
 
-    /// The row and the index of a test.
+    /// Returns the row and the index of the sequence for a test.
     pub(crate) fn of(&self, test: u64) -> (u64, u64) {
         let row = test % self.rows;
         (row, row * self.block + test / self.rows)

@@ -4,28 +4,29 @@ use crate::GeneratorError;
 use paracosm_space::nearest;
 use std::str::FromStr;
 
-/// The method that covers the discrete parameters.
+/// The method that makes the family of rows, which covers the discrete parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DiscreteFamily {
-    /// A covering array by IPOG, which is a small set of rows with all valid combinations of values of any k
+    /// A covering array by the IPOG algorithm, whose few rows contain all valid combinations of values of any k
     /// parameters.
     #[default]
     Ipog,
-    /// Uniformly random rows, as many as Proposition 3.2 of the paper asks for. With probability at least `1 - delta`
-    /// they contain all combinations of values of any k parameters. Under constraints, rows are drawn from the rows
-    /// that satisfy them, and their number is that of the union bound with every combination's own probability.
+    /// Uniformly random rows, in the number that Proposition 3.2 of the paper demands. With probability at least `1 -
+    /// delta` the rows contain all combinations of values of any k parameters. Under constraints, rows are drawn from
+    /// the rows that satisfy them, and their number is that of the union bound with every combination's own
+    /// probability.
     Random {
-        /// The probability, between 0 and 1, that a combination is missing.
+        /// The greatest probability, between 0 and 1, that the rows miss a valid combination.
         delta: f64,
     },
-    /// Every valid combination of all parameters, the last one changing fastest.
+    /// All valid combinations of values of all discrete parameters. The last parameter changes fastest.
     Cross,
 }
 
 impl DiscreteFamily {
     const NAMES: [&'static str; 3] = ["ipog", "random", "cross"];
 
-    /// The default probability that a random family misses a combination.
+    /// The default probability that a family of random rows misses a valid combination.
     pub const DELTA: f64 = 0.05;
 
     /// Returns the name by which users ask for the family.
@@ -37,7 +38,8 @@ impl DiscreteFamily {
         }
     }
 
-    /// Returns the same family with another probability that it misses a combination; unchanged if `delta` is `None`.
+    /// Returns the family with `delta` as the probability that the random rows miss a combination; the family is
+    /// unchanged if `delta` is `None`.
     ///
     /// # Errors
     /// A `delta` is given, but the family is not random, or `delta` is not a probability between 0 and 1.

@@ -19,8 +19,8 @@ const MOST_ROWS: u64 = 10_000_000;
 const MOST_BITS: u64 = 1 << 28;
 
 impl Request<'_> {
-    /// Returns the number of discrete parameters that the rows cover together. It is `k`, or less if fewer are
-    /// discrete.
+    /// Returns the strength of the discrete family, which is the number of discrete parameters in a combination. It is
+    /// `k`, or the number of discrete parameters if this number is less than `k`.
     ///
     /// # Errors
     /// `k` is 0 or more than the number of all parameters, or it is given for a space without discrete parameters.
@@ -36,7 +36,8 @@ impl Request<'_> {
     }
 }
 
-/// The rows for one space. A space without discrete parameters has one empty row.
+/// A family of rows, each of which has a level for each discrete parameter. A space without discrete parameters has one
+/// empty row.
 pub(crate) struct Family {
     levels: Vec<usize>,
     len: u64,
@@ -54,7 +55,7 @@ enum Source {
 }
 
 impl Family {
-    /// Makes the family that a request asks for.
+    /// Makes the discrete family that a request demands.
     pub(crate) fn new(rules: &Rules, request: &Request) -> Result<Self, GeneratorError> {
         let levels = rules.levels();
         let parameters = levels.len();
@@ -104,12 +105,12 @@ impl Family {
         Self { levels: levels.to_vec(), len: rows.len() as u64, rows: Source::Listed(rows) }
     }
 
-    /// The number of rows, at least 1.
+    /// Returns the number of rows of the family, which is at least 1.
     pub(crate) fn len(&self) -> u64 {
         self.len
     }
 
-    /// The row at `index`, which is below [`Family::len`].
+    /// Returns the row at `index`, which must be below [`Family::len`].
     pub(crate) fn row(&self, index: u64) -> Vec<usize> {
         match &self.rows {
             Source::Random { tests, seed } => {
@@ -121,7 +122,7 @@ impl Family {
         }
     }
 
-    /// The family without rows that repeat an earlier row or an existing test.
+    /// Returns the family without the rows that repeat an earlier row or an existing test.
     pub(crate) fn without(self, existing: &[Point]) -> Self {
         let existing = existing.iter().map(|test| test.discrete.clone());
         let rows = (0..self.len).map(|index| self.row(index));
@@ -149,8 +150,8 @@ impl Family {
         Self::listed(&self.levels, rows)
     }
 
-    /// The continuous points that each row has among tests, by the row's number. If rows are equal, the first has the
-    /// points.
+    /// Returns the continuous points of the tests that have the same discrete values as a row, by the row's number. If
+    /// rows are equal, the first row has the points.
     pub(crate) fn points_of_rows(&self, tests: &[Point]) -> HashMap<u64, Vec<Vec<f64>>> {
         let mut by_row: HashMap<&[usize], Vec<Vec<f64>>> = HashMap::new();
         for test in tests {

@@ -9,12 +9,12 @@ use paracosm_space::{Domain, Parameter, Point, Space, Value};
 /// The radius of a ball whose volume is a thousandth of the unit cube of five dimensions.
 const BALL: f64 = 0.1801;
 
-/// A function with a known set of failures.
+/// A test function for strategies, which gives tests a robustness and has a known set of failures.
 #[derive(Debug, Clone, Copy)]
 pub struct Function {
-    /// The name by which users ask for the function.
+    /// The name by which users ask for the test function.
     pub name: &'static str,
-    /// The difficulty that the function stands for, in a few words.
+    /// The difficulty for which the test function stands, in a few words.
     pub about: &'static str,
     dims: usize,
     /// The number of levels of each discrete parameter, whose values are words.
@@ -22,7 +22,7 @@ pub struct Function {
     robustness: fn(&Point, &Point) -> Option<f64>,
 }
 
-/// A function whose failure has a place.
+/// A test function whose failure lies at a fixed place in the space.
 #[derive(Debug, Clone)]
 pub struct Placed {
     function: Function,
@@ -40,7 +40,7 @@ const fn function(
 }
 
 impl Function {
-    /// All functions of this module.
+    /// All test functions of this crate.
     pub const ALL: [Self; 10] = [
         function("corner5", "within 0.05 of one of 32 corners", 5, &[], corner),
         function("ball5", "a ball of volume 0.001", 5, &[], |x, hidden| Some(distance(x, hidden) - BALL)),
@@ -66,7 +66,7 @@ impl Function {
         ),
     ];
 
-    /// Returns the space of the function's tests.
+    /// Returns the space of the tests of the function.
     pub fn space(&self) -> Space {
         let word = |(i, &levels): (usize, &usize)| {
             let levels = (0..levels).map(|level| Value::Word(format!("w{level}"))).collect();
@@ -77,8 +77,8 @@ impl Function {
         Space::new(parameters).expect("the parameters have names of their own")
     }
 
-    /// Returns the function with its failure at the place that the seed decides. The place is away from the border,
-    /// so that the whole failure lies in the cube.
+    /// Returns the function with its failure at a place that depends on the seed. The place is away from the border, so
+    /// that the whole failure lies in the cube.
     pub fn placed(&self, seed: u64) -> Placed {
         let space = self.space();
         // Far from the seeds of the strategies: otherwise a random test would hit the place itself.
@@ -95,7 +95,7 @@ impl Function {
 }
 
 impl Placed {
-    /// Returns the robustness of a test, which is below 0 if it fails, and `None` if it ends in an error.
+    /// Returns the robustness of a test, which is below 0 if the test fails; `None` if the test ends in an error.
     pub fn robustness(&self, test: &Point) -> Option<f64> {
         (self.function.robustness)(test, &self.hidden)
     }

@@ -36,10 +36,10 @@ struct Rows {
 }
 
 impl Strategy {
-    /// Builds a generator of this strategy whose tests draw their discrete values uniformly among the valid ones,
-    /// each test separately, instead of taking the rows of a family in turn. Without continuous parameters no test
-    /// comes twice, and the generator ends when all tests have come. Strategies that choose all values together do so
-    /// here too.
+    /// Builds a generator of tests by this strategy, with independent random discrete values for each test. The
+    /// discrete values are drawn uniformly among the valid rows, instead of taking the rows of a family in turn.
+    /// Without continuous parameters no test comes twice, and the generator ends when all tests have come. Strategies
+    /// that choose all values together do so here too.
     ///
     /// # Errors
     /// As [`Strategy::build`]; also if the constraints join too many parameters for random rows.

@@ -54,16 +54,16 @@ pub use strategy::{BuildOwn, Descriptor, Look, MarkShape, Method, Strategy};
 
 use paracosm_space::Point;
 
-/// A source of tests that may learn from their results.
+/// A source of tests that may learn from the results of the tests.
 pub trait Generator: Send {
-    /// Returns the next tests, at most `n`.
+    /// Returns at most `n` new tests.
     ///
     /// There may be fewer than `n`. There are none once the strategy has nothing more to propose. Continuous
     /// coordinates are in `[0,1)`.
     fn ask(&mut self, n: usize) -> Vec<Point>;
 
-    /// Tells the results of tests, a robustness for each test. It is below 0 if a requirement was violated, and
-    /// `None` if the test ended in an error.
+    /// Takes the results of tests, with a robustness for each test. A robustness is below 0 if a requirement was
+    /// violated, and `None` if the test ended in an error.
     ///
     /// Open-loop strategies ignore the results. Adaptive strategies use every result, whatever it is. A test may
     /// remain without a result.

@@ -5,7 +5,7 @@
 use crate::{Generator, deal::Deal, family::Family, sequence::Sequence};
 use paracosm_space::Point;
 
-/// The tests of a family and a sequence.
+/// The open-loop generator, which joins the rows of a family with the points of a sequence.
 pub(crate) struct Mixed {
     family: Family,
     /// The sequence of points; `None` in a space without continuous parameters.
@@ -20,7 +20,7 @@ pub(crate) struct Mixed {
 }
 
 impl Mixed {
-    /// Gives every row its own block of the sequence, from index `first` on.
+    /// Makes a generator that gives every row its own block of the sequence, from index `first` on.
     ///
     /// With a single row the sequence goes on beyond the budget, as far as it reaches. With several rows the blocks
     /// cannot grow.
@@ -29,7 +29,7 @@ impl Mixed {
         Self { family, sequence: Some(sequence), deal, first, next: 0, end }
     }
 
-    /// Makes a generator of the rows alone, if there are any.
+    /// Makes a generator of the rows of the family without continuous points; the family may be empty.
     pub(crate) fn discrete(family: Family) -> Self {
         let end = family.len();
         Self { deal: Deal::new(end.max(1), end), family, sequence: None, first: 0, next: 0, end }

@@ -4,7 +4,7 @@ use crate::{Aim, DiscreteFamily};
 use paracosm_coverage::Deadline;
 use paracosm_space::{Point, Space};
 
-/// A request for a generator.
+/// A request for a generator of tests, with the space, the budget, the seed and further options.
 ///
 /// ```
 /// # use paracosm_space::Space;
@@ -14,43 +14,44 @@ use paracosm_space::{Point, Space};
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
-    /// The parameters to vary.
+    /// The space of the tests, which has the parameters to vary.
     pub space: &'a Space,
-    /// The number of tests, at least 1. Sets that depend on their size are made for this number. With an epsilon it
-    /// is the greatest number of tests; `usize::MAX` sets no limit.
+    /// The number of tests to generate, at least 1. Sets that depend on their size are made for this number. With an
+    /// epsilon it is the greatest number of tests; `usize::MAX` sets no limit.
     pub budget: usize,
-    /// The source of all chance. `None` gives the plain set if the strategy has one (`halton sobol kronecker
+    /// The seed of all random numbers. `None` gives the plain set if the strategy has one (`halton sobol kronecker
     /// hammersley fibonacci`), and seed 0 for everything else, such as the copies of a plain set for further rows.
     pub seed: Option<u64>,
-    /// The index of a sequence's first point, from 0. `None` means 0, but 1 for `halton`, because point 0 of Halton
-    /// is the corner of the cube.
+    /// The index, from 0, of the first point that is used of a sequence. `None` means 0, but 1 for `halton`, because
+    /// point 0 of Halton is the corner of the cube.
     pub skip: Option<u64>,
-    /// The method that covers the discrete parameters.
+    /// The method that makes the family of rows, which covers the discrete parameters.
     pub discrete: DiscreteFamily,
-    /// The number of parameters that are covered together. A family of rows covers the discrete parameters; `greedy`
-    /// covers all parameters if it aims at k-wise dispersion. `None` means 2, or the number of parameters if there
-    /// are fewer. If there are fewer discrete parameters than k, all their combinations are covered.
+    /// The strength k, which is the number of parameters in a combination that the tests cover. A family of rows covers
+    /// the discrete parameters; `greedy` covers all parameters if it aims at k-wise dispersion. `None` means 2, or the
+    /// number of parameters if there are fewer. If there are fewer discrete parameters than k, all their combinations
+    /// are covered.
     pub k: Option<usize>,
-    /// The volume of the largest empty box that the points of any row of the discrete family may leave. Tests are
-    /// added until this is reached, as few as possible. If the budget is too small, the tests are divided so that the
+    /// The greatest volume of an empty box that the tests of a row of the discrete family may leave. As few tests as
+    /// possible are added until this volume is reached. If the budget is too small, the tests are divided so that the
     /// largest empty box of any row is as small as possible. `None` gives every row an equal share of the budget.
     pub epsilon: Option<f64>,
-    /// The deadline of the search for tests that reach epsilon; the search then ends with what it has found.
+    /// The deadline of the search for tests that reach epsilon. After the deadline the search ends with its best tests.
     pub deadline: Deadline,
-    /// The measure that `greedy` makes small. `None` means the dispersion in a continuous space, and the k-wise
-    /// dispersion if there are discrete parameters.
+    /// The measure that the strategy `greedy` makes small. `None` means the dispersion in a continuous space, and the
+    /// k-wise dispersion if there are discrete parameters.
     pub aim: Option<Aim>,
-    /// Existing tests, which the new tests complete.
+    /// The existing tests that the new tests complete.
     pub existing: &'a [Point],
-    /// The groups of discrete parameters that the family `ipog` covers with a strength above k, as positions among
-    /// the discrete parameters and the strength.
+    /// The groups of discrete parameters that the family `ipog` covers with a strength above k. Each group has the
+    /// positions of its parameters among the discrete parameters, and its strength.
     pub groups: &'a [(Vec<usize>, usize)],
-    /// The rows to use instead of the family's rows.
+    /// The rows of discrete values to use instead of the family's rows; `None` uses the family's rows.
     pub rows: Option<&'a [Vec<usize>]>,
 }
 
 impl<'a> Request<'a> {
-    /// Makes a request for `budget` tests of `space`, with the default for everything else.
+    /// Makes a request for `budget` tests of `space`, with defaults for all further options.
     pub fn new(space: &'a Space, budget: usize) -> Self {
         Self {
             space,

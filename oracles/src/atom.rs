@@ -45,7 +45,7 @@ enum Statement {
     Compare(Number, Comparison, Number),
 }
 
-/// A statement about one row, or its negation.
+/// A statement about one row of samples, or the negation of a statement.
 #[derive(Debug, Clone)]
 pub(crate) struct Atom {
     statement: Statement,
@@ -56,7 +56,7 @@ pub(crate) struct Atom {
 }
 
 impl Atom {
-    /// Finds the columns of the signals in a formula without sub-formulas.
+    /// Makes an atom, which evaluates a formula without sub-formulas on rows of samples.
     pub fn resolve(formula: &Formula, negated: bool, signals: &[String]) -> Result<Self, EvaluationError> {
         let statement = match formula {
             Formula::Flag(name) => Statement::Flag(column(name, signals)?),
@@ -70,7 +70,7 @@ impl Atom {
         Ok(Self { statement, negated, text: formula.to_string(), signals: named.collect::<Result<_, _>>()? })
     }
 
-    /// Returns the worth of the statement for a row. `time` gives the time of the row in seconds.
+    /// Returns the robustness of the statement for a row of samples. `time` gives the time of the row in seconds.
     #[inline]
     pub fn at(&self, row: &[f64], time: impl FnOnce() -> f64) -> Result<Worth, EvaluationError> {
         let worth = match &self.statement {
@@ -88,7 +88,7 @@ impl Atom {
         Ok(worth.flipped(self.negated))
     }
 
-    /// Returns the worth of the statement for each of these rows, which are `dt` seconds apart.
+    /// Returns the robustness of the statement for each of the given rows, which are `dt` seconds apart.
     pub fn column<'a>(
         &self,
         rows: impl ExactSizeIterator<Item = &'a [f64]>,

@@ -2,20 +2,20 @@
 
 use crate::worth::Worth;
 
-/// The ways to compare two numbers.
+/// A comparison of two numbers, such as `<` or `==`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comparison {
-    /// The comparison `<`.
+    /// The comparison `left < right`.
     Below,
-    /// The comparison `<=`.
+    /// The comparison `left <= right`.
     AtMost,
-    /// The comparison `>`.
+    /// The comparison `left > right`.
     Above,
-    /// The comparison `>=`.
+    /// The comparison `left >= right`.
     AtLeast,
-    /// The comparison `==`.
+    /// The comparison `left == right`.
     Equal,
-    /// The comparison `!=`.
+    /// The comparison `left != right`.
     Different,
 }
 
@@ -23,7 +23,8 @@ impl Comparison {
     pub(crate) const ALL: [Self; 6] =
         [Self::Below, Self::AtMost, Self::Above, Self::AtLeast, Self::Equal, Self::Different];
 
-    /// Returns `true` if the comparison holds for the two numbers. With NaN only [`Different`](Self::Different) holds.
+    /// Returns `true` if the comparison holds between `left` and `right`. With NaN only [`Different`](Self::Different)
+    /// holds.
     pub fn holds(self, left: f64, right: f64) -> bool {
         match self {
             Comparison::Below => left < right,
@@ -35,8 +36,7 @@ impl Comparison {
         }
     }
 
-    /// Returns the distance from the other truth, for numbers that are not NaN. For equal infinities the distance is
-    /// 0.
+    /// Returns the robustness of the comparison, for numbers that are not NaN. For equal infinities the distance is 0.
     pub(crate) fn worth(self, left: f64, right: f64) -> Worth {
         if left == right {
             let holds = matches!(self, Comparison::AtMost | Comparison::AtLeast | Comparison::Equal);
@@ -50,7 +50,7 @@ impl Comparison {
         })
     }
 
-    /// Returns the sign of the comparison, such as `<`.
+    /// Returns the symbol of the comparison in formulas, such as `<`.
     pub fn symbol(self) -> &'static str {
         match self {
             Comparison::Below => "<",

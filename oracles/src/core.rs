@@ -18,26 +18,28 @@ pub(crate) type Id = usize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Sight {
     pub past: bool,
-    /// The last tick that the operator sees, counted from its own tick. [`FOREVER`] if there is no end.
+    /// The distance in ticks from the operator's own tick to the last tick that the operator sees. [`FOREVER`] if there
+    /// is no end.
     pub end: usize,
-    /// `true` if the operator is written without an end. On a complete trace it then runs to the end of the trace, and
-    /// nothing exists behind the end. In all other cases, the samples behind the end are unknown.
+    /// `true` if the formula gives the operator a time interval without an end. On a complete trace it then runs to the
+    /// end of the trace, and nothing exists behind the end. In all other cases, the samples behind the end are unknown.
     pub endless: bool,
 }
 
 #[derive(Debug, Clone)]
 pub(crate) enum CoreKind {
     Atom(Atom),
-    /// The greater worth of two operands.
+    /// The greater robustness of two operands.
     Or(Id, Id),
-    /// The greatest worth of the operand, from tick `start` to the end, counted from the operator's tick.
+    /// The greatest robustness of the operand from tick `start` to the end of the interval, counted from the operator's
+    /// tick.
     Any {
         operand: Id,
         start: usize,
         sight: Sight,
     },
-    /// The greatest worth, over all ticks to the end, of the lesser of `goal` at this tick and the least of `hold`
-    /// before it.
+    /// The robustness of `hold until goal`. It is the greatest value, over all ticks to the end, of the lesser of
+    /// `goal` at the tick and the least of `hold` before the tick.
     Until {
         hold: Id,
         goal: Id,
@@ -48,7 +50,7 @@ pub(crate) enum CoreKind {
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
     pub kind: CoreKind,
-    /// `true` if the operands and the result are negated.
+    /// `true` if the node negates its operands and its result.
     pub dual: bool,
 }
 
@@ -73,17 +75,17 @@ pub(crate) struct Core {
 /// The assumption about a formula beyond the end of the trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Beyond {
-    /// There is nothing beyond the end. Only the recorded samples count.
+    /// The assumption that no samples follow the end of the trace. Only the recorded samples count.
     Nothing,
-    /// The worst possible samples follow.
+    /// The assumption that the worst possible samples follow the end of the trace.
     Worst,
-    /// The best possible samples follow.
+    /// The assumption that the best possible samples follow the end of the trace.
     Best,
 }
 
 impl Beyond {
-    /// Returns the worth of the node's operands beyond the end, negated if the node is `dual`. `None` if nothing lies
-    /// there.
+    /// Returns the robustness of a node's operands beyond the end of the trace, negated if the node negates its
+    /// operands. `None` if no samples lie there.
     pub fn operand(self, node: &Node, sight: Sight, complete: bool) -> Option<Worth> {
         match self {
             _ if sight.past || (sight.endless && complete) => None,
@@ -95,8 +97,8 @@ impl Beyond {
 }
 
 impl Core {
-    /// Reduces a formula over rows of these signals, `dt` seconds apart. Also returns the sub-formula that each node
-    /// belongs to.
+    /// Reduces a formula to nodes, for rows of the given signals that are `dt` seconds apart. Also returns the
+    /// sub-formula that each node belongs to.
     pub fn new<'f>(
         formula: &'f Formula,
         signals: &[String],
@@ -107,8 +109,7 @@ impl Core {
         Ok((Self { nodes: builder.nodes }, builder.parts))
     }
 
-    /// Returns, for each node, the number of ticks on which the formula's first tick depends, on a trace of `ticks`
-    /// ticks.
+    /// Returns for each node the number of ticks that determine the formula at tick 0, on a trace of `ticks` ticks.
     pub fn needed(&self, ticks: usize) -> Vec<usize> {
         let mut needed = vec![0; self.nodes.len()];
         *needed.last_mut().expect("a formula has a node") = ticks.min(1);

@@ -9,9 +9,9 @@ pub enum EvaluationError {
     /// The formula names a signal that the trace does not have.
     #[error("the trace has no signal `{name}`{}", did_you_mean(.nearest))]
     UnknownSignal {
-        /// The name of the signal in the formula.
+        /// The name of the signal that the trace does not have.
         name: String,
-        /// The most similar signal of the trace, if a signal is similar enough.
+        /// The name of the most similar signal of the trace, if a name is similar enough.
         nearest: Option<String>,
     },
     /// A sample or an expression has no value. The sample is NaN, or the expression is infinity minus infinity, 0 / 0,
@@ -20,35 +20,37 @@ pub enum EvaluationError {
     NoValue {
         /// The signal, the expression or the comparison without a value.
         what: String,
-        /// The time in seconds.
+        /// The time in seconds at which the value is missing.
         time: f64,
     },
     /// A time bound lies between two samples, and the formula does not allow rounding.
     #[error("the time bound {bound} s is not a multiple of the sample period {dt} s; write {widened} to round outward")]
     TimeBound {
-        /// The bound in seconds.
+        /// The time bound that lies between two samples, in seconds.
         bound: f64,
-        /// The sample period in seconds.
+        /// The sample period of the trace, in seconds.
         dt: f64,
-        /// The same interval with rounding, which would be accepted.
+        /// The time interval of the operator in the accepted form `~[a,b]`, whose bounds are rounded outward to
+        /// samples.
         widened: Interval,
     },
-    /// A comparison is not piecewise linear in time, or a signal is used as a truth, which has no distance to the
-    /// other truth. Dense time cannot follow either of them between samples.
+    /// A formula in dense time has a comparison that is not piecewise linear in time, or uses a signal as a truth
+    /// value. Dense time cannot follow such parts between samples. A truth value has no distance to the other truth
+    /// value.
     #[error("`{formula}` is not a piecewise linear function of its signals, which dense time needs")]
     NotLinear {
-        /// The part of the formula, as text.
+        /// The part of the formula that dense time cannot evaluate, as text.
         formula: String,
     },
-    /// The time bounds are not a valid interval. Only formulas built in Rust can have such bounds.
+    /// The time bounds of an operator are not a valid interval. Only formulas built in Rust can have such bounds.
     #[error("the time bounds [{},{}] are not an interval, expected 0 <= start <= end in seconds", .0.start, .0.end)]
     Interval(Interval),
 }
 
 impl EvaluationError {
-    /// Returns `true` if the formula will not fit other traces of the same source either. Another trace may have a
-    /// signal that this trace lacks. But if this trace has a signal whose name differs only by a typing mistake, the
-    /// result is `true`.
+    /// Returns `true` if other traces of the same source would cause the same error. Another trace may have a signal
+    /// that this trace lacks. But if this trace has a signal whose name differs only by a typing mistake, the result is
+    /// `true`.
     pub fn fits_no_trace(&self) -> bool {
         match self {
             EvaluationError::UnknownSignal { name, nearest } => {

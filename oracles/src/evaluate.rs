@@ -19,8 +19,8 @@ impl Formula {
         }
     }
 
-    /// Evaluates the formula at the beginning of the trace. The time is linear in the length of the trace, for any
-    /// time bounds.
+    /// Evaluates the formula at the beginning of the trace, in sampled time. The time is linear in the length of the
+    /// trace, for any time bounds.
     ///
     /// On a trace without samples nothing is decided, and the robustness is NaN.
     ///
@@ -37,9 +37,9 @@ impl Formula {
         Ok(Evaluation::new(recorded, lower, upper))
     }
 
-    /// Finds the part of the formula, and the time, that determine the formula's robustness on this trace. If there are
-    /// several such parts, the result is the leftmost part, at the time nearest to the instant of its operator. The
-    /// result is `None` if the trace is empty.
+    /// Finds the part of the formula and the time that determine the robustness of the formula on the trace, in sampled
+    /// time. If there are several such parts, the result is the leftmost part, at the time nearest to the instant of
+    /// its operator. The result is `None` if the trace is empty.
     ///
     /// # Errors
     /// The same errors as [`evaluate`](Self::evaluate).
@@ -57,7 +57,8 @@ impl Formula {
         Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
     }
 
-    /// Finds the cause of the robustness as [`explain`](Self::explain) does, in sampled or in dense time.
+    /// Finds the part of the formula and the time that determine the robustness of the formula on the trace, in sampled
+    /// or in dense time. In sampled time the result is that of [`explain`](Self::explain).
     ///
     /// In dense time the robustness of the part equals that of the whole formula up to rounding. If two parts have
     /// this robustness, because two lines meet, the result is one of them. The search takes up to twice as long as the

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Semantics {
-    /// Formulas refer to the samples only.
+    /// Sampled time, in which formulas refer to the samples only.
     #[default]
     Sampled,
-    /// Signals are straight lines from sample to sample, and formulas refer to every instant. A robustness of 0 is
-    /// undecided.
+    /// Dense time, in which signals are straight lines from sample to sample and formulas refer to every instant. A
+    /// robustness of 0 is undecided.
     ///
     /// Windows include both of their ends exactly. The robustness may jump when the window of an operator reaches the
     /// first instant of the trace or leaves the last one. At this instant, the robustness has a value of its own,
@@ -23,13 +23,14 @@ pub enum Semantics {
 /// The truth and the robustness of a formula at the beginning of a trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
-    /// The truth of the formula. It is valid for every continuation of the trace.
+    /// The truth of the formula at the beginning of the trace. It is valid for every continuation of the trace.
     pub truth: Truth,
-    /// The distance from the other truth, for the recorded samples only. It is NaN if the trace is empty.
+    /// The robustness of the formula for the recorded samples only, which is their distance from the opposite truth. It
+    /// is NaN if the trace is empty.
     pub robustness: f64,
-    /// The lowest robustness that a continuation of the trace can lead to.
+    /// The lowest robustness that a continuation of the trace can give the formula.
     pub lower: f64,
-    /// The highest robustness that a continuation of the trace can lead to.
+    /// The highest robustness that a continuation of the trace can give the formula.
     pub upper: f64,
 }
 
@@ -51,10 +52,11 @@ impl Evaluation {
 /// A part of a formula and a time that together determine the robustness of the formula.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cause<'f> {
-    /// The time that determines the robustness, in seconds.
+    /// The time at which the part determines the robustness of the formula, in seconds.
     pub time: f64,
-    /// The sub-formula that determines the robustness. At this time its robustness is that of the whole formula, up to
-    /// the sign. It is a comparison, a flag or a constant, or a temporal operator whose bounds contain no sample.
+    /// The sub-formula that determines the robustness of the whole formula. At this time the sub-formula has the same
+    /// robustness, up to the sign. It is a comparison, a flag or a constant, or a temporal operator whose bounds
+    /// contain no sample.
     pub part: &'f Formula,
     /// The robustness of the whole formula.
     pub robustness: f64,

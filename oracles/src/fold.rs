@@ -103,12 +103,13 @@ pub(crate) struct Window<T> {
 }
 
 impl<T: Fold> Window<T> {
-    /// Makes a window over `size` values. `size` is at least 1. The memory grows up to this number of values.
+    /// Makes a window over the last `size` values of a sequence. `size` is at least 1. The memory grows up to this
+    /// number of values.
     pub fn new(size: usize, blank: T) -> Self {
         Self { size, blank, block: Vec::with_capacity(size.min(1 << 16)), at: 0, recent: T::NEUTRAL }
     }
 
-    /// Takes the next value, and returns the fold of the last `size` values.
+    /// Adds the next value of the sequence to the window, and returns the fold of the last `size` values.
     #[inline]
     pub fn push(&mut self, value: T) -> T {
         match self.block.get_mut(self.at) {
@@ -135,7 +136,7 @@ impl<T: Fold> Window<T> {
         rest
     }
 
-    /// Returns the values so far if they do not fill the window yet.
+    /// Returns the values that were added to the window, or `None` if the values fill the window.
     pub fn unfilled(&self) -> Option<&[T]> {
         (self.block.len() < self.size).then_some(&self.block)
     }

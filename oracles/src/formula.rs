@@ -20,62 +20,65 @@ pub use expression::{Arithmetic, Expression, signal};
 use crate::{Comparison, Interval};
 use std::ops::Not;
 
-/// The way in which two formulas are joined at one instant.
+/// A logical connective that joins two formulas at the same instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Connective {
-    /// Both formulas hold.
+    /// The conjunction, which holds if both formulas hold.
     And,
-    /// At least one formula holds.
+    /// The disjunction, which holds if at least one of two formulas holds.
     Or,
-    /// The second formula holds, or the first does not hold.
+    /// The implication, which holds if the second formula holds or the first formula does not hold.
     Implies,
 }
 
-/// The instants of an interval at which a formula has to hold.
+/// A temporal operator on one formula, such as `always` or `once`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Modality {
-    /// The formula holds at all instants, from now on.
+    /// The operator `always`, which holds if the formula holds at all instants of the interval from now on.
     Always,
-    /// The formula holds at one instant or more, from now on.
+    /// The operator `eventually`, which holds if the formula holds at an instant of the interval from now on.
     Eventually,
-    /// The formula held at all instants, up to now.
+    /// The operator `historically`, which holds if the formula held at all instants of the interval up to now.
     Historically,
-    /// The formula held at one instant or more, up to now.
+    /// The operator `once`, which holds if the formula held at an instant of the interval up to now.
     Once,
 }
 
-/// The order in time in which two formulas have to hold.
+/// A temporal operator on two formulas, such as `until`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sequence {
-    /// The second formula holds at an instant of the interval, and the first holds from now until just before it.
+    /// The operator `until`, which holds if the second formula holds at an instant of the interval and the first
+    /// formula holds from now until just before this instant.
     Until,
-    /// The second formula holds at every instant of the interval, up to and including the first instant at which the
-    /// first formula holds.
+    /// The operator `release`, which holds if the second formula holds at every instant of the interval, up to and
+    /// including the first instant at which the first formula holds.
     Release,
-    /// The second formula held at an instant of the past interval, and the first has held since just after it.
+    /// The operator `since`, which holds if the second formula held at an instant of the past interval and the first
+    /// formula has held since just after this instant.
     Since,
 }
 
-/// A temporal formula. [`Display`](std::fmt::Display) writes a text that can be parsed again.
+/// A formula of temporal logic over the signals of a trace. [`Display`](std::fmt::Display) writes a text that can be
+/// parsed again.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Formula {
     /// A formula that is always true or always false.
     Constant(bool),
-    /// A signal that is itself true or false. It is true while its samples are above 0.
+    /// A formula that is true while the samples of the signal with the given name are above 0.
     Flag(String),
-    /// A comparison of two numbers.
+    /// A comparison of two arithmetic expressions.
     Compare(Expression, Comparison, Expression),
     /// The negation of a formula.
     Not(Box<Formula>),
-    /// Two formulas, joined at the same instant.
+    /// Two formulas that a logical connective joins at the same instant.
     Join(Connective, Box<Formula>, Box<Formula>),
-    /// A formula that has to hold at all instants, or at one instant, of an interval.
+    /// A formula that has to hold at all instants or at one instant of an interval.
     Modal(Modality, Interval, Box<Formula>),
-    /// Two formulas that have to hold one after the other.
+    /// Two formulas that a temporal operator such as `until` joins over an interval.
     Sequence(Sequence, Interval, Box<Formula>, Box<Formula>),
 }
 
-/// Makes a formula of the signal with this name, which is itself true or false.
+/// Makes the formula that is true while the samples of the signal with the given name are above 0.
 pub fn flag(name: impl Into<String>) -> Formula {
     Formula::Flag(name.into())
 }
@@ -121,8 +124,8 @@ impl Formula {
         Formula::Sequence(Sequence::Until, interval.into(), Box::new(self), Box::new(goal))
     }
 
-    /// Makes the formula "`duty` holds at every instant of the interval, up to and including the first at which this
-    /// formula holds".
+    /// Makes the formula "`duty` holds at every instant of the interval, up to and including the first instant at which
+    /// this formula holds".
     pub fn release(self, interval: impl Into<Interval>, duty: Formula) -> Self {
         Formula::Sequence(Sequence::Release, interval.into(), Box::new(self), Box::new(duty))
     }
@@ -154,8 +157,8 @@ impl Formula {
         }
     }
 
-    /// Returns how many seconds the formula looks ahead. A trace of this duration always decides the formula at time
-    /// 0. The result is infinite if an operator of the future has no end.
+    /// Returns the time in seconds that the formula looks ahead. A trace of this duration always decides the formula at
+    /// time 0. The result is infinite if an operator of the future has no end.
     pub fn horizon(&self) -> f64 {
         let inner = self.operands().into_iter().flatten().map(Formula::horizon).fold(0.0, f64::max);
         match self {

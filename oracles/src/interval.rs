@@ -3,33 +3,35 @@
 use std::fmt;
 use std::ops::{RangeFrom, RangeFull, RangeInclusive};
 
-/// The interval in which a temporal operator looks, in seconds from its own instant: into the future, or back for the
-/// operators of the past.
+/// The time interval in which a temporal operator looks, in seconds from the instant of the operator. Operators of the
+/// past look back, all other operators look into the future.
 ///
 /// In Rust an interval is written as a range: `0.0..=5.0`, `2.0..` or `..`. In text the same intervals are written
 /// `[0,5]`, `[2,inf]` and with nothing. An interval without an end runs to the end of the trace, or back to its
 /// beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// The earlier bound in seconds.
+    /// The bound of the interval that is nearer to the operator's instant, in seconds.
     pub start: f64,
-    /// The later bound in seconds. It is infinite if the interval has no end.
+    /// The bound of the interval that is farther from the operator's instant, in seconds. It is infinite if the
+    /// interval has no end.
     pub end: f64,
-    /// `true` if a bound between two samples is moved outward to the next sample (`~[0,0.25]`). Otherwise the
-    /// evaluation refuses such a bound.
+    /// `true` if the evaluation moves a bound between two samples outward to the next sample (`~[0,0.25]`). Otherwise
+    /// the evaluation refuses such a bound.
     pub outward: bool,
 }
 
 impl Interval {
-    /// The interval from 0 without an end.
+    /// The time interval that begins at the operator's instant and has no end.
     pub const UNBOUNDED: Self = Self { start: 0.0, end: f64::INFINITY, outward: false };
 
-    /// Returns the same interval, but with bounds that are moved outward to whole samples.
+    /// Returns the same interval, with permission to move bounds between two samples outward to the next sample.
     pub fn outward(self) -> Self {
         Self { outward: true, ..self }
     }
 
-    /// Returns `true` if the bounds are valid: at least 0, the first finite, and the second not below the first.
+    /// Returns `true` if the bounds are at least 0, the first bound is finite, and the second bound is not below the
+    /// first.
     pub fn is_valid(&self) -> bool {
         self.start >= 0.0 && self.start.is_finite() && self.end >= self.start
     }

@@ -1,9 +1,9 @@
 //! Oracles: formulas that judge the trace of a run, with a truth and a robustness.
 //!
 //! A run gives a [`Trace`]: named signals, sampled once per tick. A [`Requirement`] has a [`Formula`] that the trace
-//! should satisfy. Its judgement has two parts. The [`Truth`] says whether the trace satisfies the formula. The
-//! robustness says how far the trace is from the other truth, in the unit of the requirement. The crate judges traces;
-//! it runs no simulation and writes no file.
+//! should satisfy. Its judgement has two parts. The [`Truth`] is `Holds`, `Violated` or `Undecided`. The
+//! robustness is the distance of the trace from the opposite truth, in the unit of the requirement. The crate judges
+//! traces; it runs no simulation and writes no file.
 //!
 //! # The meaning of formulas
 //!

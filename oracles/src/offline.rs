@@ -16,11 +16,11 @@ const OPEN: [Beyond; 2] = [Beyond::Worst, Beyond::Best];
 /// The worth of a node at each of its ticks.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Column {
-    /// The worth according to the recorded samples.
+    /// The robustness of the node at each tick, for the recorded samples only.
     pub recorded: Vec<Worth>,
-    /// The first tick that depends on samples beyond the end.
+    /// The first tick that depends on samples beyond the end of the trace.
     settled: usize,
-    /// The worst and the best possible worth, from that tick on.
+    /// The worst and the best possible worth, from the tick `settled` on.
     open: [Vec<Worth>; 2],
 }
 
@@ -38,7 +38,8 @@ impl Column {
         ticks
     }
 
-    /// Returns the worth at the first tick: for the recorded samples, the worst possible, and the best possible.
+    /// Returns the robustness at the first tick for the recorded samples, for the worst continuation and for the best
+    /// continuation.
     pub fn first(&self) -> [Worth; 3] {
         let recorded = self.recorded[0];
         let open = |side: usize| if self.settled > 0 { recorded } else { self.open[side][0] };

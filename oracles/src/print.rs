@@ -79,7 +79,7 @@ impl fmt::Display for Name<'_> {
     }
 }
 
-/// Returns how strongly an expression binds its parts.
+/// Returns the strength with which an expression binds its parts.
 fn strength(expression: &Expression) -> u8 {
     match expression {
         Expression::Binary(Arithmetic::Add | Arithmetic::Subtract, ..) => 1,

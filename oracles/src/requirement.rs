@@ -7,18 +7,19 @@ use crate::{Evaluation, EvaluationError, Formula, Trace};
 pub struct Requirement {
     /// The short name of the requirement in logs and commands, such as `no-collision`.
     pub id: String,
-    /// The requirement in one sentence, for people.
+    /// The text of the requirement for people, in one sentence.
     pub text: String,
     /// The formula that the trace of a run should satisfy.
     pub formula: Formula,
-    /// The unit of the robustness.
+    /// The unit of the requirement's robustness.
     pub unit: String,
-    /// A robustness that counts as large, in the unit. Requirements are compared by robustness / scale.
+    /// The robustness that counts as large for this requirement, in the requirement's unit. Requirements are compared
+    /// by robustness / scale.
     pub scale: f64,
 }
 
 impl Requirement {
-    /// Evaluates the requirement at the beginning of a trace.
+    /// Evaluates the formula of the requirement at the beginning of a trace.
     ///
     /// # Errors
     /// The formula does not fit the trace, or a number that it depends on is NaN.

@@ -48,7 +48,7 @@ mod tests {
         let interval = Interval::from(0.15..=0.25);
         assert_eq!(
             interval.ticks(0.1).unwrap_err().to_string(),
-            "a time bound of 0.15 s is no multiple of the sample period of 0.1 s; ~[0.15,0.25] would round it outward"
+            "the time bound 0.15 s is not a multiple of the sample period 0.1 s; write ~[0.15,0.25] to round outward"
         );
         assert_eq!(interval.outward().ticks(0.1), Ok((1, Some(3))));
     }

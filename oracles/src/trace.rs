@@ -10,13 +10,13 @@ use xxhash_rust::xxh3::Xxh3;
 pub struct Trace {
     dt: f64,
     signals: Vec<String>,
-    /// The samples row by row: all signals at the first tick, then all signals at the second tick, and so on.
+    /// The samples of all signals at the first tick, then the samples of all signals at the second tick, and so on.
     samples: Vec<f64>,
     complete: bool,
 }
 
 impl Trace {
-    /// Makes an empty trace of these signals, sampled every `dt` seconds.
+    /// Makes an empty trace of the given signals, which is sampled every `dt` seconds.
     ///
     /// # Panics
     /// There is no signal, or `dt` is not a positive number. Both are mistakes of the program, not of its input.
@@ -25,12 +25,12 @@ impl Trace {
         Self { dt, signals, samples: Vec::new(), complete: false }
     }
 
-    /// Reserves memory for this many ticks, so that recording them allocates nothing.
+    /// Reserves memory for the given number of ticks, so that recording the ticks allocates nothing.
     pub fn reserve(&mut self, ticks: usize) {
         self.samples.reserve_exact(ticks * self.signals.len());
     }
 
-    /// Appends one tick: a sample of every signal, in the order of the signals.
+    /// Appends one tick with a sample of every signal, in the order of the signals.
     ///
     /// # Panics
     /// The number of samples in the row differs from the number of signals.
@@ -39,22 +39,22 @@ impl Trace {
         self.samples.extend_from_slice(row);
     }
 
-    /// Marks the trace as complete: the run reached its planned end, and nothing more will happen.
+    /// Marks the trace as complete, since the run reached its planned end and nothing more will happen.
     pub fn finish(&mut self) {
         self.complete = true;
     }
 
-    /// Returns `true` if the run reached its planned end, and `false` if it was cut short.
+    /// Returns `true` if the run reached its planned end, and `false` if the run was cut short.
     pub fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// Returns the sample period in seconds.
+    /// Returns the sample period of the trace, in seconds.
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// Returns the names of the signals.
+    /// Returns the names of the signals in the trace.
     pub fn signals(&self) -> &[String] {
         &self.signals
     }
@@ -69,18 +69,19 @@ impl Trace {
         self.samples.is_empty()
     }
 
-    /// Returns the samples tick by tick: all signals at time 0, then at `dt`, at `2 dt` and so on.
+    /// Returns the samples of all signals at each tick, in the order of the ticks. The ticks are at the times 0, `dt`,
+    /// `2 dt` and so on.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.samples.chunks_exact(self.signals.len())
     }
 
-    /// Returns the samples of one signal, or `None` if the trace does not have the signal.
+    /// Returns the samples of the signal with the given name, or `None` if the trace does not have the signal.
     pub fn signal(&self, name: &str) -> Option<impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + '_> {
         let column = self.signals.iter().position(|signal| signal == name)?;
         Some(self.samples.chunks_exact(self.signals.len()).map(move |row| row[column]))
     }
 
-    /// Returns a hash of the whole content of the trace: 32 hexadecimal digits of XXH3-128.
+    /// Returns a hash of the whole content of the trace, as 32 hexadecimal digits of XXH3-128.
     ///
     /// Traces with the same hash are identical bit for bit, except with a negligible probability.
     pub fn hash(&self) -> String {

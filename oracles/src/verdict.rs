@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The truth of a formula on a trace.
+/// The truth of a formula on a trace, which the trace may leave undecided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Truth {
     /// The formula holds, for every continuation of the trace.
@@ -15,12 +15,12 @@ pub enum Truth {
 }
 
 impl Truth {
-    /// Converts a boolean into a truth.
+    /// Converts `true` into `Holds` and `false` into `Violated`.
     pub fn of(holds: bool) -> Self {
         if holds { Truth::Holds } else { Truth::Violated }
     }
 
-    /// Returns the truth of "both hold" (Kleene's conjunction).
+    /// Returns the truth of the conjunction of two formulas, by Kleene's three-valued logic.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Truth::Violated, _) | (_, Truth::Violated) => Truth::Violated,
@@ -29,12 +29,12 @@ impl Truth {
         }
     }
 
-    /// Returns the truth of "at least one holds" (Kleene's disjunction).
+    /// Returns the truth of the disjunction of two formulas, by Kleene's three-valued logic.
     pub fn or(self, other: Self) -> Self {
         self.not().and(other.not()).not()
     }
 
-    /// Returns the truth of the negation.
+    /// Returns the truth of the negated formula.
     #[expect(clippy::should_implement_trait, reason = "it stands beside `and` and `or`")]
     pub fn not(self) -> Self {
         match self {
@@ -45,19 +45,19 @@ impl Truth {
     }
 }
 
-/// The verdict of a test.
+/// The result of a test, such as `pass` or `fail`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// No requirement is violated.
+    /// The run of the test violates no requirement.
     Pass,
-    /// A requirement is violated.
+    /// The run of the test violates a requirement.
     Fail,
-    /// The situation that the test is about never came about.
+    /// The run violates no requirement, but the situation that the test examines never occurred.
     Inconclusive,
     /// The world of the test cannot be built.
     Invalid,
-    /// The run failed because of a crash, a time-out or a state that is not finite.
+    /// The run failed because of a crash, a time-out or a simulation state that is not finite.
     Error,
 }
 

@@ -8,23 +8,24 @@
 
 use crate::Truth;
 
-/// A robustness with its truth. The order runs from certainly violated to certainly satisfied.
+/// A robustness whose sign gives the truth of the formula, also for 0. The order runs from certainly violated to
+/// certainly satisfied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Worth(i64);
 
 impl Worth {
-    /// The worth of a formula that holds with an infinite margin. It is the conjunction of no formulas.
+    /// The robustness of a formula that holds with an infinite margin. It is the conjunction of no formulas.
     pub const BEST: Self = Self(key(f64::INFINITY));
-    /// The worth of a formula that is violated with an infinite margin. It is the disjunction of no formulas.
+    /// The robustness of a formula that is violated with an infinite margin. It is the disjunction of no formulas.
     pub const WORST: Self = Self(key(f64::NEG_INFINITY));
 
-    /// Makes the worth of a number that is not NaN. The sign bit says whether the formula is violated.
+    /// Makes a signed robustness from a number that is not NaN. A set sign bit means that the formula is violated.
     pub fn of(number: f64) -> Self {
         debug_assert!(!number.is_nan(), "a robustness is a number");
         Self(key(number))
     }
 
-    /// Makes the worth of a statement that is true or false without a distance.
+    /// Makes the infinite robustness of a statement that is true or false without a distance.
     pub fn certain(holds: bool) -> Self {
         if holds { Self::BEST } else { Self::WORST }
     }
@@ -33,13 +34,13 @@ impl Worth {
         self.0 >= 0
     }
 
-    /// Returns the robustness. A zero never has a sign that users could see.
+    /// Returns the robustness as a number. A zero never has a sign that users could see.
     pub fn robustness(self) -> f64 {
         let bits = self.0 ^ ((self.0 >> 63) as u64 >> 1) as i64;
         f64::from_bits(bits as u64) + 0.0
     }
 
-    /// Returns the worth of the negated formula if `dual` is true, and otherwise the worth itself.
+    /// Returns the robustness of the negated formula if `dual` is true, and otherwise the unchanged robustness.
     pub fn flipped(self, dual: bool) -> Self {
         Self(self.0 ^ -i64::from(dual))
     }

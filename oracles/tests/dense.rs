@@ -85,8 +85,11 @@ fn windows_of_the_past_are_closed_where_they_reach_the_first_instant() {
 fn what_is_not_piecewise_linear_is_refused() {
     let trace = trace(1.0, &[1.0, 2.0], true);
     for (text, complaint) in [
-        ("always (x * x > 0)", "`(x * x > 0)` is no piecewise linear function of its signals, as dense time asks for"),
-        ("eventually x", "`x` is no piecewise linear function of its signals, as dense time asks for"),
+        (
+            "always (x * x > 0)",
+            "`(x * x > 0)` is not a piecewise linear function of its signals, which dense time needs",
+        ),
+        ("eventually x", "`x` is not a piecewise linear function of its signals, which dense time needs"),
         ("always (x / 0 > 1)", "`x / 0` has no value at 0 s"),
         ("always (min(x, 0 / 0) > 1)", "`0 / 0` has no value at 0 s"),
         ("always (xx > 1)", "the trace has no signal `xx` (did you mean `x`?)"),

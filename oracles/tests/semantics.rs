@@ -106,10 +106,10 @@ fn a_formula_that_does_not_fit_the_trace_is_refused_with_the_reason() {
     assert_eq!(complaint("always (xx > 0)").to_string(), "the trace has no signal `xx` (did you mean `x`?)");
     assert_eq!(
         complaint("eventually[0,0.25] (x > 0)").to_string(),
-        "a time bound of 0.25 s is no multiple of the sample period of 0.1 s; ~[0,0.25] would round it outward"
+        "the time bound 0.25 s is not a multiple of the sample period 0.1 s; write ~[0,0.25] to round outward"
     );
     let endless = flag("x").always(3.0..=1.0).evaluate(&trace(0.1, &[1.0], true)).unwrap_err();
-    assert_eq!(endless.to_string(), "the time bounds [3,1] are no interval, expected 0 <= start <= end in seconds");
+    assert_eq!(endless.to_string(), "the time bounds [3,1] are not an interval, expected 0 <= start <= end in seconds");
 }
 
 #[test]

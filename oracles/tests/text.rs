@@ -106,7 +106,7 @@ fn what_is_no_formula_is_refused_with_its_place_and_what_belongs_there() {
         ("always[0:3] a", "column 9: found `:`, expected `,`"),
         ("always[-1,3] a", "column 8: found `-`, expected a time in seconds, from 0 on"),
         ("always[inf,inf] a", "column 8: found `inf`, expected a time in seconds, from 0 on"),
-        ("always[3,2.5] a", "column 10: found `2.5`, expected a time no earlier than 3"),
+        ("always[3,2.5] a", "column 10: found `2.5`, expected a time of at least 3 s"),
         ("always[0,x] a", "column 10: found `x`, expected a time in seconds, or `inf`"),
         ("always~ a", "column 9: found `a`, expected `[`"),
     ] {
@@ -123,7 +123,7 @@ fn a_signal_that_the_trace_does_not_have_is_named_with_the_nearest() {
     );
     assert_eq!(
         complaint("\"a b\" > 2"),
-        "column 1: found the name \"a b\", expected a signal of the trace (its signals are speed, rpm)"
+        "column 1: found the name \"a b\", expected a signal of the trace (the signals of the trace are speed, rpm)"
     );
     assert!(Formula::parse("always (speed < rpm)", &["speed", "rpm"]).is_ok());
 }
@@ -140,7 +140,7 @@ fn nesting_has_a_limit_rather_than_the_stack() {
         "abs(".repeat(1_000_000),
     ] {
         let error = text.parse::<Formula>().unwrap_err();
-        assert_eq!(error.expected, "a formula nested no deeper than 200");
+        assert_eq!(error.expected, "a formula with at most 200 levels of nesting");
     }
     parsed(&("(".repeat(190) + "a" + &")".repeat(190)));
     parsed(&vec!["a"; 190].join(" and "));

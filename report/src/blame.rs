@@ -3,12 +3,12 @@
 use paracosm_analysis::blame::{Blame, Rerun};
 use paracosm_campaign::{Artefact, Error, Study};
 
-/// The table `blame.csv` of a study's failures.
+/// The table `blame.csv` of the failing tests of a study, with the blame for each failure.
 #[derive(Debug, Clone, Copy)]
 pub struct BlameTable<'b> {
-    /// The failures, with the results of the reference drivers.
+    /// The failing tests, with the results of the reference drivers.
     pub blame: &'b Blame,
-    /// The study that the failures come from.
+    /// The study to which the failing tests belong.
     pub study: &'b Study,
 }
 
@@ -22,9 +22,9 @@ impl Artefact for BlameTable<'_> {
     }
 }
 
-/// Returns the failing tests as CSV. The columns are the index, the parameters, the violated requirements, whose fault
-/// the failure is, and for each reference driver the verdict and the robustness of every requirement that the study
-/// states.
+/// Returns the failing tests of a study as CSV. The columns are the index, the parameters, the violated requirements,
+/// whose fault the failure is, and for each reference driver the verdict and the robustness of every requirement that
+/// the study states.
 fn csv(blame: &Blame, study: &Study) -> Vec<u8> {
     let ids: Vec<&str> = study.requirements().iter().map(|requirement| requirement.id.as_str()).collect();
     let mut csv = csv::Writer::from_writer(Vec::new());

@@ -10,41 +10,42 @@ use paracosm_oracles::Verdict;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;
 
-/// A JUnit file with suites of trials.
+/// A file of test results in the JUnit format, which CI systems read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Junit(Report);
 
-/// A trial as a test case.
+/// A trial in the form of a JUnit test case.
 pub struct Case<'a> {
-    /// The name of the test case, unique in its suite.
+    /// The name of the test case, which is unique in its test suite.
     pub name: String,
     /// The trial that the test case describes.
     pub trial: &'a Trial,
     /// The command that runs the trial again.
     pub replay: String,
-    /// The result as a test case.
+    /// The result of the test case.
     pub end: End,
-    /// The message that explains the result.
+    /// The message that explains the result of the test case.
     pub message: String,
-    /// The expected result; `None` if the trial is expected to pass.
+    /// The expected result of the trial; `None` if the trial is expected to pass.
     pub expected: Option<&'static str>,
 }
 
-/// The result of a test case.
+/// The result of a JUnit test case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// The test case ended as expected.
     Passed,
-    /// The test case failed, and CI has to stop.
+    /// The test case failed, so that the CI job has to fail.
     Failed,
     /// The test case has no result because of a crash, a time-out or a similar problem.
     Error,
-    /// The test case counts neither for nor against the system under test.
+    /// The test case was skipped, so that it counts neither for nor against the system under test.
     Skipped,
 }
 
 impl Junit {
-    /// Makes the file of a campaign; `program` is the command that replays the tests of the campaign in `folder`.
+    /// Makes the JUnit file of a campaign, where `program` is the command that replays the tests of the campaign in
+    /// `folder`.
     pub fn of_campaign(log: &Log, folder: &Path, program: &str) -> Self {
         let study = log.study();
         let (program, folder) = (shell_word(program), shell_word(&folder.to_string_lossy()));
@@ -55,7 +56,7 @@ impl Junit {
         Self::of([suite])
     }
 
-    /// Makes a file of test cases; each case becomes a suite of its own, with the given name.
+    /// Makes a JUnit file in which each test case has a test suite of its own, with the given name.
     pub fn of_cases<'a>(cases: impl IntoIterator<Item = (String, &'a Study, Case<'a>)>) -> Self {
         Self::of(cases.into_iter().map(|(name, study, case)| {
             let mut suite = suite(study, name);
@@ -70,7 +71,7 @@ impl Junit {
         Self(report)
     }
 
-    /// Returns the text of the file.
+    /// Returns the contents of the JUnit file as XML.
     pub fn text(&self) -> String {
         self.0.to_string().expect("the report is written to memory")
     }
@@ -86,7 +87,7 @@ impl Artefact for Junit {
     }
 }
 
-/// Makes a suite with the properties that all its tests share.
+/// Makes a JUnit test suite with the properties that all its tests share.
 fn suite(study: &Study, name: String) -> TestSuite {
     let mut suite = TestSuite::new(name);
     suite.add_property(("strategy", study.sampling().to_string().as_str()));
@@ -109,7 +110,7 @@ fn suite(study: &Study, name: String) -> TestSuite {
 }
 
 impl<'a> Case<'a> {
-    /// Makes the test case of a campaign's trial. The trial's verdict decides how the test case ends.
+    /// Makes the JUnit test case of a trial in a campaign. The trial's verdict decides how the test case ends.
     fn of(study: &Study, trial: &'a Trial, replay: String) -> Self {
         let error = trial.error().unwrap_or_default();
         let (end, message) = match trial.verdict {
@@ -156,8 +157,8 @@ impl<'a> Case<'a> {
         case
     }
 
-    /// Returns the JUnit status. An attribute cannot have several lines, so the attribute holds the first line of the
-    /// message, and the description holds the whole message.
+    /// Returns the JUnit status of the test case. An attribute cannot have several lines, so the attribute holds the
+    /// first line of the message, and the description holds the whole message.
     fn status(&self) -> TestCaseStatus {
         let message = &self.message;
         let (kind, word) = match self.end {
@@ -189,7 +190,7 @@ fn violations(study: &Study, trial: &Trial) -> String {
     trial.violated().map(violation).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns a word quoted for a shell, if quotes are necessary.
+/// Returns a word of a shell command, in quotes if necessary.
 pub fn shell_word(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@+".contains(c);
     if !word.is_empty() && word.chars().all(plain) {

@@ -52,8 +52,8 @@ mod tests {
         Study::of_system(system, Space::from_toml(space).unwrap()).build().unwrap()
     }
 
-    /// Makes a trial at `x` on two lanes with this verdict and the robustness of `a` and `b`. `triggered` is `true` if
-    /// the premise occurred.
+    /// Makes a trial on two lanes at `x`, with the given verdict and the robustness of the requirements `a` and `b`.
+    /// `triggered` is `true` if the premise occurred.
     fn trial(index: usize, x: f64, verdict: Verdict, [a, b]: [Option<f64>; 2], triggered: Option<bool>) -> Trial {
         let test: Values = [("x".to_owned(), Value::Number(x)), ("lanes".to_owned(), 2.into())].into_iter().collect();
         let judgements = vec![Judgement::new("a", a), Judgement::new("b", b)];

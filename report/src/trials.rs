@@ -3,8 +3,8 @@
 use paracosm_campaign::{Artefact, Error, Log, Metric, Trial};
 use std::collections::BTreeMap;
 
-/// The table `trials.csv` of a campaign. Its columns are index, parameters, verdict, robustness, metrics, ticks, hash
-/// of the trace, and error.
+/// The table `trials.csv` of the trials of a campaign. Its columns are index, parameters, verdict, robustness, metrics,
+/// ticks, hash of the trace, and error.
 #[derive(Debug, Clone, Copy)]
 pub struct TrialTable<'l>(pub &'l Log);
 
@@ -47,7 +47,7 @@ fn csv(log: &Log) -> Vec<u8> {
     csv.into_inner().expect("memory does not fail to flush")
 }
 
-/// Returns each name once, in the order of first occurrence.
+/// Returns the names without repetitions, in the order of their first occurrence.
 fn each_once<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut once = Vec::new();
     for name in names {

@@ -2,7 +2,6 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::object::{Body, Class};
-use paracosm_report::birds_eye::{Anchor, Animation, Drawing, MotionRecord, PathSegment, PictureItem, RoadPicture, world};
 use paracosm_engine::road::{Curve, Path, Roundabout, RoutePosition};
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
@@ -10,6 +9,9 @@ use paracosm_engine::{
     never, watch,
 };
 use paracosm_oracles::Verdict;
+use paracosm_report::birds_eye::{
+    Anchor, Animation, Drawing, MotionRecord, PathSegment, PictureItem, RoadPicture, world,
+};
 use paracosm_space::Values;
 use proptest::prelude::*;
 

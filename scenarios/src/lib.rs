@@ -24,7 +24,7 @@ use paracosm_engine::Program;
 use paracosm_engine::object::Body;
 use paracosm_engine::vehicle::Vehicle;
 
-/// All scenarios of the catalogue.
+/// All scenarios that this crate provides.
 pub const ALL: &[&Program] = &[
     &pedestrian_crossing::PROGRAM,
     &follow_leader::PROGRAM,
@@ -44,13 +44,13 @@ pub const ALL: &[&Program] = &[
 /// The width of a lane in metres.
 const LANE: f64 = 3.5;
 
-/// Returns the distance from the middle of the ego vehicle to the middle of a car ahead, in metres, if their bumpers
-/// are `gap` metres apart.
+/// Returns the distance in metres from the middle of the ego vehicle to the middle of a car ahead, whose bumpers are
+/// `gap` metres apart.
 fn middles(gap: f64) -> f64 {
     gap + 0.5 * Vehicle::BMW_320I.length + Body::car().outline.half_extent().x
 }
 
-/// Returns the scenario with this name, if there is one.
+/// Returns the scenario with the given name; `None` if the catalogue has no such scenario.
 pub fn find(name: &str) -> Option<&'static Program> {
     ALL.iter().copied().find(|program| program.name() == name)
 }

@@ -34,27 +34,27 @@ const START: f64 = 10.0;
 struct Crossing {
     body: Body,
     name: &'static str,
-    /// The side from which the pedestrian comes, -1 for the right and 1 for the left.
+    /// The side of the road from which the pedestrian comes, -1 for the right and 1 for the left.
     side: f64,
-    /// The distance from the middle of the lane at which the pedestrian stands, and the distance over which the
-    /// pedestrian gathers speed, in metres.
+    /// The starting distance of the pedestrian from the middle of the lane, and the distance over which the pedestrian
+    /// accelerates, in metres.
     from: f64,
     run_up: f64,
-    /// The walking speed in m/s.
+    /// The walking speed of the pedestrian in m/s.
     speed: f64,
-    /// The place of the impact, as a share of the car's width.
+    /// The place of the impact on the car's front, as a share of the car's width.
     impact: f64,
 }
 
 impl Crossing {
-    /// Returns the path of the pedestrian. `lane` is the pose on the lane where the path crosses it.
+    /// Returns the path of the pedestrian across the road. `lane` is the pose on the lane where the path crosses it.
     fn path(&self, lane: Pose) -> Path {
         let start = lane.position + lane.left() * (self.side * self.from);
         Path::straight(start, start - lane.left() * (self.side * 2.0 * self.from))
     }
 
-    /// Returns the pedestrian's speed over time. The pedestrian starts late enough to reach the place of the impact
-    /// after [`TIME`].
+    /// Returns the pedestrian's speed in m/s over time. The pedestrian starts late enough to reach the place of the
+    /// impact after [`TIME`].
     fn speed(&self, time: &Stream<f64>) -> Stream<f64> {
         let width = Vehicle::BMW_320I.width;
         let way = self.from - 0.5 * width + self.impact * width;
@@ -64,7 +64,7 @@ impl Crossing {
     }
 }
 
-/// Builds a straight road with the ego vehicle on it, which reaches the pedestrian after 6 s at constant speed.
+/// Builds a straight road with the ego vehicle, which reaches the pedestrian after 6 s at constant speed.
 fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road, Car) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let weather = later_weather(s);

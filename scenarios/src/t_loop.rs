@@ -31,7 +31,7 @@ static LOOP: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
     all.build().expect("the loop closes")
 });
 
-/// Returns the route, which goes along the sides and through the right turns, again and again.
+/// Returns the route of the ego vehicle, which repeatedly goes along the sides and through the right turns.
 fn way() -> Path {
     let lane = |i: usize| {
         let turn = LOOP.lane_between(&format!("tee {}", i % 4 + 1), "three", "two", 1);

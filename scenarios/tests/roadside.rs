@@ -204,7 +204,7 @@ fn a_roadside_fuller_than_full_is_refused() {
     let program = find("follow-leader").unwrap();
     for fullness in [-0.1, 1.5, f64::NAN] {
         let error = program.check(&test(program, &[("roadside", fullness)])).expect_err("it is none").to_string();
-        assert!(error.contains("expected 0 to 1"), "{error}");
+        assert!(error.contains("expected a number from 0 to 1"), "{error}");
     }
     let word = {
         let mut test = test(program, &[]);

@@ -11,18 +11,19 @@
 use crate::rules::{Clause, Literal, Rules, RulesError};
 use crate::{Space, SpaceError};
 
-/// The combinations that tests have to cover beyond all combinations of any k values.
+/// The combinations of values that tests have to cover in addition to all combinations of any k values.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Demand {
-    /// The groups of discrete parameters that need a higher strength: the positions of a group's parameters among the
-    /// discrete parameters, and the strength within the group.
+    /// The groups of discrete parameters that need a higher strength of coverage. Each group has the positions of its
+    /// parameters among the discrete parameters, and the strength within the group.
     pub groups: Vec<(Vec<usize>, usize)>,
-    /// The negative values, each as the position of a parameter among the discrete parameters and a level of it.
+    /// The negative values, which the system under test should reject, each as a parameter and a level. The parameter
+    /// is given by its position among the discrete parameters.
     pub negatives: Vec<(usize, usize)>,
 }
 
 impl Demand {
-    /// Returns the kinds of tests of `space`, which is a single kind if the demand has no negative values. Every
+    /// Returns the kinds of tests of `space`, one without negative values and one for each negative value. Every
     /// negative value has to be a level of the space. This is not checked.
     ///
     /// # Errors
@@ -37,7 +38,8 @@ impl Demand {
     }
 }
 
-/// The tests that count for the same combinations: the tests with a certain negative value, or the tests without one.
+/// A kind of tests, which all have the same negative (invalid) value or all have no negative value. The tests of a kind
+/// count for the same combinations.
 #[derive(Debug, Clone)]
 pub struct TestKind {
     rules: Rules,
@@ -45,12 +47,12 @@ pub struct TestKind {
 }
 
 impl TestKind {
-    /// Makes the only kind of tests of a space without negative values.
+    /// Makes the single kind of tests that a space without negative values has.
     pub fn of(rules: &Rules) -> Self {
         Self { rules: rules.clone(), negative: None }
     }
 
-    /// Returns the kinds of tests for parameters with the given numbers of levels.
+    /// Returns the kinds of tests for parameters with the given numbers of levels, constraints and negative values.
     ///
     /// The tests keep the constraints. The (parameter, level) pairs in `negatives` are the negative values; they have
     /// to exist, which is not checked. The kind without negative values comes first, then one kind for each pair, in
@@ -97,20 +99,21 @@ impl TestKind {
         }
     }
 
-    /// Returns the rules that the tests of this kind keep. They come from the constraints and from the negative
-    /// values.
+    /// Returns the rules that all tests of this kind keep. They come from the constraints and from the negative values.
     pub fn rules(&self) -> &Rules {
         &self.rules
     }
 
-    /// Returns the parameter and the level of the negative value that all tests of this kind have, if they have one.
+    /// Returns the parameter and the level of the negative value in all tests of this kind, if the kind has such a
+    /// value.
     pub fn negative(&self) -> Option<(usize, usize)> {
         self.negative
     }
 
-    /// Returns the share of this kind if all combinations of `k` of `parameters` have to be shown: parameters and a
-    /// number. Tests of this kind have to show all combinations of that number of these parameters, beside the
-    /// negative value. `None` if the negative value belongs to none of `parameters`.
+    /// Returns the combinations that tests of this kind have to show so that all kinds together show all combinations
+    /// of `k` of `parameters`. The result has parameters and a number: tests of this kind have to show all combinations
+    /// of that number of these parameters, beside the negative value. `None` if the negative value belongs to none of
+    /// `parameters`.
     pub fn share(&self, parameters: &[usize], k: usize) -> Option<(Vec<usize>, usize)> {
         match self.negative {
             None => Some((parameters.to_vec(), k)),

@@ -3,7 +3,7 @@
 use crate::Value;
 use std::fmt;
 
-/// The values that a parameter takes.
+/// The set of values that a parameter can take.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Domain {
     /// An interval of numbers, from `lo` to `hi`. The parameter is continuous.
@@ -13,7 +13,7 @@ pub enum Domain {
         /// The upper end of the interval.
         hi: f64,
     },
-    /// A finite list of values. The parameter is discrete.
+    /// A finite list of numbers and words. The parameter is discrete.
     Choice(Vec<Value>),
 }
 

@@ -21,10 +21,10 @@ pub enum SpaceError {
     /// A parameter is not valid, or a value is outside the domain of its parameter.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The space has no parameter of the given name.
+    /// The space has no parameter with the given name.
     #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// The unknown name.
+        /// The given name, which is not the name of a parameter.
         name: String,
         /// The most similar name of a parameter, if a name is similar enough.
         nearest: Option<String>,
@@ -32,7 +32,7 @@ pub enum SpaceError {
     /// A test gives no value for a parameter.
     #[error("the test gives no value for parameter `{name}`")]
     Missing {
-        /// The name of the parameter.
+        /// The name of the parameter without a value.
         name: String,
     },
     /// A constraint cannot be read, or does not fit the parameters.
@@ -40,17 +40,18 @@ pub enum SpaceError {
     Constraint {
         /// The position of the constraint in the list of constraints, from 0.
         index: usize,
-        /// The constraint as it was written.
+        /// The text of the constraint as it was written.
         text: String,
-        /// The error in the constraint, with its offset in the constraint.
+        /// The error in the constraint, with its place in the text of the constraint.
         error: ConstraintError,
         /// The position of the error in the file, if the constraint was read from a file.
         at: Option<Position>,
     },
-    /// No test satisfies these constraints together.
+    /// No test keeps all of the given constraints together.
     #[error("{}", kept_by_none(.constraints, *.smallest))]
     Conflict {
-        /// The positions of the constraints in the list of constraints, from 0, in ascending order, and their texts.
+        /// The constraints in conflict, each as its position in the list of constraints, from 0, and its text. The
+        /// positions are in ascending order.
         constraints: Vec<(usize, String)>,
         /// `true` if it is certain that no smaller set of constraints is in conflict.
         smallest: bool,
@@ -64,15 +65,16 @@ pub enum SpaceError {
     /// The text is not valid TOML, or does not have the fields of a space.
     #[error("{}", .error.message())]
     Toml {
-        /// The error of the TOML reader.
+        /// The error that the TOML reader reports.
         error: Box<toml::de::Error>,
-        /// The position in the text, if the TOML reader knows it.
+        /// The position of the error in the text, if the TOML reader gives a position.
         at: Option<Position>,
     },
 }
 
 impl SpaceError {
-    /// Returns the position of the error in the text that the space was read from, if it is known.
+    /// Returns the position of the error in the text from which the space was read, or `None` if the position is
+    /// unknown.
     pub fn at(&self) -> Option<Position> {
         match self {
             Self::Toml { at, .. } | Self::Constraint { at, .. } => *at,

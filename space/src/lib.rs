@@ -3,13 +3,13 @@
 //! A [`Space`] is the ordered list of the parameters that a study leaves open. A [`Parameter`] takes numbers of an
 //! interval or values of a finite choice ([`Domain`]). It may vary over time as a signal ([`Shape`]). A test is
 //! written in two ways: as [`Values`], which scenarios read and logs keep, and as a [`Point`] of coordinates, which
-//! strategies propose and coverage measures use. [`Space::decode`] and [`Space::encode`] are the only ways to convert
-//! one into the other.
+//! strategies propose and coverage measures use. Only [`Space::decode`] and [`Space::encode`] convert values and
+//! coordinates into each other.
 //!
-//! Constraints say which tests make sense: [`constraint`] is their language, and [`rules`] derives which combinations
-//! of values they allow. A [`demand`] asks tests to cover more than all combinations of k values. A [`Distribution`]
-//! says how likely the values of a parameter are. [`Space::from_toml`] reads SPACE.toml, and [`pict`] reads the model
-//! files of PICT.
+//! Constraints exclude tests that make no sense. [`constraint`] is their language, and [`rules`] derives the
+//! combinations of values that the constraints allow. A [`demand`] asks tests to cover more than all combinations of k
+//! values. A [`Distribution`] gives the probabilities of a parameter's values. [`Space::from_toml`] reads SPACE.toml,
+//! and [`pict`] reads the model files of PICT.
 //!
 //! ```
 //! use paracosm_space::{Point, Space};

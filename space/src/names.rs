@@ -21,8 +21,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// Writes the end of a message about an unknown name: ` (did you mean `halton`?)`, or nothing if there is no
-/// suggestion.
+/// Returns the end of an error message, which suggests the given name. An example is ` (did you mean `halton`?)`. The
+/// result is empty if there is no suggestion.
 pub fn did_you_mean(nearest: &Option<impl AsRef<str>>) -> String {
     nearest.as_ref().map(|name| format!(" (did you mean `{}`?)", name.as_ref())).unwrap_or_default()
 }

@@ -20,11 +20,11 @@ const MOST_COORDINATES: usize = 1_000_000;
 pub struct ParameterError {
     /// The name of the parameter.
     pub name: String,
-    /// The kind of error.
+    /// The kind of the error, with its details.
     pub flaw: ParameterFlaw,
 }
 
-/// The kinds of errors in a parameter, or in a value of a parameter.
+/// A kind of error in a parameter, or in a value of a parameter.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum ParameterFlaw {
     /// The lower end of an interval is not below its upper end, or an end is not a finite number.
@@ -41,13 +41,13 @@ pub enum ParameterFlaw {
     /// A choice names a value twice.
     #[error("the choice names {value} twice")]
     SameLevel {
-        /// The repeated value.
+        /// The value that the choice names twice.
         value: Value,
     },
     /// A choice has a list as a value.
     #[error("found the list {value} in a choice, expected numbers and words")]
     ListLevel {
-        /// The list in the choice.
+        /// The list that stands among the values of the choice.
         value: Value,
     },
     /// A signal has no coordinate, or too many coordinates.
@@ -58,7 +58,7 @@ pub enum ParameterFlaw {
         /// The number of coordinates of the signal.
         found: usize,
     },
-    /// A signal has no piece.
+    /// A piecewise signal has no piece.
     #[error("a signal needs at least one piece")]
     NoPiece,
     /// A discrete parameter has a smooth signal. The values of a choice cannot change smoothly.
@@ -72,7 +72,7 @@ pub enum ParameterFlaw {
     SignalLength {
         /// The number of values in the list.
         found: usize,
-        /// The number of values that the shape takes.
+        /// The number of coordinates of the signal.
         expected: usize,
         /// The shape of the signal.
         shape: Shape,
@@ -80,10 +80,10 @@ pub enum ParameterFlaw {
     /// The distribution does not fit the domain of the parameter.
     #[error(transparent)]
     Distribution(#[from] DistributionError),
-    /// The parameter does not take this value.
+    /// A value lies outside the domain of its parameter.
     #[error("found {value}, expected {expected}{}", did_you_mean(.nearest))]
     OutsideDomain {
-        /// The value that was found.
+        /// The value that the parameter cannot take.
         value: Value,
         /// The domain of the parameter.
         expected: Domain,
@@ -92,22 +92,22 @@ pub enum ParameterFlaw {
     },
 }
 
-/// A named parameter of a [`Space`](crate::Space).
+/// A named quantity of a [`Space`](crate::Space) that tests vary, with its values, unit and distribution.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Entry", into = "Entry")]
 pub struct Parameter {
     /// The name that scenarios use to read the parameter.
     pub name: String,
-    /// The values that the parameter takes.
+    /// The set of values that the parameter can take.
     pub domain: Domain,
     /// The unit of the parameter's values, for labels.
     pub unit: Option<String>,
-    /// The nominal value. The parameter has it if nobody varies the parameter, and shrinking moves the parameter
-    /// towards it.
+    /// The nominal value, which the parameter has if nobody varies the parameter. Shrinking moves the parameter towards
+    /// this value.
     pub default: Option<Value>,
-    /// The shape of the signal if the parameter varies over time, or `None` if it is constant in each test.
+    /// The shape of the signal if the parameter varies over time, or `None` if the parameter is constant in each test.
     pub signal: Option<Shape>,
-    /// The distribution of the parameter's values. It is used if a probability is asked for.
+    /// The probability distribution of the parameter's values. It is used if a probability is asked for.
     pub distribution: Distribution,
 }
 
@@ -125,8 +125,8 @@ impl Parameter {
         }
     }
 
-    /// Returns the position of a value among the levels. This is the level that is written in the same way, or else
-    /// the only level that is the same number.
+    /// Returns the position of a value among the levels of a discrete parameter. This is the level that is written in
+    /// the same way, or else the only level that is the same number.
     pub fn level(&self, value: &Value) -> Option<usize> {
         let levels = self.levels()?;
         levels.iter().position(|level| level == value).or_else(|| {
@@ -146,7 +146,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the name with the unit, for an axis or a column: `speed (m/s)`.
+    /// Returns the name of the parameter with its unit for an axis or a column, such as `speed (m/s)`.
     pub fn label(&self) -> String {
         match &self.unit {
             Some(unit) => format!("{} ({unit})", self.name),
@@ -154,8 +154,8 @@ impl Parameter {
         }
     }
 
-    /// Checks that the parameter takes this value. A signal takes a list with a value for each coordinate, or a single
-    /// value if the signal never changes.
+    /// Checks that the parameter can take the given value. A signal takes a list with a value for each coordinate, or a
+    /// single value if the signal never changes.
     ///
     /// # Errors
     /// The parameter does not take the value. The error says which values it takes.
@@ -213,13 +213,13 @@ impl Parameter {
         self.default.as_ref().map_or(Ok(()), |value| self.check(value))
     }
 
-    /// Returns the number of coordinates that a test has for the parameter: one, or the coordinates of its signal.
+    /// Returns the number of coordinates of the parameter in a test, which is 1 unless the parameter is a signal.
     pub fn coordinates(&self) -> usize {
         self.signal.map_or(1, Shape::coordinates)
     }
 
-    /// Returns the values of the parameter's coordinates. For a signal, a single value stands for a signal that never
-    /// changes.
+    /// Returns a value of the parameter as a list with a value for each coordinate. For a signal, a single value stands
+    /// for a signal that never changes.
     ///
     /// # Errors
     /// The value is not in the domain, or it is a list whose length differs from the number of coordinates.
@@ -231,7 +231,7 @@ impl Parameter {
         })
     }
 
-    /// Checks that the parameter can vary in this shape.
+    /// Checks that the parameter can be a signal of the given shape.
     ///
     /// # Errors
     /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape is not piecewise
@@ -255,23 +255,24 @@ impl Parameter {
     }
 }
 
-/// A coordinate of the tests of a space: a parameter, or one of the values that make a signal.
+/// A coordinate of the tests of a space, which is a parameter or one of the values that make a signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coordinate<'a> {
-    /// The parameter that the coordinate belongs to.
+    /// The parameter to which the coordinate belongs.
     pub parameter: &'a Parameter,
     /// The position of the coordinate among the coordinates of the parameter, from 0.
     pub index: usize,
 }
 
 impl Coordinate<'_> {
-    /// Returns the name of the parameter. For a signal the index is added: `leader_speed[0]`.
+    /// Returns the name of the coordinate, such as `speed` or, for a signal, `leader_speed[0]`. It is the name of the
+    /// parameter; for a signal the index is added.
     pub fn name(&self) -> String {
         let Parameter { name, signal, .. } = self.parameter;
         if signal.is_some() { format!("{name}[{}]", self.index) } else { name.clone() }
     }
 
-    /// Returns the name with the unit, for an axis or a column: `leader_speed[0] (m/s)`.
+    /// Returns the name of the coordinate with its unit for an axis or a column, such as `leader_speed[0] (m/s)`.
     pub fn label(&self) -> String {
         match &self.parameter.unit {
             Some(unit) => format!("{} ({unit})", self.name()),
@@ -279,7 +280,7 @@ impl Coordinate<'_> {
         }
     }
 
-    /// Returns the value of this coordinate in a value of the parameter, or `None` if a list has no such element.
+    /// Returns the value of the coordinate in the given value of the parameter, or `None` if a list is too short.
     pub fn value<'v>(&self, value: &'v Value) -> Option<&'v Value> {
         match value {
             Value::List(values) => values.get(self.index),

@@ -1,7 +1,6 @@
 //! Numbers of things in messages: "1 test", "2 tests".
 
-/// Returns a count with its noun, in the singular for 1 and else in the plural. The plural of the noun has to end in
-/// `s`.
+/// Returns a count with its noun, such as "1 test" or "2 tests". The plural of the noun has to end in `s`.
 ///
 /// ```
 /// assert_eq!(paracosm_space::plural(1, "test"), "1 test");

@@ -1,16 +1,17 @@
 //! Positions in a text as editors count them: lines and columns.
 
-/// A position in a text.
+/// A position in a text, as a line and a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Position {
-    /// The line, counted from 1.
+    /// The line of the position, counted from 1.
     pub line: usize,
-    /// The column, counted in characters from 1.
+    /// The column of the position, counted in characters from 1.
     pub column: usize,
 }
 
 impl Position {
-    /// Returns the position of the byte at `offset`. If the offset is behind the end of the text, returns the end.
+    /// Returns the line and the column of the byte at `offset` in a text. If the offset is behind the end of the text,
+    /// returns the end.
     ///
     /// ```
     /// use paracosm_space::Position;

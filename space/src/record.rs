@@ -6,7 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Values by name, in the order in which they were given. JSON writes them as an object. Every name occurs once.
+/// A map from names to values that keeps the order in which the entries were given. JSON writes them as an object.
+/// Every name occurs once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record<T>(Vec<(String, T)>);
 
@@ -14,17 +15,17 @@ impl<T> Record<T> {
     /// The record without values.
     pub const EMPTY: Self = Self(Vec::new());
 
-    /// Returns the value of this name, if there is one.
+    /// Returns the value of the given name, or `None` if the record does not have the name.
     pub fn get(&self, name: &str) -> Option<&T> {
         self.iter().find(|(key, _)| *key == name).map(|(_, value)| value)
     }
 
-    /// Returns the names and values in order.
+    /// Returns the names with their values, in the order of the record.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// Sets the value of a name. A value that the name already has is replaced and keeps its place.
+    /// Sets the value of a name in the record. A value that the name already has is replaced and keeps its place.
     pub fn set(&mut self, name: impl Into<String>, value: impl Into<T>) {
         let (name, value) = (name.into(), value.into());
         match self.0.iter_mut().find(|(key, _)| *key == name) {

@@ -9,24 +9,25 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// The way in which the values of a signal's coordinates determine the signal.
+/// The form of a signal over time, as a function of the values of its coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// A polynomial over the duration of the run. The coordinates are its Bernstein coefficients, one more than the
-    /// degree. The first and the last are the values of the signal at the start and at the end of the run.
+    /// A signal that is a polynomial over the duration of the run. The coordinates are its Bernstein coefficients, one
+    /// more than the degree. The first and the last are the values of the signal at the start and at the end of the
+    /// run.
     Polynomial {
         /// The degree of the polynomial.
         degree: usize,
     },
     /// A signal that is constant in each of several equal parts of the run. Each coordinate is the value of a part.
     PiecewiseConstant {
-        /// The number of parts.
+        /// The number of equal parts of the run.
         pieces: usize,
     },
-    /// Straight lines over equal parts of the run. The coordinates are the values at the start of each part and at the
-    /// end of the run.
+    /// A signal of straight lines over equal parts of the run. The coordinates are the values at the start of each part
+    /// and at the end of the run.
     PiecewiseLinear {
-        /// The number of parts.
+        /// The number of equal parts of the run.
         pieces: usize,
     },
 }
@@ -34,18 +35,18 @@ pub enum Shape {
 /// The reason why a text, or an entry of a file, does not describe the shape of a signal.
 #[derive(Debug, Clone, Error, PartialEq, Eq)]
 pub enum ShapeError {
-    /// No shape has this name.
+    /// No shape of a signal has the given name.
     #[error("no shape of a signal is called `{name}`{}; the shapes are {}", did_you_mean(.nearest), NAMES.join(", "))]
     Unknown {
-        /// The unknown name.
+        /// The given name, which is not the name of a shape.
         name: String,
         /// The most similar name of a shape, if a name is similar enough.
         nearest: Option<&'static str>,
     },
-    /// The text lacks the number that its shape needs.
+    /// The text lacks the number that the shape needs, such as a degree.
     #[error("found `{text}`, expected the shape `{shape}` with a number, such as `piecewise-constant(5)`")]
     NoNumber {
-        /// The text that was read.
+        /// The text that was read as a shape.
         text: String,
         /// The name of the shape in the text.
         shape: String,
@@ -53,7 +54,7 @@ pub enum ShapeError {
     /// An entry of a file lacks the key that its shape needs, or has a key of another shape.
     #[error("a signal of the shape `{shape}` takes {takes}")]
     Keys {
-        /// The name of the shape.
+        /// The name of the shape in the entry.
         shape: String,
         /// The keys that the shape takes, in words.
         takes: &'static str,
@@ -64,7 +65,7 @@ pub enum ShapeError {
 const NAMES: [&str; 3] = ["polynomial", "piecewise-constant", "piecewise-linear"];
 
 impl Shape {
-    /// Returns the number of values that make a signal of this shape.
+    /// Returns the number of coordinates of a signal of this shape, which is the number of values that make the signal.
     pub fn coordinates(self) -> usize {
         match self {
             Shape::Polynomial { degree } => degree.saturating_add(1),
@@ -73,8 +74,8 @@ impl Shape {
         }
     }
 
-    /// Returns the value of a signal of numbers at a tick of a run that takes `ticks`. After the last tick the value
-    /// stays.
+    /// Returns the value that a signal has at a tick of a run, if its coordinates have the given values. The run takes
+    /// `ticks` ticks. After the last tick the value stays.
     ///
     /// ```
     /// # use paracosm_space::Shape;
@@ -100,8 +101,8 @@ impl Shape {
         }
     }
 
-    /// Returns the part that a tick belongs to, if the run is divided into `pieces` equal parts. If there are as many
-    /// parts as ticks, every tick has its own part.
+    /// Returns the number, from 0, of the part that contains a tick, if the run is divided into `pieces` equal parts.
+    /// If there are as many parts as ticks, every tick has its own part.
     pub fn piece(pieces: usize, tick: usize, ticks: usize) -> usize {
         (tick * pieces / ticks.max(1)).min(pieces - 1)
     }
@@ -172,7 +173,7 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    /// Returns the shape, or `None` if the signal is constant: a constant signal is the same as no signal.
+    /// Returns the shape of the signal, or `None` for a constant signal, which is the same as no signal.
     pub fn shape(&self) -> Result<Option<Shape>, ShapeError> {
         let Self { shape, degree, pieces } = self;
         let (takes, number, other) = match shape.as_str() {

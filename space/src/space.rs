@@ -19,13 +19,13 @@ use serde::{Deserialize, Serialize};
 /// The coordinates of a test, in the order of the space's parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Point {
-    /// The coordinates of the continuous parameters, in `[0,1]`: one for each parameter, several for a signal.
+    /// The coordinates in `[0,1]` of the continuous parameters, one for each parameter and several for a signal.
     pub continuous: Vec<f64>,
-    /// The level indices of the discrete parameters: one for each parameter, several for a signal.
+    /// The level indices of the discrete parameters, one for each parameter and several for a signal.
     pub discrete: Vec<usize>,
 }
 
-/// An ordered list of parameters with distinct names, and the constraints between them.
+/// An ordered list of parameters with distinct names, with constraints between the parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Declaration", into = "Declaration")]
 pub struct Space {
@@ -48,7 +48,7 @@ struct Declaration {
 }
 
 impl Space {
-    /// Makes a space of these parameters, in this order.
+    /// Makes a space of the given parameters, in the given order.
     ///
     /// # Errors
     /// Two parameters share a name, or a parameter has no name, or a parameter is not valid.
@@ -100,19 +100,19 @@ impl Space {
         Ok(self)
     }
 
-    /// Makes the unit cube with parameters `x1` to `x{dims}`: the space of a set of points that has no space of its
-    /// own.
+    /// Makes the unit cube as a space with the parameters `x1` to `x{dims}`. It serves a set of points that has no
+    /// space of its own.
     pub fn unit_cube(dims: usize) -> Self {
         let axis = |i| Parameter::new(format!("x{i}"), Domain::Interval { lo: 0.0, hi: 1.0 });
         Self { parameters: (1..=dims).map(axis).collect(), constraints: Vec::new() }
     }
 
-    /// Returns the parameters in order.
+    /// Returns the parameters of the space in their order.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
 
-    /// Returns the parameter of this name.
+    /// Returns the parameter with the given name.
     ///
     /// # Errors
     /// No parameter has the name. The error suggests the nearest name.
@@ -123,7 +123,8 @@ impl Space {
         })
     }
 
-    /// Returns all coordinates of a test in the order of their parameters. The columns of a table have the same order.
+    /// Returns all coordinates of a test of the space, in the order of their parameters. The columns of a table have
+    /// the same order.
     pub fn coordinates(&self) -> impl Iterator<Item = Coordinate<'_>> {
         let of = |parameter| (0..Parameter::coordinates(parameter)).map(move |index| Coordinate { parameter, index });
         self.parameters.iter().flat_map(of)
@@ -139,22 +140,22 @@ impl Space {
         self.coordinates().filter(|coordinate| coordinate.parameter.levels().is_some())
     }
 
-    /// Returns the number of continuous coordinates.
+    /// Returns the number of continuous coordinates of a test.
     pub fn dims(&self) -> usize {
         self.parameters.iter().filter(|p| p.levels().is_none()).map(Parameter::coordinates).sum()
     }
 
-    /// Returns the number of levels of each discrete coordinate.
+    /// Returns the number of levels of each discrete coordinate of a test.
     pub fn levels(&self) -> Vec<usize> {
         self.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(<[Value]>::len).collect()
     }
 
-    /// Returns the constraints in order.
+    /// Returns the constraints of the space in their order.
     pub fn constraints(&self) -> &[Constraint] {
         &self.constraints
     }
 
-    /// Returns `true` if the test keeps every constraint.
+    /// Returns `true` if the test at the given point keeps every constraint of the space.
     ///
     /// # Panics
     /// The point has fewer discrete coordinates than the space, or a level index is not below the number of levels.
@@ -162,8 +163,8 @@ impl Space {
         self.constraints.iter().all(|constraint| constraint.holds(&point.discrete))
     }
 
-    /// Returns the clauses of each constraint. A literal names a parameter by its position among the discrete
-    /// coordinates.
+    /// Returns the clauses of each constraint of the space. A literal names a parameter by its position among the
+    /// discrete coordinates.
     pub fn clauses(&self) -> Vec<Vec<Clause>> {
         self.constraints.iter().map(|constraint| constraint.clauses().to_vec()).collect()
     }
@@ -191,7 +192,7 @@ impl Space {
         }
     }
 
-    /// Returns the values of the test with these coordinates.
+    /// Returns the parameter values of the test with the given coordinates.
     ///
     /// # Panics
     /// The point has another number of coordinates than the space, or a level index is not below the number of levels.
@@ -217,7 +218,7 @@ impl Space {
         values
     }
 
-    /// Returns the coordinates of the test with these values. This is the inverse of [`Space::decode`].
+    /// Returns the coordinates of the test with the given parameter values. This is the inverse of [`Space::decode`].
     ///
     /// If the values come from [`Space::decode`], then decoding the result gives exactly the same values.
     ///

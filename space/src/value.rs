@@ -5,22 +5,22 @@ use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// A value of a parameter: a number, a word, or a list of numbers and words.
+/// A value of a parameter, which is a number, a word, or a list of numbers and words.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// A number. A whole number is written without a decimal point.
+    /// A value that is a number, such as `0.5`. A whole number is written without a decimal point.
     Number(f64),
-    /// The text of a number that [`Value::Number`] would write in another way, such as `1.10` or `007`. Only levels
-    /// are such values. The value is not equal to the number, but [`Value::means`] treats both as the same.
+    /// A number in a notation that [`Value::Number`] would not keep, such as `1.10` or `007`, stored as text. Only
+    /// levels are such values. The value is not equal to the number, but [`Value::means`] treats both as the same.
     Written(Box<str>),
-    /// A word, such as `fog`.
+    /// A value that is a word, such as `fog`.
     Word(String),
-    /// The values of a signal, one for each coordinate.
+    /// A list of the values of a signal, one for each coordinate.
     List(Box<[Value]>),
 }
 
 impl Value {
-    /// Returns the number, or `None` if the value is a word or a list.
+    /// Returns the value as a number, or `None` if the value is a word or a list.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(number) => Some(*number),
@@ -29,7 +29,7 @@ impl Value {
         }
     }
 
-    /// Returns the word, or `None` if the value is a number or a list.
+    /// Returns the value as a word, or `None` if the value is a number or a list.
     pub fn word(&self) -> Option<&str> {
         match self {
             Value::Word(word) => Some(word),
@@ -45,14 +45,14 @@ impl Value {
         }
     }
 
-    /// Reads the text as a finite number if possible, and otherwise as a word.
+    /// Reads a text as a finite number if possible, and otherwise as a word.
     pub fn parse(text: &str) -> Self {
         let text = text.trim();
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
         number.map_or_else(|| Value::Word(text.to_owned()), Value::Number)
     }
 
-    /// Reads a value as [`Value::parse`] does, but keeps the way in which a number is written.
+    /// Reads a text as [`Value::parse`] does, but keeps the notation of a number, such as `1.50`.
     ///
     /// ```
     /// use paracosm_space::Value;
@@ -68,7 +68,7 @@ impl Value {
         }
     }
 
-    /// Returns `true` if both values are the same number, however they are written, or are equal.
+    /// Returns `true` if both values are equal, or are the same number in different notations.
     pub fn means(&self, other: &Value) -> bool {
         match (self.number(), other.number()) {
             (Some(number), Some(other)) => number == other,

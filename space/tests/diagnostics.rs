@@ -22,13 +22,17 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check(
         "weather == 'fogg'",
         12,
-        "`weather` is never 'fogg', expected one of 'clear', 'rain', 'fog' (did you mean `'fog'`?)",
+        "`weather` never has the value 'fogg', expected one of 'clear', 'rain', 'fog' (did you mean `'fog'`?)",
     );
-    check("weather in ['rain', 'snow']", 21, "`weather` is never 'snow', expected one of 'clear', 'rain', 'fog'");
-    check("lanes != 3", 10, "`lanes` is never 3, expected one of 2, 4, 6");
-    check("many == 10", 9, "`many` is never 10, expected one of 0, 1, 2, 3, 4, 5, 6, 7, .. (9 in all)");
-    check("lanes == '2'", 10, "`lanes` is never '2', expected one of 2, 4, 6 (did you mean `2`?)");
-    check("weather == fog", 12, "no parameter is called `fog`; the level of `weather` is written 'fog'");
+    check(
+        "weather in ['rain', 'snow']",
+        21,
+        "`weather` never has the value 'snow', expected one of 'clear', 'rain', 'fog'",
+    );
+    check("lanes != 3", 10, "`lanes` never has the value 3, expected one of 2, 4, 6");
+    check("many == 10", 9, "`many` never has the value 10, expected one of 0, 1, 2, 3, 4, 5, 6, 7, .. (9 in all)");
+    check("lanes == '2'", 10, "`lanes` never has the value '2', expected one of 2, 4, 6 (did you mean `2`?)");
+    check("weather == fog", 12, "no parameter is called `fog`; to compare with the level of `weather`, write 'fog'");
     check("weather < 'fog'", 1, "`<` compares numbers, but `weather` takes the word 'clear'");
     check("gear >= 1", 1, "`>=` compares numbers, but `gear` takes the word 'auto'");
     check("not gear >= 1", 5, "`>=` compares numbers, but `gear` takes the word 'auto'");
@@ -73,19 +77,31 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
         6,
         "found `surface`, expected a comparison (`==`, `!=`, `<`, `<=`, `>`, `>=` or `in`)",
     );
-    check("lanes == 2m", 10, "found `2m`, expected a number; a name like it stands in brackets");
-    check("lanes == 1e999", 10, "found `1e999`, expected a number; a name like it stands in brackets");
+    check(
+        "lanes == 2m",
+        10,
+        "found `2m`, expected a finite number; write a name that begins like a number in brackets",
+    );
+    check(
+        "lanes == 1e999",
+        10,
+        "found `1e999`, expected a finite number; write a name that begins like a number in brackets",
+    );
     check(
         "lanes; open",
         6,
         "found `;`, which is no sign of the language; names with other signs than letters, digits, `_` and `.` stand in brackets: [road surface]",
     );
     let deep = format!("{}lanes == 2{}", "(".repeat(1000), ")".repeat(1000));
-    check(&deep, 129, "the constraint is nested more than 128 deep");
+    check(&deep, 129, "the constraint has more than 128 levels of nesting; divide it into several constraints");
     let deep = format!("{}lanes == 2", "not ".repeat(1000));
-    check(&deep, 4001, "the constraint is nested more than 128 deep");
+    check(&deep, 4001, "the constraint has more than 128 levels of nesting; divide it into several constraints");
     let long = vec!["lanes == 2"; 1000].join(" implies ");
-    check(&long, 128 * 19 + 1, "the constraint is nested more than 128 deep");
+    check(
+        &long,
+        128 * 19 + 1,
+        "the constraint has more than 128 levels of nesting; divide it into several constraints",
+    );
 }
 
 #[test]
@@ -100,7 +116,7 @@ fn the_place_of_an_error_is_given_in_the_lines_of_the_file() {
             other => panic!("{toml}: {other:?}"),
         }
     };
-    let three = "`lanes` is never 3, expected one of 2, 4";
+    let three = "`lanes` never has the value 3, expected one of 2, 4";
     check("['lanes == 3']", Some((1, 26)), three);
     check("[\n  \"lanes == 2\",\n  \"lanes == 3\"]", Some((3, 13)), three);
     check(r#"["\u006canes  \t== 3"]"#, Some((1, 34)), three);
@@ -120,7 +136,10 @@ fn the_lines_of_constraints_are_known() {
 fn an_error_of_a_space_made_by_a_program_names_the_constraint() {
     let error = drive().with_constraints(["lanes == 2", "lanes == 3"]).unwrap_err();
     assert!(matches!(&error, SpaceError::Constraint { index: 1, .. }), "{error:?}");
-    assert_eq!(error.to_string(), "constraint `lanes == 3`, column 10: `lanes` is never 3, expected one of 2, 4, 6");
+    assert_eq!(
+        error.to_string(),
+        "constraint `lanes == 3`, column 10: `lanes` never has the value 3, expected one of 2, 4, 6"
+    );
 }
 
 #[test]
@@ -133,38 +152,46 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     };
     check("", (1, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");
     check("# A: 1\n[A] = 1;", (2, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");
-    check("A: 1\n Size 1 2", (2, 10), "found no `:`, expected one between the name of a parameter and its values");
+    check("A: 1\n Size 1 2", (2, 10), "found no `:`, expected a `:` between the name of a parameter and its values");
     check(
         "A: 1\nIFF [A] = 1 THEN [A] = 2;",
         (2, 26),
-        "found no `:`, expected one between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
+        "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
     );
     check(
         "A: 1\nIFF [A] in {1, 2};",
         (2, 19),
-        "found no `:`, expected one between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
+        "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
     );
     check(" : 1, 2", (1, 2), "found no name before `:`, expected the name of a parameter");
-    check("A:  \nB: 1", (1, 3), "found no values, expected those of `A`, with commas between them");
-    check("A: 1\nB: ~x, ~2", (2, 4), "every value of `B` is negative (`~`), expected one that is not");
+    check("A:  \nB: 1", (1, 3), "found no values, expected the values of parameter `A`, with commas between them");
+    check("A: 1\nB: ~x, ~2", (2, 4), "every value of parameter `B` is negative (`~`), expected a value without `~`");
     check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
     check("A @ 2: 1", (1, 3), "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`");
     check("OS: 1\n os: 2", (2, 2), "parameter `OS` is declared twice; case makes no difference");
     check("V: 1.1, ~1.10", (1, 9), "`1.10` is listed with and without `~`");
     check("Speed: 1, 2\nW: 3, <Spede>", (2, 7), "no parameter is called `Spede` (did you mean `Speed`?)");
-    check("W: 3, <V>\nV: 1, 2", (1, 7), "`<V>` stands before parameter `V`, expected it below");
+    check("W: 3, <V>\nV: 1, 2", (1, 7), "found `<V>` above parameter `V`, expected the reference below the parameter");
     check("V: 1, ~1", (1, 7), "`1` is listed with and without `~`");
 
     let check = |rest: &str, at: (usize, usize), expected: &str| {
         check(&format!("Weather: clear, fog\nLanes: 2, 4\nFront lanes: 2, 6\n{rest}"), (at.0 + 3, at.1), expected);
     };
     check("{Weather, Lane} @ 2", (1, 11), "no parameter is called `Lane` (did you mean `Lanes`?)");
-    check("{Weather, Lanes} @ 3", (1, 20), "found `3`, expected an order from 1 to 2, the number of parameters");
-    check("{Weather, Lanes} @", (1, 19), "found nothing, expected an order from 1 to 2, the number of parameters");
+    check(
+        "{Weather, Lanes} @ 3",
+        (1, 20),
+        "found `3`, expected an order from 1 to 2, the number of parameters in the sub-model",
+    );
+    check(
+        "{Weather, Lanes} @",
+        (1, 19),
+        "found nothing, expected an order from 1 to 2, the number of parameters in the sub-model",
+    );
     check("{Weather, Lanes} 2", (1, 18), "found `2`, expected `@` and the order of the sub-model");
     check("{Weather, weather}", (1, 11), "the sub-model names `weather` twice");
     check("{Weather,}", (1, 10), "found no name, expected a parameter of the sub-model");
-    check("{Weather, Lanes", (1, 16), "found no `}`, expected one after the names of a sub-model");
+    check("{Weather, Lanes", (1, 16), "found no `}`, expected `}` after the names of a sub-model");
     check(
         "{Weather, Lanes}\nB: 1",
         (2, 1),
@@ -203,7 +230,7 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         (2, 1),
         "found `FI`, expected `IF`, `NOT`, `(` or a parameter in brackets (did you mean `IF`?)",
     );
-    check("IF Lanes = 2 THEN [Lanes] = 2;", (1, 4), "found `Lanes`, expected a parameter in brackets, as [Lanes]");
+    check("IF Lanes = 2 THEN [Lanes] = 2;", (1, 4), "found `Lanes`, expected a parameter in brackets: [Lanes]");
     check("IF (2 = 2) THEN [Lanes] = 2;", (1, 5), "found `2`, expected a parameter in brackets, `NOT` or `(`");
     check("[Weather] = fog;", (1, 13), "found `fog`, expected a value; words stand in quotes: \"fog\"");
     check("[Weather] = 'fog';", (1, 13), "found `'`, expected `\"`");
@@ -221,7 +248,11 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     check("[Weather] NOT \"fog\";", (1, 15), "found `\"fog\"`, expected `IN` or `LIKE`");
     check("[Lanes] IN 2;", (1, 12), "found `2`, expected `{` and the values");
     check("[Lanes] IN {2; 4};", (1, 14), "found `;`, expected `,` or `}`");
-    check("[Lanes] = [Weather];", (1, 9), "`Lanes` takes numbers and `Weather` words, which are not compared");
+    check(
+        "[Lanes] = [Weather];",
+        (1, 9),
+        "`Lanes` takes numbers and `Weather` takes words; numbers and words cannot be compared",
+    );
     check("[Lanes] = [Front lane];", (1, 11), "no parameter is called `Front lane` (did you mean `Front lanes`?)");
     check("([Lanes] = 2;", (1, 13), "found `;`, expected `AND`, `OR` or `)`");
     check("([Lanes] = 2", (1, 1), "the `(` here has no closing `)`");
@@ -233,15 +264,15 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         "found a parameter after a constraint; parameters come first, then sub-models, then constraints",
     );
     check("[Lanes] 2;\n^", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
-    check("[Lanes] IN {2, ^};", (1, 16), "found `^`, which is no sign of a constraint");
-    check("IsNegative(^);", (1, 12), "found `^`, which is no sign of a constraint");
+    check("[Lanes] IN {2, ^};", (1, 16), "found `^`, which has no meaning in a constraint");
+    check("IsNegative(^);", (1, 12), "found `^`, which has no meaning in a constraint");
     check("IsNegative(Lanes;", (1, 17), "found `;`, expected `)`");
     check("[Weather] = \"fog;", (1, 13), "the word that begins here has no closing `\"`");
     check("[Weather = \"fog\";", (1, 1), "the name that begins here has no closing `]`");
     check("[Lanes] = 2; # two", (1, 14), "found `#`, which begins a comment only at the start of a line");
-    check("[Lanes] = 2 ^ 3;", (1, 13), "found `^`, which is no sign of a constraint");
+    check("[Lanes] = 2 ^ 3;", (1, 13), "found `^`, which has no meaning in a constraint");
     let deep = format!("{}[Lanes] = 2{};", "(".repeat(1000), ")".repeat(1000));
-    check(&deep, (1, 49), "the constraint is nested more than 48 deep");
+    check(&deep, (1, 49), "the constraint has more than 48 levels of nesting; divide it into several constraints");
     let deep = format!("{}[Lanes] = 2;", "NOT ".repeat(1000));
-    check(&deep, (1, 193), "the constraint is nested more than 48 deep");
+    check(&deep, (1, 193), "the constraint has more than 48 levels of nesting; divide it into several constraints");
 }

@@ -62,7 +62,7 @@ fn a_model_is_read_with_its_sub_models_and_constraints() {
     assert_eq!(
         model.notes,
         [
-            "line 10: a sub-model without an order is covered as all parameters are",
+            "line 10: the sub-model has no order, so it asks for no further combinations",
             "only the first alias of a value is used: `ext4 | ext3`",
             "weights are ignored: `NTFS (10)`",
         ]
@@ -82,7 +82,7 @@ fn values_are_numbers_words_and_what_they_look_like() {
     check(
         "A: 1.1, 1.10, x, 1.1",
         &[1.1.into(), "1.10".into(), "x".into()],
-        &["parameter `A` lists `1.1` twice, which is read as one value"],
+        &["parameter `A` lists `1.1` twice; both are read as one value"],
     );
     check("A: 1, x, 2m", &[1.into(), "x".into(), "2m".into()], &[]);
     check("A: nan, inf, -infinity", &["nan".into(), "inf".into(), "-infinity".into()], &[]);
@@ -90,7 +90,7 @@ fn values_are_numbers_words_and_what_they_look_like() {
     check("A: f(x), g (0), h()", &["f(x)".into(), "g (0)".into(), "h()".into()], &[]);
     check("A: a, A, #b", &["a".into(), "A".into(), "#b".into()], &[]);
     check("IF so: [1], (2)x", &["[1]".into(), "(2)x".into()], &[]);
-    check("A: x, y, x", &["x".into(), "y".into()], &["parameter `A` lists `x` twice, which is read as one value"]);
+    check("A: x, y, x", &["x".into(), "y".into()], &["parameter `A` lists `x` twice; both are read as one value"]);
     check(
         "A: x|~z (3), y(2)",
         &["x".into(), "y".into()],
@@ -101,7 +101,7 @@ fn values_are_numbers_words_and_what_they_look_like() {
         &[1.into(), "".into()],
         &[
             "parameter `A` lists the empty word as a value",
-            "parameter `A` lists `` twice, which is read as one value",
+            "parameter `A` lists `` twice; both are read as one value",
             "weights are ignored: `(3)`",
         ],
     );
@@ -162,7 +162,7 @@ fn no_test_has_two_negative_values() {
     let all = read("A: ~1, 2\nB: ~x, y\nIF IsPositive() THEN [B] = \"q\" ELSE NOT IsNegative([B]);");
     let allowed: Vec<_> = tests(&all).into_iter().filter(|(_, allowed)| *allowed).map(|(test, _)| test).collect();
     assert_eq!(allowed, [[1.into(), "y".into()]]);
-    assert_eq!(all.notes[0], "line 3, column 28: `B` is never `q`");
+    assert_eq!(all.notes[0], "line 3, column 28: parameter `B` never has the value `q`");
 }
 
 /// A comparison without regard to case, as PICT documents it, and what joins them.
@@ -345,8 +345,8 @@ fn a_value_that_no_test_has_is_noted() {
     assert_eq!(
         model.notes,
         [
-            "line 3, column 16: `Weather` is never `fogg` (did you mean `fog`?)",
-            "line 3, column 43: `Lanes` is never `3`"
+            "line 3, column 16: parameter `Weather` never has the value `fogg` (did you mean `fog`?)",
+            "line 3, column 43: parameter `Lanes` never has the value `3`"
         ]
     );
     assert!(tests(&model).iter().all(|(_, allowed)| *allowed));

@@ -304,7 +304,7 @@ fn a_conflict_that_may_not_be_the_smallest_says_so() {
     assert!(!conflict.smallest);
     // All have to differ, or there is a test.
     assert!((0..constraints.len() - 1).all(|constraint| conflict.constraints.contains(&constraint)));
-    assert!(conflict.to_string().ends_with("(a conflicting set, perhaps not the smallest)"), "{conflict}");
+    assert!(conflict.to_string().ends_with("(a smaller set of constraints may be in conflict, too)"), "{conflict}");
 }
 
 #[test]

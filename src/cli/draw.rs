@@ -36,8 +36,8 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Checks, before anything takes time, that a picture of one of these kinds can be written to the file of an
-    /// option.
+    /// Checks that a picture of one of these kinds can be written to the file of an option. This check comes before all
+    /// slow work.
     ///
     /// # Errors
     /// The file belongs to a campaign, or has another ending.
@@ -55,7 +55,7 @@ impl Target {
         Ok(Self { path: path.to_owned(), kind: *kind })
     }
 
-    /// Draws and writes the picture. Returns its size in words.
+    /// Draws a picture and writes the picture to its file. Returns its size in words.
     ///
     /// # Errors
     /// The picture cannot be drawn or written.

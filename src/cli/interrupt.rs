@@ -18,7 +18,7 @@ pub(super) struct Interruptible {
 }
 
 impl Interruptible {
-    /// A search that stops at the deadline at the latest. There is at most one at a time.
+    /// Makes a search that stops at the deadline at the latest. There is at most one search at a time.
     pub fn new(deadline: Deadline) -> Self {
         static HANDLER: Once = Once::new();
         STOPPED.store(false, Ordering::Relaxed);
@@ -33,7 +33,7 @@ impl Interruptible {
         Self { deadline: deadline.or_when(&STOPPED) }
     }
 
-    /// Ends the search. Returns true if the search was interrupted.
+    /// Ends the search, and returns true if an interrupt had stopped the search.
     pub fn end(self) -> bool {
         STOPPED.swap(true, Ordering::Relaxed)
     }

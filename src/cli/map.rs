@@ -93,8 +93,8 @@ impl Options {
 }
 
 impl Axes {
-    /// Returns the names of both axes. The first free continuous coordinates take the place of names that were not
-    /// given. Returns `None` if the study has too few continuous coordinates.
+    /// Returns the names of the parameters on both axes of the map. The first free continuous coordinates take the
+    /// place of names that were not given. Returns `None` if the study has too few continuous coordinates.
     ///
     /// # Errors
     /// A name does not belong to a continuous coordinate, or both names are the same.

@@ -18,7 +18,7 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// Returns the form that was asked for, or else a table on a terminal and JSON elsewhere.
+    /// Returns the given form, or without a given form a table on a terminal and JSON elsewhere.
     pub fn or_fitting(asked: Option<Self>) -> Self {
         asked.unwrap_or(if std::io::stdout().is_terminal() { Self::Table } else { Self::Json })
     }
@@ -54,7 +54,7 @@ impl Table {
         self.lines.push(Line::Row(label.to_owned(), value.to_owned()));
     }
 
-    /// Adds a line that has its own columns.
+    /// Adds a line of text that does not use the table's columns.
     pub fn line(&mut self, text: &str) {
         self.lines.push(Line::Text(format!("  {text}")));
     }

@@ -21,7 +21,7 @@ const MODES_SHOWN: usize = 5;
 pub(super) struct Printed<'a> {
     pub report: &'a Report,
     pub out: &'a Path,
-    /// The program as it was called.
+    /// The name by which the user called the program.
     pub program: &'a str,
     /// True if the user asked to locate guilty combinations.
     pub locate: bool,

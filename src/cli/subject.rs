@@ -72,7 +72,7 @@ impl Subject {
         self.system.name().unwrap_or(&self.scenario)
     }
 
-    /// Begins a study with these options.
+    /// Begins a study of the subject with these options.
     pub fn study(&self, verbosity: Verbosity) -> Result<StudyBuilder, Error> {
         let mut study = match self.system.study(verbosity)? {
             Some(study) => study,
@@ -128,7 +128,7 @@ impl Subject {
         self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
     }
 
-    /// Notes which requirements of a file are not judged; their names may be misspelled.
+    /// Prints a note for each requirement of a file that is not judged, because its name may be misspelled.
     pub fn note_unjudged(&self, study: &Study, verbosity: Verbosity) {
         if self.requirements.is_none() || matches!(study.subject(), campaign::Subject::System(_)) {
             return;

@@ -39,8 +39,8 @@ pub(super) fn show(table: &mut Table, report: &Report, asked: bool) {
 fn show_suspects(suspects: &SuspectReport, table: &mut Table) {
     for (i, suspect) in suspects.ranked.iter().take(SHOWN).enumerate() {
         let all = match suspect.failures {
-            1 => "the only test with it failed".to_owned(),
-            count => format!("all {count} tests with it failed"),
+            1 => "the only test with these values failed".to_owned(),
+            count => format!("all {count} tests with these values failed"),
         };
         table.row(if i == 0 { "suspects" } else { "" }, &format!("{}: {all}", names(&suspect.values)));
     }

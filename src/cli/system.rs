@@ -24,22 +24,22 @@ pub(super) struct System {
 }
 
 impl System {
-    /// Returns true if a system is given.
+    /// Returns true if the user gave a system under test.
     pub fn is_given(&self) -> bool {
         self.system.is_some()
     }
 
-    /// Returns the time limit for an answer in seconds, if it is given.
+    /// Returns the time limit for an answer in seconds, if the user gave a limit.
     pub fn timeout(&self) -> Option<f64> {
         self.timeout
     }
 
-    /// Returns the command, if a system is given.
+    /// Returns the command of the system under test, if the user gave a system.
     pub fn name(&self) -> Option<&str> {
         self.system.as_deref()
     }
 
-    /// Begins a study of the system, if a system is given.
+    /// Begins a study of the system under test, if the user gave a system.
     pub fn study(&self, verbosity: Verbosity) -> Result<Option<StudyBuilder>, Error> {
         let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };
         let system = BlackBox::new(command, self.timeout)?;

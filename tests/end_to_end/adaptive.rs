@@ -60,6 +60,6 @@ fn where_no_test_is_run_there_is_nothing_to_learn_from() {
         &["generate", "--strategy", "bayes", "--dims", "2", "--budget", "9"],
         &["compare", "--strategies", "halton,bayes", "--out", "compared"],
     ] {
-        refused(&cover(dir.path(), options), &["`bayes` goes by how tests went", "paracosm-fuzz run"]);
+        refused(&cover(dir.path(), options), &["`bayes` is adaptive", "paracosm-fuzz run"]);
     }
 }

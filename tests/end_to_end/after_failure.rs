@@ -87,7 +87,7 @@ fn a_campaign_that_stops_says_so_and_one_without_a_failure_goes_to_its_end() {
     let dir = tempfile::tempdir().unwrap();
     let table = ["--stop-at-first", "--format", "table"];
     let stopped = succeeds(fuzz(dir.path(), &[&["--budget", "40", "--out", "a"], &table[..]].concat()));
-    assert!(stdout(&stopped).contains("stopped               at the first failing test; the budget is 40"));
+    assert!(stdout(&stopped).contains("stopped               at the first failing test; the budget was 40 tests"));
     assert!(!stderr(&stopped).contains("fewer than the budget"));
     let safe = ["--set", "distance=60", "--open", "speed=0.5..1", "--budget", "4", "--out", "b"];
     let safe = stdout(&succeeds(fuzz(dir.path(), &[&safe[..], &table[..]].concat())));
@@ -211,7 +211,7 @@ fn shrinking_keeps_to_the_mode_where_that_is_asked_for_and_says_otherwise_when_i
         assert_eq!(shrunk["same_mode"], same, "{shrunk}");
         let table = stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--format", "table"])));
         assert_eq!(table.contains("  fails in another way  the car "), !same, "{table}");
-        assert_eq!(table.contains("; --same-mode keeps to that\n"), !same, "{table}");
+        assert_eq!(table.contains("; --same-mode keeps this mode\n"), !same, "{table}");
         changed += usize::from(!same);
     }
     assert!(changed > 0);
@@ -257,7 +257,7 @@ fn what_cannot_be_shrunk_or_saved_is_refused() {
     let index = failing(dir.path(), "out");
     refused(&fuzz(dir.path(), &["shrink", "nowhere", "1"]), &["nowhere/campaign.json"]);
     refused(&fuzz(dir.path(), &["shrink", "out", "40"]), &["no test 40", "0 to 39"]);
-    refused(&fuzz(dir.path(), &["shrink", "out", "0"]), &["test 0 ended `pass`", "nothing to shrink"]);
+    refused(&fuzz(dir.path(), &["shrink", "out", "0"]), &["test 0 has the verdict `pass`", "nothing to shrink"]);
     refused(&fuzz(dir.path(), &["shrink", "out", &index, "--save", "out/campaign.json"]), &["out/campaign.json"]);
     fs::write(dir.path().join("there.json"), "{}").unwrap();
     refused(&fuzz(dir.path(), &["shrink", "out", &index, "--save", "there.json"]), &["there.json exists"]);
@@ -325,7 +325,7 @@ fn files_that_are_no_regressions_are_refused() {
     let text = fs::read_to_string(dir.path().join("open.json")).unwrap();
     let write = |text: &str| fs::write(dir.path().join("bad.json"), text).unwrap();
     let cases = [
-        ("{\"expect\": 1}".to_owned(), "no regression test"),
+        ("{\"expect\": 1}".to_owned(), "the file is not a regression test"),
         (text.replace("\"no-collision\"\n", "\"no-colision\"\n"), "no requirement is called `no-colision`"),
         (text.replace("\"expect\": \"fail\"", "\"expect\": \"fial\""), "`fial`"),
         (text.replacen("\"distance\"", "\"distanse\"", 1), "`distanse`"),

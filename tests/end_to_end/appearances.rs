@@ -125,8 +125,8 @@ fn an_unknown_actor_and_a_broken_file_are_said() {
     refused(&show(&["leadr=box.glb"]), &["`leadr`", "did you mean `leader`?", "car, leader"]);
     refused(&show(&["leader=box"]), &["leader=box", "cannot read `box`"]);
     refused(&show(&["leader"]), &["--model leader: expected ACTOR=FILE.glb"]);
-    refused(&show(&["leader=broken.glb"]), &["`broken.glb` is no model that can be used"]);
-    refused(&show(&["leader=cut.glb"]), &["`cut.glb` is no model that can be used"]);
+    refused(&show(&["leader=broken.glb"]), &["`broken.glb` cannot be used as a model"]);
+    refused(&show(&["leader=cut.glb"]), &["`cut.glb` cannot be used as a model"]);
     refused(&show(&["car=box.glb", "car=box.glb"]), &["it has another model already"]);
     refused(&show(&["tree=box.glb"]), &["no actor `tree`"]);
     assert!(!dir.join("x").exists());

@@ -9,9 +9,9 @@ fn a_folder_after_resume_is_taken_for_no_scenario() {
     succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "slippery", "-q"]));
     let resume = |name: &str| fuzz(dir.path(), &["--resume", name]);
     refused(&resume("slipery"), &["slipery is neither a campaign folder", "`--out slippery --resume`"]);
-    refused(&resume("slippery"), &["slippery is no scenario but the folder of a campaign", "--out slippery --resume"]);
+    refused(&resume("slippery"), &["slippery is the folder of a campaign, not a scenario", "--out slippery --resume"]);
     refused(&resume("pedestrian-crosing"), &["nor a scenario", "`pedestrian-crossing`"]);
-    refused(&resume("nothing-like-it"), &["nothing-like-it", "--out does\n"]);
+    refused(&resume("nothing-like-it"), &["nothing-like-it", "--out names the folder\n"]);
     assert!(!dir.path().join("paracosm-out").exists());
 }
 
@@ -48,10 +48,10 @@ fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
         (&["--open", "speed=1..inf"], &["`speed`", "inf"]),
         (&["--open", "speed=1..99"], &["`speed`", "99", "[0.5, 10]"]),
         (&["--open", "speed=a..b"], &["`a..b`", "LO..HI"]),
-        (&["--open", "lanes=2..6"], &["`lanes`", "no interval"]),
+        (&["--open", "lanes=2..6"], &["`lanes`", "not an interval"]),
         (&["--open", "lanes=2,3"], &["`lanes`", "found 3"]),
         (&["--open", "lanes=2,2"], &["`lanes`", "twice"]),
-        (&["--k", "2"], &["k is 2", "0 discrete"]),
+        (&["--k", "2"], &["k is 2", "discrete parameters, which is 0"]),
         (&["--open", "lanes", "--k", "0"], &["k is 0"]),
         (&["--discrete", "crosss"], &["`crosss`", "`cross`"]),
         (&["--strategy", "random", "--skip", "3"], &["`random`", "halton"]),
@@ -92,7 +92,7 @@ fn broken_files_of_tests_are_refused_with_the_line() {
     let dir = tempfile::tempdir().unwrap();
     let cases: &[(&[u8], &[&str])] = &[
         (b"", &["empty", "header"]),
-        (b"a,b\n0.1,0.2\n0.3\n", &["line 3", "found 1 fields, expected 2"]),
+        (b"a,b\n0.1,0.2\n0.3\n", &["line 3", "found 1 field, expected 2"]),
         (b"a,b\n0.1,far\n", &["line 2", "`b`", "`far`", "number"]),
         (b"a,b\n0.1,\n", &["line 2", "`b`", "an empty cell"]),
         (b"a,b\n0.1,1.2\n", &["line 2", "`b`", "1.2", "[0, 1]", "--space"]),
@@ -157,7 +157,7 @@ fn times_that_are_none_and_files_that_are_no_text_are_refused_with_what_was_expe
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("m.pict"), "A: 1, 2\nB: 1, 2\n").unwrap();
     let generate = |more: &[&str]| cover(dir.path(), &[&["generate", "--space"], more].concat());
-    let expected = "error: --optimise -1: expected a number of seconds from 0 on\n";
+    let expected = "error: --optimise -1: expected a number of seconds, 0 or more\n";
     refused(&generate(&["m.pict", "--optimise", "-1"]), &[expected]);
     refused(&generate(&["m.pict", "--optimise", "soon"]), &["--optimise <SECONDS>: found `soon`, expected a number"]);
     for name in ["latin1.pict", "latin1.toml"] {

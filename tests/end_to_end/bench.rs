@@ -185,8 +185,9 @@ fn a_run_that_has_tested_all_there_is_in_vain_is_not_censored() {
     let dir = tempfile::tempdir().unwrap();
     let table = switches(dir.path(), "never", "random,cmaes");
     for strategy in ["random", "cmaes"] {
-        let said =
-            format!("{strategy}: 6 of 6 runs had nothing more to test, and no failure to find; they count as 20 tests");
+        let said = format!(
+            "{strategy}: 6 of 6 runs tried every test that the strategy can propose and found no failure; each of these runs counts as 20 tests"
+        );
         assert!(table.contains(&said), "{table}");
     }
     for cell in rows(&dir.path().join("paracosm-bench/summary.csv")) {
@@ -200,11 +201,14 @@ fn what_cannot_be_benched_is_said() {
     let bench = |more: &[&str]| fuzz(dir.path(), &[&["bench"], more].concat());
     refused(&bench(&["--scenarios", "cutin"]), &["`cutin`", "did you mean `cut-in`"]);
     refused(&bench(&["--scenarios", "bal5"]), &["did you mean `ball5`"]);
-    refused(&bench(&["--scenarios", "cut-in,cut-in"]), &["cut-in is twice among the scenarios"]);
+    refused(&bench(&["--scenarios", "cut-in,cut-in"]), &["cut-in is twice in the list of scenarios"]);
     refused(&bench(&["--strategies", "cmase"]), &["`cmase`", "cmaes"]);
     refused(&bench(&["--seeds", "1"]), &["seeds is 1", "at least 2"]);
     refused(&bench(&["--budget", "0"]), &["0 as the budget"]);
-    refused(&bench(&["--baseline", "greedy"]), &["the baseline greedy is not among the strategies"]);
+    refused(
+        &bench(&["--baseline", "greedy"]),
+        &["the baseline greedy is not among the strategies: add it to them, or choose another baseline"],
+    );
     refused(&bench(&["--strategies", "fibonacci", "--scenarios", "ball5"]), &["fibonacci on ball5"]);
     refused(&bench(&["--scenarios", "cut-in+wind"]), &["wind"]);
     fs::write(dir.path().join("there"), "").unwrap();

@@ -161,7 +161,7 @@ fn what_cannot_be_recorded_is_said_before_anything_is_run() {
     let film = |path| fuzz(dir, &["replay", "paracosm-out", "0", "--camera", path]);
     refused(&film("front.mp5"), &["`.mp5`", "FILE.mp4", "FILE.gif", "FOLDER", "did you mean `mp4`?"]);
     refused(&film("front.avi"), &["`.avi`", "FILE.mp4"]);
-    refused(&fuzz(dir, &["record", "--outputs", "rgb,dept"]), &["no output `dept`", "`depth`"]);
+    refused(&fuzz(dir, &["record", "--outputs", "rgb,dept"]), &["unknown output `dept`", "`depth`"]);
     fs::write(dir.join("cameras.toml"), "[camera.front]\nresolutoin = [1, 1]\n").expect("a file");
     refused(
         &fuzz(dir, &["record", "--cameras", "cameras.toml", "--out", "x"]),

@@ -131,8 +131,8 @@ fn a_broken_line_in_the_log_is_named() {
     let lines: Vec<&str> = whole.lines().collect();
     let with_third = |line: &str| [&lines[..2], &[line], &lines[3..]].concat().join("\n") + "\n";
     for (line, says) in [
-        (&lines[2][..40], "no trial"),
-        ("", "no trial"),
+        (&lines[2][..40], "the line is not a trial"),
+        ("", "the line is not a trial"),
         (lines[7], "found trial 7, expected trial 2"),
         (&lines[2].replace("ticks", "tics"), "tics"),
         (&format!("{}\r", lines[2]), "carriage return"),
@@ -215,8 +215,8 @@ fn a_world_that_cannot_be_built_is_invalid_and_says_why() {
     let trials = trials(overlaps, "cruise");
     let errors: Vec<&str> = trials.iter().filter_map(Trial::error).collect();
     assert_eq!(count(&trials, Verdict::Invalid), errors.len());
-    assert!(errors.contains(&"car and pedestrian overlap at the start"), "{errors:?}");
-    assert!(errors.iter().any(|error| error.contains("`road` is asked for, which is 80 m long")), "{errors:?}");
+    assert!(errors.contains(&"car and pedestrian overlap at the start; place them apart"), "{errors:?}");
+    assert!(errors.iter().any(|error| error.contains("along `road`, which is 80 m long")), "{errors:?}");
     assert!(count(&trials, Verdict::Pass) > 8);
 }
 

@@ -168,8 +168,8 @@ fn a_driver_that_sees_has_the_same_log_over_grpc() {
 
 /// What a driver does when somebody runs at more than 8.8 m/s, and what is said of it.
 const BAD: [(&str, &str); 6] = [
-    ("exits", "it ended without an answer (exit status: 3); its last words: "),
-    ("hangs", "no answer within 2 s"),
+    ("exits", "the process ended without an answer (exit status: 3); its last words: "),
+    ("hangs", "the driver did not answer within 2 s"),
     ("fails", "too fast for me"),
     ("panics", "the driver panicked: no such gear"),
     ("slips", "the driver's throttle is NaN, expected -1 to 1"),
@@ -260,14 +260,14 @@ fn what_is_no_driver_is_refused_before_the_first_test() {
     let cases: &[(&[&str], &[&str])] = &[
         (&["--driver", &unused], &[&unused, "no process listens at this address; start the driver first"]),
         (&["--driver", "grpc://localhost"], &["grpc://localhost", "no port", "grpc://127.0.0.1:50051"]),
-        (&["--driver", "http://localhost:1"], &["another scheme", "expected grpc://HOST:PORT"]),
+        (&["--driver", "http://localhost:1"], &["does not begin with grpc://", "expected grpc://HOST:PORT"]),
         (&["--driver", "grpc://no-such-host.invalid:1"], &["the name of the host is not known; check the address"]),
         (&["--driver-command", ""], &["--driver-command", "found no program"]),
         (&["--driver-command", "sh 'x"], &["--driver-command", "a quote is not closed"]),
         (&["--driver-command", "no-such-program x"], &["cannot start `no-such-program`"]),
         (
             &["--driver-command", exits],
-            &["it ended before it listened at PARACOSM_ADDRESS (exit status: 4)", "no licence"],
+            &["the process ended before it listened at PARACOSM_ADDRESS (exit status: 4)", "no licence"],
         ),
         (&["--driver-command", "sleep 1000", "--timeout", "0.3"], &["does not listen at PARACOSM_ADDRESS within 3 s"]),
         (&["--driver-command", &served, "--set", "driver.gain=1"], &["no setting `gain`"]),
@@ -278,7 +278,7 @@ fn what_is_no_driver_is_refused_before_the_first_test() {
         (&["--driver-command", &served, "--set", "driver.seed=0.5"], &["driver.seed is 0.5, expected a whole number"]),
         (&["--driver-command", &served, "--timeout", "0"], &["time-out is 0"]),
         (&["--driver-command", &served, "--driver", "aeb"], &["--driver"]),
-        (&["--driver", "aeb", "--timeout", "3"], &["--timeout is for", "--driver-command"]),
+        (&["--driver", "aeb", "--timeout", "3"], &["--timeout applies to", "--driver-command"]),
     ];
     for (arguments, says) in cases {
         refused(&fuzz(dir, &[arguments, &["--out", "out"][..]].concat()), says);

@@ -89,10 +89,13 @@ fn what_cannot_be_generated_is_refused_with_the_reason() {
         ),
         (
             &["--space", "SPACE.toml", "--measure", "kwise-dispersion"],
-            "error: greedy cannot aim at `kwise-dispersion` (did you mean `k-wise-dispersion`?); it can at dispersion \
+            "error: greedy cannot aim at `kwise-dispersion` (did you mean `k-wise-dispersion`?); it can aim at dispersion \
              and k-wise-dispersion\n",
         ),
-        (&["--space", "SPACE.toml", "--measure", "dispersion"], "error: `halton` aims at no measure; greedy does\n"),
+        (
+            &["--space", "SPACE.toml", "--measure", "dispersion"],
+            "error: `halton` cannot aim at a measure; use greedy, or give no measure to aim at\n",
+        ),
     ];
     for (arguments, message) in cases {
         let output = cover(dir.path(), &[&["generate"], arguments].concat());

@@ -124,13 +124,13 @@ fn the_table_says_which_failures_are_unexplained_and_why() {
         dir.path(),
         &["--open", "distance=10,20", "--set", "speed=0.5", "--locate", "--format", "table", "--out", "none"],
     )));
-    assert!(none.contains("located               nothing: that takes a test that fails"), "{none}");
+    assert!(none.contains("located               nothing: locating needs a failing test"), "{none}");
 }
 
 #[test]
 fn locating_needs_a_discrete_parameter() {
     let dir = tempfile::tempdir().unwrap();
-    refused(&fuzz(dir.path(), &["--locate"]), &["--locate", "discrete parameters", "--open NAME=A,B,C"]);
+    refused(&fuzz(dir.path(), &["--locate"]), &["no discrete parameter is open", "--open NAME=A,B,C"]);
     assert!(!dir.path().join("paracosm-out").exists());
 }
 

@@ -60,7 +60,7 @@ fn interrupted_tests_that_are_to_reach_epsilon_are_printed_with_what_they_reach(
     let mut notes = String::new();
     said.read_to_string(&mut notes).unwrap();
     assert_eq!(output.status.code(), Some(0), "{notes}");
-    assert!(notes.contains("an interrupt came before epsilon 0.000000001\n"), "{notes}");
+    assert!(notes.contains("an interrupt ended the search before epsilon 0.000000001 was reached\n"), "{notes}");
     let all = stdout(&output);
     assert!(all.ends_with('\n') && all.lines().all(|line| line.split(',').count() == 2), "no test is cut off");
     fs::write(dir.path().join("tests.csv"), &all).unwrap();

@@ -20,7 +20,7 @@ fn every_row_gets_points_until_none_has_a_larger_hole_than_asked_for() {
     }
     refused(
         &cover(dir.path(), &["generate", "--space", "SPACE.toml", "--strategy", "lhs", "--epsilon", "0.2"]),
-        &["`lhs` makes its set for a number of tests", "halton or greedy"],
+        &["`lhs` must know the number of tests beforehand", "halton or greedy"],
     );
 }
 
@@ -29,7 +29,10 @@ fn tests_that_do_not_reach_epsilon_in_time_are_printed_with_what_they_reach() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let (csv, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--epsilon", "1e-9", "--time-limit", "0.2"]);
-    assert!(notes.contains("the time limit of 0.2 s came before epsilon 0.000000001"), "{notes}");
+    assert!(
+        notes.contains("the time limit of 0.2 s ended the search before epsilon 0.000000001 was reached"),
+        "{notes}"
+    );
     // What was reached stands in the notes, measured; it is not what was asked for.
     let reached = notes.split("(2, ").nth(1).and_then(|rest| rest.split(')').next()).expect("what was reached");
     assert!(reached.parse::<f64>().unwrap() > 1e-9, "{notes}");
@@ -72,7 +75,7 @@ fn where_fewer_than_k_parameters_are_discrete_all_their_combinations_are_covered
     let space = axis("x") + &axis("y") + "[[parameter]]\nname = \"a\"\nchoice = [1, 2, 3]\n";
     fs::write(dir.path().join("SPACE.toml"), space).unwrap();
     let space = ["--space", "SPACE.toml"];
-    let says = "k is 2, but only 1 parameter is discrete: for it k is 1\n";
+    let says = "k is 2, but only 1 parameter is discrete: k is 1 for discrete parameters\n";
     let (csv, notes) = generated(dir.path(), &[&space[..], &["--k", "2", "--epsilon", "0.2"]].concat());
     assert!(notes.contains(says) && notes.contains("(1, "), "{notes}");
     fs::write(dir.path().join("tests.csv"), csv).unwrap();

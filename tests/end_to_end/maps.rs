@@ -24,7 +24,13 @@ fn a_map_over_other_parameters_says_what_is_known_of_every_place() {
     let said = stdout(&succeeds(fuzz(dir.path(), &map)));
     assert!(said.contains("\"others\": [\n    \"speed\",\n    \"lanes\"\n  ]"), "{said}");
     let (picture, numbers) = (read("failure-map.svg"), read("failure-map.csv"));
-    for text in ["distance (m)", "friction", "averaged over: speed, lanes", "probability of failure", "undecided"] {
+    for text in [
+        "distance (m)",
+        "friction",
+        "averaged over the other open parameters: speed,",
+        "probability of failure",
+        "undecided",
+    ] {
         assert!(picture.contains(text), "{text}");
     }
     assert!(picture.len() < 200_000, "{} bytes", picture.len());
@@ -44,7 +50,10 @@ fn a_map_over_other_parameters_says_what_is_known_of_every_place() {
     fs::write(dir.path().join("mine.svg"), "older").unwrap();
     succeeds(fuzz(dir.path(), &[&map[..], &["--out", "mine.svg"]].concat()));
     assert!(fs::read_to_string(dir.path().join("mine.svg")).unwrap() == picture);
-    refused(&fuzz(dir.path(), &[&map[..], &["--out", "out/failure-map.csv"]].concat()), &["a campaign's own file"]);
+    refused(
+        &fuzz(dir.path(), &[&map[..], &["--out", "out/failure-map.csv"]].concat()),
+        &["a file that belongs to campaigns"],
+    );
 }
 
 #[test]
@@ -61,12 +70,12 @@ fn five_tests_in_ten_parameters_decide_nothing_of_a_map() {
         ["--system", "sh system.sh", "--space", "space.toml", "--budget", "5", "--jobs", "1", "--out", "out", "-q"];
     succeeds(fuzz(dir.path(), &run));
     let said = stdout(&succeeds(fuzz(dir.path(), &["map", "out", "--format", "table"])));
-    assert!(said.contains("decided               nothing of the map: that takes more tests"), "{said}");
+    assert!(said.contains("decided               nothing of the map: more tests are needed"), "{said}");
     // What varies beside the axes is said in lines that are no longer than the picture is wide.
     let picture = fs::read_to_string(dir.path().join("out/failure-map.svg")).unwrap();
     let texts: Vec<&str> = picture.lines().filter(|line| !line.contains('<')).collect();
     let note: Vec<&&str> = texts.iter().filter(|text| text.contains("a_parameter_with_a_name_")).collect();
-    assert!(note.len() == 4 && texts.iter().all(|text| text.len() < 140), "{texts:?}");
+    assert!(note.len() == 5 && texts.iter().all(|text| text.len() < 140), "{texts:?}");
 }
 
 #[test]
@@ -76,9 +85,9 @@ fn a_map_over_what_is_no_axis_is_refused_with_the_parameters_that_are() {
     let map = |more: &[&str]| fuzz(dir.path(), &[&["map", "out"], more].concat());
     refused(
         &map(&["--x", "sped", "--y", "friction"]),
-        &["vary no `sped`", "did you mean `speed`", "distance, friction"],
+        &["do not vary a parameter `sped`", "did you mean `speed`", "distance, friction"],
     );
-    refused(&map(&["--x", "lanes"]), &["`lanes` takes single values", "speed, distance, friction"]);
+    refused(&map(&["--x", "lanes"]), &["`lanes` is a discrete parameter", "speed, distance, friction"]);
     refused(&map(&["--x", "speed", "--y", "speed"]), &["both axes are `speed`"]);
     refused(&map(&["--out", "map.gif"]), &["--out map.gif", ".svg or .png or .csv"]);
     refused(&fuzz(dir.path(), &["map", "nowhere"]), &["nowhere"]);
@@ -96,10 +105,7 @@ fn where_all_tests_pass_the_map_has_marks_and_nothing_is_estimated() {
     assert!(dir.path().join("out/failure-map.svg").exists());
     assert!(!dir.path().join("out/failure-map.csv").exists());
     assert!(!dir.path().join("out/explanation.json").exists());
-    refused(
-        &fuzz(dir.path(), &["map", "out", "--out", "map.csv"]),
-        &["map.csv", "a test that fails and one that passes"],
-    );
+    refused(&fuzz(dir.path(), &["map", "out", "--out", "map.csv"]), &["map.csv", "a failing test and a passing test"]);
 }
 
 #[test]

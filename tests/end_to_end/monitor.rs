@@ -72,12 +72,12 @@ fn what_cannot_be_asked_is_refused() {
     fs::write(dir.path().join("gap.csv"), TRACE.replace("1,2,", "1,NaN,")).unwrap();
     for (arguments, says) in [
         (&["t.csv", "--spec", "always (sped < 2)"][..], &["--spec always (sped < 2)", "did you mean `speed`?"][..]),
-        (&["t.csv", "--spec", "always[0,0.25] (speed < 2)"], &["0.25 s is no multiple"]),
+        (&["t.csv", "--spec", "always[0,0.25] (speed < 2)"], &["0.25 s is not a multiple"]),
         (&["t.csv", "--spec", "always (speed <"], &["column 16"]),
         (&["gap.csv", "--spec", "always (speed < 2)"], &["gap.csv", "line 4", "`speed` is `NaN`"]),
         (&["none.csv", "--spec", "always (speed < 2)"], &["cannot read none.csv"]),
         (&["t.csv"], &["--spec"]),
-        (&["t.csv", "--dense", "--spec", "always on"], &["spec-1", "no piecewise linear function"]),
+        (&["t.csv", "--dense", "--spec", "always on"], &["spec-1", "not a piecewise linear function"]),
     ] {
         refused(&fuzz(dir.path(), &[&["monitor"], arguments].concat()), says);
     }

@@ -99,6 +99,6 @@ fn a_picture_replaces_what_was_drawn_before_and_has_an_ending_that_is_known() {
     refused(&fuzz(dir.path(), &["describe", "--draw", "world.gif"]), &["`.gif`", "expected .svg or .png"]);
     fs::remove_file(dir.path().join("out/failure-map.svg")).unwrap();
     let own = fuzz(dir.path(), &["replay", "out", "0", "--draw", "out/failure-map.svg"]);
-    refused(&own, &["failure-map.svg", "campaign's own"]);
+    refused(&own, &["failure-map.svg", "belongs to campaigns"]);
     assert!(!dir.path().join("picture.svgg").exists());
 }

@@ -48,7 +48,7 @@ fn beyond_three_dimensions_one_is_told_to_rely_on_what_was_measured() {
     let dir = tempfile::tempdir().unwrap();
     let plan = |dims: &str| succeeds(cover(dir.path(), &["plan", "--dims", dims, "--epsilon", "0.2"]));
     assert_eq!(stderr(&plan("3")), "");
-    assert!(stderr(&plan("4")).contains("rely on what was measured"));
+    assert!(stderr(&plan("4")).contains("rely on the measured numbers"));
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn what_cannot_be_planned_is_refused() {
     let cases: [(&[&str], &[&str]); 6] = [
         (&[], &["--space <SPACE.toml|MODEL.pict>|--dims <D>"]),
         (&["--dims", "0"], &["no parameters"]),
-        (&["--dims", "2", "--k", "2"], &["--k is for discrete parameters"]),
+        (&["--dims", "2", "--k", "2"], &["--k is a number of discrete parameters"]),
         (&["--space", "SPACE.toml", "--k", "6"], &["k is 6", "has 5 parameters"]),
         (&["--dims", "2", "--epsilon", "1"], &["epsilon is 1", "above 0 and below 1"]),
         (&["--dims", "2", "--delta", "nan"], &["delta is NaN", "above 0 and below 1"]),

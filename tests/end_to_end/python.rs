@@ -98,7 +98,10 @@ fn what_goes_wrong_in_python_is_said_with_its_place() {
             "import sys; sys.exit('no fuel')",
             "the driver gave up at 0.000 s: SystemExit: no fuel (driver.py, line 10, in step)",
         ),
-        ("if observation.time > 0.5: os._exit(5)\nreturn Control()", "it ended without an answer (exit status: 5)"),
+        (
+            "if observation.time > 0.5: os._exit(5)\nreturn Control()",
+            "the process ended without an answer (exit status: 5)",
+        ),
     ]
     .into_iter()
     .enumerate()

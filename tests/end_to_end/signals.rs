@@ -99,8 +99,8 @@ fn signals_that_cannot_be_are_refused() {
         (&["--open", "friction:polinomial:2"], &["`polinomial`", "`polynomial`"]),
         (&["--open", "friction:polynomial"], &["`polynomial`", "number"]),
         (&["--open", "friction:piecewise-constant:0"], &["`friction`", "0 coordinates"]),
-        (&["--open", "lanes:polynomial:2"], &["`lanes`", "piecewise constant"]),
-        (&["--open", "lanes:piecewise-constant:2"], &["`lanes` varies over time", "one value"]),
+        (&["--open", "lanes:polynomial:2"], &["`lanes`", "piecewise-constant"]),
+        (&["--open", "lanes:piecewise-constant:2"], &["`lanes` varies over time", "a single value"]),
         (&["--open", "speed:polynomial:2", "--set", "speed=2"], &["`speed`", "set and opened"]),
         (&["--set", "friction=0.3,0.4"], &["`friction`", "[0.3, 0.4]"]),
     ];

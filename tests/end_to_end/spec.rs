@@ -64,7 +64,7 @@ fn in_dense_time_the_car_is_placed_between_samples_when_a_formula_is_violated() 
     }
     refused(&fuzz(dir.path(), &["--dense", "--budget", "1"]), &["--spec"]);
     let square = ["--spec", "G (car.speed * car.speed < 400)", "--dense", "--budget", "1"];
-    refused(&fuzz(dir.path(), &square), &["--spec G (car.speed * car.speed < 400)", "no piecewise linear function"]);
+    refused(&fuzz(dir.path(), &square), &["--spec G (car.speed * car.speed < 400)", "not a piecewise linear function"]);
 }
 
 #[test]
@@ -75,8 +75,8 @@ fn formulas_that_cannot_be_asked_are_refused_before_anything_runs() {
             "always (car.sped < 20)",
             &["column 9", "`car.sped`", "did you mean `car.speed`?", "describe pedestrian-crossing"],
         ),
-        ("always (zzz < 20)", &["`zzz`", "its signals are car.x, car.y"]),
-        ("always[0,0.005] (car.speed < 20)", &["0.005 s is no multiple", "0.01 s", "~[0,0.005]"]),
+        ("always (zzz < 20)", &["`zzz`", "the signals of the trace are car.x, car.y"]),
+        ("always[0,0.005] (car.speed < 20)", &["0.005 s is not a multiple", "0.01 s", "~[0,0.005]"]),
         ("always (car.speed < )", &["column 21", "found `)`"]),
         ("", &["column 1"]),
     ];
@@ -91,7 +91,7 @@ fn a_formula_that_looks_past_the_end_is_named_and_leaves_tests_inconclusive() {
     let dir = tempfile::tempdir().unwrap();
     let late = ["--budget", "12", "--out", "late", "--spec", "eventually[0,30] (car.speed > 30)"];
     let late = succeeds(fuzz(dir.path(), &late));
-    assert!(stderr(&late).contains("`eventually[0,30] (car.speed > 30)` looks past the 25 s"), "{}", stderr(&late));
+    assert!(stderr(&late).contains("`eventually[0,30] (car.speed > 30)` looks beyond the 25 s"), "{}", stderr(&late));
     for trial in trials(dir.path(), "late") {
         assert_eq!(trial["robustness"]["spec-1"], Value::Null);
         assert_ne!(trial["verdict"], "pass");

@@ -141,11 +141,11 @@ fn what_has_no_meaning_is_refused() {
         ("estimate tests.csv --space SPACE.toml --strength lanes,sky=2 --measures star", &["the measure k-wise"]),
         ("estimate mixed.csv --space MIXED.toml --strength speed,sky=2", &["`speed` is continuous"]),
         ("plan --space SPACE.toml --strength lanes,lanes=2", &["`lanes` is named twice"]),
-        ("generate --space ONE.pict --discrete random", &["negative values (`~`)", "use ipog"]),
+        ("generate --space ONE.pict --discrete random", &["negative values (`~`)", "use --discrete ipog"]),
         ("estimate model.csv --space MODEL.pict --certificate c.json", &["negative values (`~`)"]),
         (
             "generate --space MIXED.toml --extend begun.csv --budget 5",
-            &["begun.csv, line 2: column `sky`: found an empty cell", "where no parameter is continuous"],
+            &["begun.csv, line 2: column `sky`: found an empty cell", "only if no parameter is continuous"],
         ),
     ];
     for (command, says) in cases {

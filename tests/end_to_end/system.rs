@@ -92,7 +92,7 @@ fn robustness_is_judged_by_its_sign_and_shown_in_every_file() {
     script(dir.path(), &ROBUSTNESS.replace('2', "3"));
     refused(&fuzz(dir.path(), &["replay", "out", "7"]), &["test 7 differs from the log", "robustness"]);
     let drawn = fuzz(dir.path(), &["replay", "out", "7", "--draw", "test.svg"]);
-    refused(&drawn, &["test.svg", "cannot be seen"]);
+    refused(&drawn, &["test.svg", "no world to draw"]);
 }
 
 #[test]
@@ -174,16 +174,19 @@ const BAD: &[(&str, &str)] = &[
         "`speed` has no finite value (NaN, infinity or null) at sample 1, 1 s",
     ),
     ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"sped\":[0,0]}}'", "no signal `speed` (did you mean `sped`?)"),
-    ("echo '{\"index\":1,\"trace\":{\"time\":[0,1],\"speed\":[0,0]}}'", "found the answer to test 1, expected that to"),
+    (
+        "echo '{\"index\":1,\"trace\":{\"time\":[0,1],\"speed\":[0,0]}}'",
+        "found the answer to test 1, expected the answer to",
+    ),
     ("echo '{\"index\":2,\"robustness\":{\"a\":1}}'", "answers with robustness, expected a trace"),
     ("echo '{\"index\":2,\"error\":\"diverged\"}'", "diverged"),
     ("echo; echo", "found `` in column 1"),
-    ("printf '\\377\\n'", "no UTF-8"),
+    ("printf '\\377\\n'", "not UTF-8"),
     ("echo half; kill -9 $$", "found `half`"),
     ("printf '{\"index\":2,'; kill -9 $$", "ended without an answer (signal: 9"),
     ("echo out of fuel >&2; exit 3", "ended without an answer (exit status: 3); its last words: out of fuel"),
     ("exec >&-; sleep 1000", "closed its output without an answer"),
-    ("sleep 1000 & sleep 1000 | sleep 1000", "no answer within 0.5 s"),
+    ("sleep 1000 & sleep 1000 | sleep 1000", "the driver did not answer within 0.5 s"),
 ];
 
 #[test]
@@ -257,7 +260,7 @@ fn all_answers_judge_the_same_requirements() {
     );
     succeeds(run(dir.path(), "out", &["--budget", "9"]));
     let trials = trials(dir.path(), "out");
-    assert_eq!(trials[5]["error"], "found the robustness of below, expected that of above as in test 0");
+    assert_eq!(trials[5]["error"], "found the robustness of below, expected the robustness of above, as in test 0");
     assert_eq!(trials.iter().filter(|trial| trial["verdict"] == "pass").count(), 8);
     succeeds(fuzz(dir.path(), &["replay", "out", "5"]));
 }
@@ -266,7 +269,7 @@ fn all_answers_judge_the_same_requirements() {
 fn systems_that_answer_nothing_are_failed_runs() {
     let dir = tempfile::tempdir().unwrap();
     script(dir.path(), TRACE);
-    refused(&run(dir.path(), "no-spec", &["--budget", "4"]), &["every test ended in an error", "without a --spec"]);
+    refused(&run(dir.path(), "no-spec", &["--budget", "4"]), &["every test ended in an error", "no formula judges it"]);
     assert_eq!(trials(dir.path(), "no-spec").len(), 4);
     script(dir.path(), "echo no licence >&2; exit 1");
     for _ in 0..2 {
@@ -282,7 +285,7 @@ fn a_formula_that_fits_no_trace_is_given_up_soon_and_one_that_fits_some_is_not()
     script(dir.path(), TRACE);
     for (out, formula, why) in [
         ("typo", "always (sped > 0)", "the trace has no signal `sped` (did you mean `speed`?)"),
-        ("tick", "always[0,0.05] (speed > 0)", "a time bound of 0.05 s is no multiple of the sample period of 0.1 s"),
+        ("tick", "always[0,0.05] (speed > 0)", "the time bound 0.05 s is not a multiple of the sample period 0.1 s"),
     ] {
         let says = ["each of the first 3 tests", &format!("spec-1 does not fit the trace: {why}")];
         refused(&run(dir.path(), out, &["--spec", formula, "--budget", "60"]), &says);
@@ -317,15 +320,14 @@ fn a_signal_that_the_first_traces_lack_may_come_later_unless_its_name_is_a_slip_
     let late = run(dir.path(), "late", &["--spec", "always (car2.speed > -9)", "--budget", "12"]);
     assert!(stdout(&succeeds(late)).contains("\"pass\": 5"));
     let trials = trials(dir.path(), "late");
-    let lacks =
-        "spec-1 cannot be asked of this trace: the trace has no signal `car2.speed` (did you mean `car1.speed`?)";
+    let lacks = "spec-1 cannot judge this trace: the trace has no signal `car2.speed` (did you mean `car1.speed`?)";
     assert!(trials[..7].iter().all(|trial| trial["error"] == lacks), "{}", trials[0]);
     // What never comes is waited for as long as any system is; whoever looks on is told at once.
     let options = ["--system", "sh system.sh", "--space", "SPACE.toml", "--out", "never", "--budget", "60"];
     let never = fuzz(dir.path(), &[&options[..], &["--spec", "always (velocity > 0)"]].concat());
-    let says = "test 0 ended in an error: spec-1 cannot be asked of this trace: the trace has no signal `velocity`\n";
+    let says = "test 0 ended in an error: spec-1 cannot judge this trace: the trace has no signal `velocity`\n";
     assert_eq!(stderr(&never).matches(says).count(), 1, "{}", stderr(&never));
-    refused(&never, &["each of the first 50 tests", "test 0: spec-1 cannot be asked of this trace"]);
+    refused(&never, &["each of the first 50 tests", "test 0: spec-1 cannot judge this trace"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The documentation of an item begins with a plain statement.
 //!
-//! Lists of items show the first sentence alone. "Whether there is one." says nothing there, and "True if the run has ended."
-//! does. A word that begins a question, or that stands for a noun, is a sign of the former.
+//! Lists of items show the first sentence alone. "Whether there is one." says nothing there, and "True if the run has
+//! ended." does. A word that begins a question, or that stands for a noun, is a sign of the former.
 
 use crate::expect_none;
 use crate::source::modules;
@@ -12,8 +12,8 @@ use std::path::PathBuf;
 
 /// No documentation begins with these words.
 const OPENINGS: [&str; 16] = [
-    "Which", "What", "Where", "Whether", "Who", "Whom", "Whose", "Why", "How", "Of", "It", "Its", "That", "Those", "They",
-    "Their",
+    "Which", "What", "Where", "Whether", "Who", "Whom", "Whose", "Why", "How", "Of", "It", "Its", "That", "Those",
+    "They", "Their",
 ];
 
 #[test]

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 const BENCH: &str = "bench.json";
 const RUNS: &str = "runs.csv";
 
-/// The file of rows of a bench, open for appending.
+/// The file `runs.csv` of a bench, open for appending a row for each run.
 #[derive(Debug)]
 pub struct Rows {
     path: PathBuf,
@@ -22,8 +22,8 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Begins a bench in a folder that is empty or does not exist. `maps` describes the reference maps that the runs
-    /// are compared with.
+    /// Makes the files of a new bench, in a folder that is empty or does not exist. `maps` describes the reference maps
+    /// that the runs are compared with.
     ///
     /// # Errors
     /// The folder cannot be written, or is not empty.
@@ -41,8 +41,8 @@ impl Rows {
         Ok(rows)
     }
 
-    /// Continues a bench in its folder, or begins the bench if the folder has no `bench.json`. Returns also the rows
-    /// that the folder already has.
+    /// Opens the files of a bench in order to continue the bench, or makes the files if the folder has no `bench.json`.
+    /// Returns also the rows that the folder already has.
     ///
     /// # Errors
     /// The folder holds a different bench; or it is not empty, but has no `bench.json`; or a row is broken or does
@@ -78,7 +78,7 @@ impl Rows {
         Ok(Self { path, file })
     }
 
-    /// Appends the next row to the file.
+    /// Appends the row of the next run to `runs.csv`.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -94,7 +94,7 @@ impl Rows {
     }
 }
 
-/// Returns the content of `bench.json`, which is all that distinguishes this bench from others.
+/// Returns the content of `bench.json`, which distinguishes the bench from other benches.
 fn description(bench: &Bench, maps: &Value) -> Value {
     json!({
         "format": 2,

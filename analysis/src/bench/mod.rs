@@ -57,53 +57,53 @@ pub const USUAL: [Strategy; 8] = [
     Strategy::AUTO,
 ];
 
-/// The description of a bench, with its strategies, targets, budget and seeds.
+/// The description of a bench, which compares strategies by the failures that they find on targets.
 #[derive(Debug, Clone)]
 pub struct Bench {
-    /// The strategies, in the order in which they are shown.
+    /// The strategies that the bench compares, in the order in which results are shown.
     pub strategies: Vec<Strategy>,
-    /// The targets on which the strategies are tried.
+    /// The targets (scenarios, systems or functions) on which the strategies are tried.
     pub targets: Vec<Target>,
-    /// The number of tests of a run.
+    /// The greatest number of tests in each run of a strategy.
     pub budget: usize,
-    /// The number of seeds of each strategy, at least 2.
+    /// The number of seeds with which each strategy runs on each target, at least 2.
     pub seeds: usize,
-    /// The first seed. The other seeds follow it without a gap.
+    /// The seed of the first run of each strategy on each target. The seeds of the other runs follow without a gap.
     pub first_seed: u64,
-    /// The number of tests that a strategy is asked for at a time.
+    /// The number of tests that a strategy proposes at a time.
     pub batch: usize,
-    /// The strategy that the others are compared with.
+    /// The strategy with which the other strategies are compared.
     pub baseline: Strategy,
 }
 
 /// A flaw in the description or the folder of a bench.
 #[derive(Debug, Error)]
 pub enum BenchFlaw {
-    /// The budget or the batch is 0.
+    /// The budget or the batch size of the bench is 0.
     #[error("found 0 as the budget or the batch, expected numbers from 1 on")]
     Zero,
-    /// The baseline is not among the strategies.
+    /// The baseline is not among the strategies of the bench.
     #[error("the baseline {baseline} is not among the strategies: add it to them, or choose another baseline")]
     Baseline {
-        /// The baseline.
+        /// The strategy that was chosen as the baseline.
         baseline: Strategy,
     },
-    /// A strategy cannot make tests of a target.
+    /// A strategy of the bench cannot make tests for a target.
     #[error("{strategy} on {target}: {why}")]
     Unable {
-        /// The strategy.
+        /// The strategy that cannot make tests for the target.
         strategy: Strategy,
-        /// The target.
+        /// The name of the target for which the strategy cannot make tests.
         target: String,
-        /// The reason.
+        /// The reason why the strategy cannot make tests.
         why: Error,
     },
-    /// The folder holds a different bench.
+    /// The folder holds the results of a different bench.
     #[error("{} holds a different bench: the entry `{key}` of its bench.json differs; choose another folder", folder.display())]
     Other {
-        /// The folder.
+        /// The path of the folder that holds a different bench.
         folder: PathBuf,
-        /// The entry of bench.json in which the benches differ.
+        /// The entry of `bench.json` in which the two benches differ.
         key: String,
     },
 }
@@ -154,7 +154,7 @@ impl Bench {
         Ok(())
     }
 
-    /// Returns the number of runs of the bench.
+    /// Returns the number of runs of the bench, which has a run for each target, strategy and seed.
     pub fn runs(&self) -> usize {
         self.targets.len() * self.strategies.len() * self.seeds
     }
@@ -170,9 +170,9 @@ impl Bench {
         cases
     }
 
-    /// Conducts the runs that are not known yet, `jobs` at a time. `known` has the rows of the first runs, and `maps`
-    /// has reference maps by the names of the targets. `watch` receives the new rows in order; its first error ends
-    /// the work. The work also ends if `stop` is set.
+    /// Conducts all runs of the bench except the `known` runs, `jobs` runs at a time. `known` has the rows of the first
+    /// runs, and `maps` has reference maps by the names of the targets. `watch` receives the new rows in order; its
+    /// first error ends the work. The work also ends if `stop` is set.
     ///
     /// # Errors
     /// `watch` returned an error, a run cannot be made, or `stop` was set.
@@ -209,30 +209,30 @@ impl Bench {
     }
 }
 
-/// A bench with its results.
+/// The results of a bench of strategies, with the description of the bench.
 #[derive(Debug, Clone)]
 pub struct Benched {
     /// The description of the bench.
     pub bench: Bench,
-    /// All runs, ordered by target, strategy and seed.
+    /// The results of each run, ordered by target, strategy and seed.
     pub rows: Vec<Row>,
-    /// The results of each strategy on each target, ordered by target and strategy.
+    /// The results of each strategy on each target, summarised over the runs and ordered by target and strategy.
     pub cells: Vec<BenchCell>,
-    /// The correlation of dispersion and recall on each target, ordered by target.
+    /// The correlation between the dispersion and the recall of the runs on each target, ordered by target.
     pub correlations: Vec<Correlation>,
-    /// The standing of each strategy over all targets.
+    /// The comparison of each strategy with the best strategy of each target, summarised over all targets.
     pub standings: Vec<MeanRatio>,
-    /// Further remarks for the reader, one sentence each.
+    /// Remarks for the reader of the results, one sentence each.
     pub notes: Vec<String>,
 }
 
 impl Benched {
-    /// Returns the cells of a target, in the order of the strategies.
+    /// Returns the results of each strategy on the target with the given name, in the order of the strategies.
     pub fn of_target<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a BenchCell> {
         self.cells.iter().filter(move |cell| cell.scenario == name)
     }
 
-    /// Returns the rows of a strategy on a target.
+    /// Returns the results of each run of a strategy on a target.
     pub fn rows_of<'a>(&'a self, scenario: &'a str, strategy: Strategy) -> impl Iterator<Item = &'a Row> {
         self.rows.iter().filter(move |row| row.scenario == scenario && row.strategy == strategy)
     }

@@ -46,7 +46,7 @@ const LETTERS: [(Verdict, char); 5] = [
     (Verdict::Error, 'e'),
 ];
 
-/// A map of where the tests of a target fail, made of many random tests with their verdicts.
+/// A map of the failing tests of a target, made of many random tests with their verdicts.
 #[derive(Debug, Clone)]
 pub struct ReferenceMap {
     study: Study,
@@ -57,7 +57,7 @@ pub struct ReferenceMap {
     fails: Vec<bool>,
 }
 
-/// The recall and the precision of a run as a map of where tests fail.
+/// The recall and the precision of a run as a map of the failing tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Judged {
     pub recall: Option<f64>,
@@ -67,7 +67,7 @@ pub(super) struct Judged {
 #[derive(Debug, Clone, Copy)]
 enum Axis {
     Continuous,
-    /// A discrete parameter with this number of ordered levels, or (`Words`) this number of words.
+    /// A discrete parameter with a number of ordered levels, or (`Words`) with a number of words.
     Ordered(usize),
     Words(usize),
 }
@@ -85,27 +85,27 @@ struct Written {
 /// A flaw in the file of a reference map.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum MapFlaw {
-    /// The file has another version of the format.
+    /// The file has a version of the format that this software does not read.
     #[error("found format {found} of the reference map, expected {FORMAT}: make the map again")]
     Format {
-        /// The version of the file's format.
+        /// The version of the format that the file has.
         found: u32,
     },
-    /// The file holds the map of another study.
+    /// The file holds the reference map of a different study.
     #[error("the map is of another study: the entry `{key}` of its study differs; make a new map elsewhere")]
     Other {
-        /// The entry in which the studies differ.
+        /// The entry in which the study of the file differs from the given study.
         key: String,
     },
     /// The file has more verdicts than its study has tests.
     #[error("found {found} as the number of verdicts, expected at most {expected}, the number of tests of the map")]
     TooMany {
-        /// The number of verdicts.
+        /// The number of verdicts in the file.
         found: usize,
-        /// The number of tests.
+        /// The number of tests of the file's study.
         expected: usize,
     },
-    /// A letter does not stand for a verdict.
+    /// A letter in the file does not stand for a verdict.
     #[error("found a letter that is no verdict, expected `.`, `F`, `i`, `x` or `e`")]
     Letter,
 }
@@ -131,8 +131,8 @@ impl ReferenceMap {
         Ok(study.sampled(Sampling { strategy, discrete, budget: tests, seed: Some(SEED), batch: None, ..sampling })?)
     }
 
-    /// Makes a map from this number of random tests of a study's subject. `watch` receives the number of tests so
-    /// far.
+    /// Makes a reference map by running the given number of random tests of a study's scenario or system. `watch`
+    /// receives the number of tests so far.
     ///
     /// # Errors
     /// The study cannot be run, or `stop` was set.
@@ -169,7 +169,7 @@ impl ReferenceMap {
         Ok(Self { study, verdicts, axes, places, fails })
     }
 
-    /// Reads a map of a study's subject from a file that [`ReferenceMap::write`] has written.
+    /// Reads the reference map of a study from a file that [`ReferenceMap::write`] has written.
     ///
     /// # Errors
     /// The file cannot be read, is broken, or holds the map of another study.
@@ -209,12 +209,13 @@ impl ReferenceMap {
         write_whole(path, text.as_bytes())
     }
 
-    /// Returns the number of tests of the map, and the number of its failing tests.
+    /// Returns the number of all tests of the map, and the number of failing tests.
     pub fn counts(&self) -> (usize, usize) {
         (self.verdicts.len(), self.fails.iter().filter(|fails| **fails).count())
     }
 
-    /// Judges how well tests with known outcomes (`Some(true)`: failed) predict which tests of the map fail.
+    /// Computes the recall and the precision with which tests with known outcomes (`Some(true)`: failed) predict the
+    /// failing tests of the map.
     pub(super) fn judge(&self, tests: &[(Point, Option<bool>)]) -> Judged {
         let axes = self.places.len() / self.fails.len().max(1);
         let known: Vec<(Vec<f64>, bool)> =
@@ -244,7 +245,7 @@ fn file(study: &Study) -> StudyFile {
 
 /// Returns a study as JSON without the entries that another version of the software may change.
 fn comparable(study: &Study) -> serde_json::Value {
-    let mut value = serde_json::to_value(file(study)).expect("a study is always JSON");
+    let mut value = file(study).identity();
     if let Some(entries) = value.as_object_mut() {
         entries.remove("version");
         entries.remove("target");
@@ -261,7 +262,7 @@ fn axes(space: &Space) -> Vec<Axis> {
     std::iter::repeat_n(Axis::Continuous, space.dims()).chain(discrete).collect()
 }
 
-/// Returns the place of a test such that squared distances are those of the heterogeneous metric (HEOM).
+/// Returns the place of a test, for which squared distances are distances of the heterogeneous metric (HEOM).
 fn place(axes: &[Axis], point: &Point) -> Vec<f64> {
     let mut place = point.continuous.clone();
     for (&level, axis) in point.discrete.iter().zip(&axes[point.continuous.len()..]) {

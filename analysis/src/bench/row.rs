@@ -6,55 +6,55 @@ use std::path::Path;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// The results of a run in numbers.
+/// The results of a run of a strategy on a target, in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// The name of the target.
+    /// The name of the target on which the strategy ran.
     pub scenario: String,
-    /// The strategy.
+    /// The strategy that proposed the tests of the run.
     pub strategy: Strategy,
-    /// The seed.
+    /// The seed of the run.
     pub seed: u64,
-    /// The number of different tests run. It is below the budget if the strategy had no more tests, or if a test of a
-    /// function failed.
+    /// The number of different tests of the run. The number is below the budget if the strategy had no more tests, or
+    /// if a test of a function failed.
     pub tests: usize,
     /// The number of tests up to and including the first failing test; `None` if no test failed.
     pub first_failure: Option<usize>,
-    /// The number of failing tests.
+    /// The number of failing tests of the run.
     pub failures: usize,
-    /// The number of failure modes; `None` for a function, whose failures have no modes.
+    /// The number of failure modes of the run; `None` if the target is a function, which has no failure modes.
     pub modes: Option<usize>,
-    /// The recall of the run against the reference map; `None` without a map or if no test of the map fails.
+    /// The predicted share of the reference map's failing tests; `None` without a map or if no test of the map fails.
     pub recall: Option<f64>,
-    /// The precision of the run against the reference map; `None` without a map or if no test is predicted to fail.
+    /// The share of failing tests among the tests predicted to fail; `None` without a map or a predicted failure.
     pub precision: Option<f64>,
-    /// The volume of the largest empty box; `None` without a reference map or if the volume is not known exactly.
+    /// The volume of the largest box without a test; `None` without a reference map or an exactly known volume.
     pub dispersion: Option<f64>,
 }
 
-/// A flaw in a line of a file of rows.
+/// A flaw in a line of the file `runs.csv` of a bench.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RowFlaw {
-    /// The header is not that of this version.
+    /// The header of the file differs from the header that this version writes.
     #[error("found a header that this version does not write: was the file written by another version?")]
     Header,
-    /// The row belongs to another run.
+    /// The row has a different target, strategy or seed than the run that belongs on the line.
     #[error(
         "the row has another scenario, strategy or seed than the run that belongs on this line: was the file edited?"
     )]
     Foreign,
-    /// The row has too few or too many fields.
+    /// The row of the file has too few or too many fields.
     #[error("found {found} as the number of fields, expected {}", Row::COLUMNS.len())]
     Fields {
         /// The number of fields of the row.
         found: usize,
     },
-    /// A field that should be a number is not a number.
+    /// A field of the row should be a number but is not a number.
     #[error("found `{found}` as {column}, expected a number")]
     NoNumber {
-        /// The text of the field.
+        /// The text of the field that is not a number.
         found: String,
-        /// The name of the column.
+        /// The name of the column with the field that is not a number.
         column: &'static str,
     },
 }
@@ -62,8 +62,7 @@ pub enum RowFlaw {
 impl Reason for RowFlaw {}
 
 impl Row {
-    /// Returns `true` if the run found no failure and ended before the budget, because its strategy had nothing more
-    /// to propose.
+    /// Returns `true` if the run found no failure and ended before the budget for lack of further tests.
     pub fn is_exhausted(&self, budget: usize) -> bool {
         self.first_failure.is_none() && self.tests < budget
     }

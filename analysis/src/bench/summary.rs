@@ -8,15 +8,15 @@ use crate::statistics::{
 use paracosm_generators::Strategy;
 use serde::{Serialize, Serializer};
 
-/// The results of a strategy on a target.
+/// The results of a strategy on a target, summarised over the runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchCell {
-    /// The name of the target.
+    /// The name of the target on which the strategy ran.
     pub scenario: String,
-    /// The strategy.
+    /// The strategy that proposed the tests of the runs.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
-    /// The number of runs.
+    /// The number of runs of the strategy on the target.
     pub runs: usize,
     /// The number of runs that found a failure.
     pub found: usize,
@@ -26,69 +26,72 @@ pub struct BenchCell {
     pub rate: f64,
     /// Wilson's 95 % interval of the share of runs that found a failure.
     pub rate_interval: [f64; 2],
-    /// The mean number of tests to the first failure, over the runs that found one. It says too little if some did
-    /// not.
+    /// The mean number of tests to the first failure, over the runs that found a failure. The mean is too small if some
+    /// runs found no failure.
     pub mean_found: Option<f64>,
     /// The number of tests after which half of the runs have found a failure; `None` if fewer runs found a failure.
     pub median: Option<f64>,
-    /// The restricted mean of the number of tests to the first failure, in which a run counts at most the budget. An
-    /// exhausted run, which never finds a failure, counts as the budget.
+    /// The mean number of tests to the first failure, in which a run without a failure counts as the budget (the
+    /// restricted mean). An exhausted run, which never finds a failure, counts as the budget too.
     pub restricted_mean: f64,
-    /// The 95 % bootstrap interval of the restricted mean, over the seeds.
+    /// The 95 % bootstrap interval of the restricted mean number of tests to the first failure, over the seeds.
     pub restricted_interval: [f64; 2],
-    /// The restricted mean divided by the least of any strategy but `auto`, which consists of others, and
-    /// `random-corners`, the control.
+    /// The restricted mean divided by the least restricted mean of all strategies except `auto` and `random-corners`.
+    /// `auto` consists of other strategies, and `random-corners` is the control.
     pub over_best: Option<f64>,
-    /// The restricted mean compared with the baseline's, over pairs with the same seed; `None` for the baseline.
+    /// The comparison of the restricted mean with the baseline's restricted mean, over pairs of runs with the same
+    /// seed; `None` for the baseline.
     pub versus: Option<Versus>,
-    /// The Kaplan-Meier curve compared with the baseline's, ignoring pairs; `None` for the baseline.
+    /// The unpaired log-rank test of the Kaplan-Meier curve against the baseline's curve; `None` for the baseline.
     pub log_rank: Option<LogRank>,
-    /// The mean number of failure modes; `None` if failures have no modes.
+    /// The mean number of failure modes of a run; `None` if the target is a function, which has no failure modes.
     pub modes: Option<f64>,
-    /// The mean recall; `None` if it is not known of any run.
+    /// The mean predicted share of the reference map's failing tests; `None` if the share is not known of any run.
     pub recall: Option<f64>,
-    /// The mean precision of the runs that predict any test to fail; `None` if there is no such run.
+    /// The mean precision of the runs that predict a test of the reference map to fail; `None` if there is no such run.
     pub precision: Option<f64>,
-    /// The median dispersion; `None` if it is not known of any run.
+    /// The median over the runs of the volume of the largest empty box; `None` if the volume is not known of any run.
     pub dispersion: Option<f64>,
 }
 
 /// The result of the log-rank test of two survival curves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LogRank {
-    /// The p-value, two-sided.
+    /// The two-sided p-value of the log-rank test.
     pub p: f64,
-    /// The p-value after Holm's correction for all comparisons of the bench.
+    /// The p-value of the log-rank test after Holm's correction for all comparisons of the bench.
     pub p_holm: f64,
 }
 
-/// The correlation of dispersion and recall on a target.
+/// The correlation between the dispersion and the recall of the runs on a target.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Correlation {
-    /// The name of the target.
+    /// The name of the target on which the strategies ran.
     pub scenario: String,
-    /// The strategies of the runs, which are `all` (but the control) or the `open loop` strategies among them.
+    /// The group of strategies, which is `all` (without the control) or `open loop` (without adaptive strategies).
     pub among: &'static str,
-    /// The number of runs in the group.
+    /// The number of runs of the strategies in the group.
     pub runs: usize,
-    /// Spearman's rank correlation. If it is below 0, runs that leave smaller holes show better where tests fail.
+    /// Spearman's rank correlation between the dispersion and the recall of the runs. If it is below 0, runs that leave
+    /// smaller holes show better where tests fail.
     pub spearman: f64,
     /// The 95 % bootstrap interval of the correlation, over the seeds.
     pub interval: [f64; 2],
 }
 
-/// The standing of a strategy over all targets. A ratio divides its restricted mean on a target by the least
-/// restricted mean of any strategy but `auto` and the control.
+/// The number of tests that a strategy needs to find a failure, relative to the best strategy, over all targets. A
+/// ratio divides the strategy's restricted mean on a target by the least restricted mean of any strategy but `auto` and
+/// the control.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeanRatio {
-    /// The strategy.
+    /// The strategy to which the ratios belong.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
-    /// The largest of the ratios.
+    /// The largest ratio of the strategy on any target.
     pub worst: f64,
     /// The name of the target with the largest ratio.
     pub worst_scenario: String,
-    /// The geometric mean of the ratios.
+    /// The geometric mean of the strategy's ratios on all targets.
     pub geometric_mean: f64,
 }
 
@@ -119,7 +122,8 @@ pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<BenchCell>, Vec<Cor
     (cells, correlations, standings)
 }
 
-/// Returns the time to the first failure of a run: above the budget if that is spent, infinite if exhausted.
+/// Returns the time to the first failure of a run, which is infinite if the strategy was exhausted, and censored at the
+/// budget if the budget was spent.
 pub(super) fn lifetime(bench: &Bench, row: &Row) -> Lifetime {
     let time = match row.first_failure {
         Some(tests) => tests as f64,

@@ -7,7 +7,8 @@ use paracosm_generators::{Generator, Request, Strategy};
 use paracosm_space::Space;
 use serde_json::{Value, json};
 
-/// A target on which strategies are tried, which is the subject of a study or a function.
+/// A target on which strategies are tried, which is the scenario or system of a study, or a function with known
+/// failures.
 #[derive(Debug, Clone)]
 pub struct Target {
     name: String,
@@ -16,18 +17,19 @@ pub struct Target {
 
 #[derive(Debug, Clone)]
 pub(super) enum TargetKind {
-    /// The study that gives all but the choice of tests.
+    /// The study, whose strategy is replaced by the strategy of the run.
     Study(Box<Study>),
     Function(Function),
 }
 
 impl Target {
-    /// Makes a target of a study's subject, with this name.
+    /// Makes a target with the given name from the scenario or system of a study.
     pub fn study(name: impl Into<String>, study: Study) -> Self {
         Self { name: name.into(), kind: TargetKind::Study(Box::new(study)) }
     }
 
-    /// Makes a target of a function. Each seed puts the failure of the function at another place.
+    /// Makes a target from a function whose failures are known. Each seed puts the failure of the function at another
+    /// place.
     pub fn function(function: Function) -> Self {
         Self { name: function.name.to_owned(), kind: TargetKind::Function(function) }
     }
@@ -44,7 +46,7 @@ impl Target {
         self.name.chars().map(plain).collect()
     }
 
-    /// Returns the study of the target; `None` for a function, which has no reference map either.
+    /// Returns the study of the target; `None` if the target is a function. A function has no reference map either.
     pub fn as_study(&self) -> Option<&Study> {
         match &self.kind {
             TargetKind::Study(study) => Some(study),

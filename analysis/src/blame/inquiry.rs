@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 use thiserror::Error;
 
-/// The reference drivers that judge the failures of a study, and how to run them.
+/// The reference drivers that judge the failures of a study, with the settings for their runs.
 pub struct Inquiry {
     references: Vec<Reference>,
     jobs: NonZeroUsize,
@@ -20,7 +20,7 @@ pub struct Inquiry {
 /// A driver that judges failures.
 struct Reference {
     name: String,
-    /// The study with this driver in place of its own.
+    /// The study with the reference driver in place of the study's own driver.
     study: Study,
     /// The renderer of the driver's images, shared by all threads, if the driver uses images.
     darkroom: Option<Arc<Darkroom>>,
@@ -35,7 +35,7 @@ pub enum InquiryFlaw {
          failures in scenarios only"
     )]
     System {
-        /// The command of the system.
+        /// The command that starts the system under test.
         command: String,
     },
     /// No reference driver is named.
@@ -44,7 +44,7 @@ pub enum InquiryFlaw {
     /// A reference driver is named twice.
     #[error("driver `{name}` is named twice, expected once")]
     Twice {
-        /// The name of the driver.
+        /// The name of the driver that is named twice.
         name: String,
     },
 }
@@ -91,7 +91,7 @@ impl Inquiry {
         self
     }
 
-    /// Returns the flag that ends the inquiry with [`Error::Interrupted`] once it is set.
+    /// Returns the flag that, once set, ends the inquiry with [`Error::Interrupted`].
     pub fn stop(&self) -> Arc<AtomicBool> {
         self.stop.clone()
     }

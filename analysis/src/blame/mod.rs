@@ -28,7 +28,7 @@ pub const REFERENCES: [&str; 5] = ["ideal", "cc", "rss", "fsm", "cruise"];
 /// The name of the driver that never brakes for others. A failure that this driver prevents was caused by braking.
 const NEVER_BRAKES: &str = "cruise";
 
-/// The judgement of a failure, which says whether a reference driver prevents it.
+/// The preventability of a failure, judged by runs of the same test with reference drivers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Preventability {
@@ -38,13 +38,13 @@ pub enum Preventability {
     Preventable,
     /// The driver `cruise`, which never brakes, prevents the failure. Without braking it would not have happened.
     Induced,
-    /// The failure is not judged. No reference driver is known to prevent it, and one of their runs broke or was not
-    /// built.
+    /// The preventability of the failure is not known. No reference driver is known to prevent the failure, and a run
+    /// of a reference driver broke or was not built.
     Unknown,
 }
 
 impl Preventability {
-    /// All values of the enum.
+    /// All possible judgements of a failure's preventability.
     pub const ALL: [Self; 4] = [Self::Unpreventable, Self::Preventable, Self::Induced, Self::Unknown];
 }
 
@@ -59,43 +59,44 @@ impl fmt::Display for Preventability {
     }
 }
 
-/// The failing tests of a campaign, each with its judgement.
+/// The failing tests of a campaign, each with a judgement of its preventability.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blame {
     /// The names of the reference drivers that judge the failures.
     pub references: Vec<String>,
     /// The number of all tests of the campaign.
     pub tests: usize,
-    /// The failing tests, in the order of their indices.
+    /// The failing tests of the campaign, in the order of their indices.
     pub failures: Vec<Blamed>,
 }
 
-/// A failing test with its judgement.
+/// A failing test with a judgement of its preventability.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Blamed {
     /// The index of the test in its campaign.
     pub index: usize,
     /// The parameter values of the test.
     pub test: Values,
-    /// The requirements that the test violates.
+    /// The ids of the requirements that the test violates.
     pub violates: Vec<String>,
-    /// The judgement of the failure.
+    /// The judgement of the failure's preventability.
     pub fault: Preventability,
     /// The names of the reference drivers that prevent the failure.
     pub prevented_by: Vec<String>,
-    /// The results of the test with each of the reference drivers.
+    /// The result of the test with each reference driver, by the driver's name.
     pub runs: Record<Rerun>,
 }
 
-/// The result of a failing test with a reference driver.
+/// The result of running a failing test again with a reference driver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rerun {
     /// The verdict of the run with the reference driver.
     pub verdict: Verdict,
-    /// `Some(true)` if the failure was prevented; `None` if the run broke or its world could not be built.
+    /// `Some(true)` if the reference driver prevents the failure; `None` if the run broke or its world could not be
+    /// built.
     pub prevents: Option<bool>,
     robustness: Record<Number>,
-    /// The reason why the verdict is `invalid` or `error`.
+    /// The reason why the verdict of the run is `invalid` or `error`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }
@@ -112,13 +113,13 @@ impl Rerun {
         }
     }
 
-    /// Returns the robustness of a requirement in its unit; `None` if the requirement was not decided.
+    /// Returns the robustness of a requirement in the requirement's unit; `None` if the requirement was not decided.
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
         self.robustness.get(requirement).and_then(|number| number.0)
     }
 }
 
-/// Checks whether the driver of `trial` prevents the failure; `None` if its run was not judged.
+/// Returns `true` if the driver of `trial` prevents the failure; `None` if its run was not judged.
 fn prevents(failing: &Trial, trial: &Trial) -> Option<bool> {
     let decided = |trial: &Trial, id: &str| trial.robustness(id).is_some();
     let holds = |trial: &Trial, id: &str| decided(trial, id) && !trial.violates(id);
@@ -169,7 +170,7 @@ impl JsonArtefact for Blame {
 }
 
 impl Blame {
-    /// Returns the failing test with this index.
+    /// Returns the failing test with the given index; `None` if no failing test has the index.
     pub fn of(&self, index: usize) -> Option<&Blamed> {
         let position = self.failures.binary_search_by_key(&index, |failure| failure.index).ok()?;
         Some(&self.failures[position])

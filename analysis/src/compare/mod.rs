@@ -22,6 +22,7 @@ use paracosm_campaign::{Error, Failure, Reason};
 use paracosm_coverage::Measure;
 use paracosm_coverage::measure::Compare;
 use paracosm_generators::Strategy;
+use paracosm_space::plural;
 use set::Case;
 use std::num::NonZeroUsize;
 use std::time::Duration;
@@ -32,67 +33,67 @@ const MOST_SETS: usize = 10_000_000;
 /// The description of a comparison of strategies by their coverage of unit cubes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SamplerComparison {
-    /// The strategies, in the order in which they are shown.
+    /// The strategies that are compared, in the order in which results are shown.
     pub strategies: Vec<Strategy>,
-    /// The dimensions of the unit cubes.
+    /// The numbers of dimensions of the unit cubes.
     pub dims: Vec<usize>,
-    /// The numbers of points of the sets.
+    /// The numbers of points in the sets that the strategies make.
     pub budgets: Vec<usize>,
-    /// The number of seeds of each strategy, at least 2.
+    /// The number of seeds with which each strategy makes sets of points, at least 2.
     pub seeds: usize,
-    /// The first seed. The other seeds follow it without a gap.
+    /// The seed of the first set of points of each strategy. The other seeds follow without a gap.
     pub first_seed: u64,
-    /// The measures that are taken. `None` stands for all measures of a continuous space; the extreme discrepancy is
-    /// then left out for sets for which it takes more than about a second.
+    /// The measures that are taken of each set of points. `None` stands for all measures of a continuous space; the
+    /// extreme discrepancy is then left out for sets for which it takes more than about a second.
     pub measures: Option<Vec<Measure>>,
-    /// The number of coordinates that the k-wise dispersion considers together.
+    /// The number of coordinates over which a hole of the k-wise dispersion extends.
     pub k: usize,
     /// The strategy with which the other strategies are compared.
     pub baseline: Strategy,
-    /// The time limit for one measure of one set.
+    /// The time limit for taking one measure of one set of points.
     pub limit: Duration,
 }
 
 /// A flaw in the description of a comparison.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ComparisonFlaw {
-    /// There are no strategies.
+    /// The comparison has no strategies.
     #[error("no strategy is named, expected at least one")]
     NoStrategy,
-    /// A dimension or a budget is 0.
+    /// A number of dimensions or a budget of the comparison is 0.
     #[error("found 0 among the dimensions or the budgets, expected numbers from 1 on")]
     Zero,
-    /// There are too many sets, so that the comparison would take for ever.
+    /// The comparison has too many sets of points to finish in a reasonable time.
     #[error("the comparison has more than {MOST_SETS} sets: choose fewer strategies, seeds, budgets or dimensions")]
     TooManySets,
-    /// k is 0.
+    /// The number `k` of coordinates over which a hole extends is 0.
     #[error("k is 0, expected a number from 1 on")]
     NoStrength,
-    /// The baseline is not among the strategies.
+    /// The baseline is not among the strategies of the comparison.
     #[error("the baseline {baseline} is not among the strategies: add it to them, or choose another baseline")]
     Baseline {
         /// The strategy that was chosen as the baseline.
         baseline: Strategy,
     },
-    /// The baseline cannot make sets of a dimension.
+    /// The baseline cannot make sets of points with a number of dimensions of the comparison.
     #[error("the baseline {baseline} supports {}, not d = {dims}: choose another baseline or other dimensions", span(*.baseline))]
     Unable {
         /// The strategy that was chosen as the baseline.
         baseline: Strategy,
-        /// The number of dimensions.
+        /// The number of dimensions that the baseline does not support.
         dims: usize,
     },
-    /// A measure needs discrete parameters.
+    /// A measure of the comparison needs discrete parameters, which the unit cube does not have.
     #[error(
         "the measure `k-wise` needs discrete parameters, and the unit cube has no such parameters: leave the measure out"
     )]
     Discrete,
-    /// No set would be measured.
+    /// No measure of the comparison applies to any of its sets of points.
     #[error(
         "there is nothing to measure: {k}-wise dispersion needs d > {k}; choose more dimensions, a smaller k or other measures"
     )]
     Nothing {
-        /// The number of coordinates that are considered together.
+        /// The number of coordinates over which a hole of the k-wise dispersion extends.
         k: usize,
     },
 }
@@ -122,7 +123,7 @@ impl SamplerComparison {
         })
     }
 
-    /// Checks the comparison and plans its sets, with dimensions and budgets in ascending order.
+    /// Checks the comparison and plans its sets of points, with dimensions and budgets in ascending order.
     ///
     /// # Errors
     /// A list is empty or names something twice, a number is out of range, the baseline is not among the strategies
@@ -184,7 +185,7 @@ impl SamplerComparison {
         self.all_measures().into_iter().filter(wanted).collect()
     }
 
-    /// Returns the measures that are taken of any set, in the order in which they are shown.
+    /// Returns all measures that the comparison takes, in the order in which results are shown.
     pub fn all_measures(&self) -> Vec<Measure> {
         self.measures.clone().unwrap_or_else(|| Measure::all().collect())
     }
@@ -274,8 +275,8 @@ impl Schedule {
         &self.notes
     }
 
-    /// Makes and measures all sets, `jobs` at a time. `watch` receives the sets in order; its first error ends the
-    /// work.
+    /// Makes and measures all sets of points, `jobs` sets at a time. `watch` receives the sets in order; its first
+    /// error ends the work.
     ///
     /// # Errors
     /// `watch` returned an error, or a strategy cannot make a set of this size.
@@ -304,7 +305,8 @@ impl Schedule {
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {
             notes.push(format!(
-                "the time limit cut measures short (sets: {cut_short}): the lower ends of brackets stand for their values"
+                "the time limit cut {} short: the lower bounds of their brackets stand for the values",
+                plural(cut_short, "set")
             ));
         }
         Ok(Compared { comparison, sets, cells, slopes, notes })
@@ -316,11 +318,11 @@ impl Schedule {
 pub struct Compared {
     /// The description of the comparison.
     pub comparison: SamplerComparison,
-    /// All sets, ordered by dimension, budget and strategy; the plain set comes before the sets with seeds.
+    /// All measured sets of points, ordered by dimension, budget and strategy; a plain set precedes sets with seeds.
     pub sets: Vec<MeasuredSet>,
-    /// The results of each strategy, ordered by measure, dimension, budget and strategy.
+    /// The results of each strategy over its sets of points, ordered by measure, dimension, budget and strategy.
     pub cells: Vec<ComparisonCell>,
-    /// The slopes of each strategy's values over the budget, ordered by measure, dimension and strategy.
+    /// The exponents with which each strategy's values fall with the budget, by measure, dimension and strategy.
     pub slopes: Vec<Slope>,
     /// Remarks for the reader about sets and measures that are left out or cut short, and about few seeds, one sentence
     /// each.
@@ -328,7 +330,7 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Returns the cell of a measure, a dimension, a budget and a strategy.
+    /// Returns the summarised values of a measure for a dimension, a budget and a strategy.
     pub fn cell(&self, measure: Measure, dims: usize, budget: usize, strategy: Strategy) -> Option<&ComparisonCell> {
         let at = |cell: &&ComparisonCell| {
             (cell.measure, cell.dims, cell.budget, cell.strategy) == (measure, dims, budget, strategy)
@@ -336,12 +338,12 @@ impl Compared {
         self.cells.iter().find(at)
     }
 
-    /// Returns the slope of a measure, a dimension and a strategy.
+    /// Returns the exponent with which a strategy's values of a measure fall with the budget, for a dimension.
     pub fn slope(&self, measure: Measure, dims: usize, strategy: Strategy) -> Option<&Slope> {
         self.slopes.iter().find(|slope| (slope.measure, slope.dims, slope.strategy) == (measure, dims, strategy))
     }
 
-    /// Returns the strategies that have a value of this measure in this dimension.
+    /// Returns the strategies that have at least one value of this measure in this dimension.
     pub fn shown(&self, measure: Measure, dims: usize) -> Vec<Strategy> {
         let has = |strategy: &Strategy| {
             self.cells.iter().any(|c| (c.measure, c.dims, c.strategy) == (measure, dims, *strategy))
@@ -349,19 +351,19 @@ impl Compared {
         self.comparison.strategies.iter().copied().filter(has).collect()
     }
 
-    /// Returns the budgets at which a strategy has a value of this measure in this dimension.
+    /// Returns the budgets at which at least one strategy has a value of this measure in this dimension.
     pub fn budgets(&self, measure: Measure, dims: usize) -> Vec<usize> {
         let has = |budget: &usize| self.cells.iter().any(|c| (c.measure, c.dims, c.budget) == (measure, dims, *budget));
         self.comparison.budgets.iter().copied().filter(has).collect()
     }
 
-    /// Returns the measures of which any strategy has a value.
+    /// Returns the measures of which at least one strategy has a value.
     pub fn measures(&self) -> Vec<Measure> {
         let has = |measure: &Measure| self.cells.iter().any(|cell| cell.measure == *measure);
         self.comparison.all_measures().into_iter().filter(has).collect()
     }
 
-    /// Returns the title of a measure in words, with the number in place of `k`.
+    /// Returns the title of a measure in words, with the comparison's number in place of `k`.
     pub fn label(&self, measure: Measure) -> String {
         let title = measure.descriptor().title;
         title.strip_prefix("k-").map_or_else(|| title.to_owned(), |rest| format!("{}-{rest}", self.comparison.k))

@@ -16,7 +16,7 @@ pub(super) struct Case {
     pub strategy: Strategy,
     pub dims: usize,
     pub budget: usize,
-    /// The seed; `None` for the plain set.
+    /// The seed with which the set is made; `None` for a plain set, which uses no randomness.
     pub seed: Option<u64>,
 }
 
@@ -25,18 +25,18 @@ pub(super) struct Case {
 pub struct MeasuredSet {
     /// The strategy that made the set.
     pub strategy: Strategy,
-    /// The number of dimensions of the cube.
+    /// The number of dimensions of the points.
     pub dims: usize,
     /// The number of points of the set.
     pub budget: usize,
-    /// The seed with which the set was made; `None` for a plain set.
+    /// The seed with which the set was made; `None` for a plain set, which uses no randomness.
     pub seed: Option<u64>,
     /// The measures with their values; a value is `None` if the time limit left no result.
     pub values: Vec<(Measure, Option<Bracket>)>,
 }
 
 impl Case {
-    /// Makes the set and measures it, each measure within a time limit.
+    /// Makes the set of points and takes each measure of the set within a time limit.
     pub fn measure(&self, measures: &[Measure], k: usize, limit: Duration) -> Result<MeasuredSet, Error> {
         let Self { strategy, dims, budget, seed } = *self;
         let space = Space::unit_cube(dims);
@@ -54,12 +54,12 @@ impl Case {
 }
 
 impl MeasuredSet {
-    /// Returns the value of a measure, if the set has one.
+    /// Returns the value of a measure; `None` if the set has no value of the measure.
     pub fn value(&self, measure: Measure) -> Option<Bracket> {
         self.values.iter().find(|(of, _)| *of == measure).and_then(|(_, value)| *value)
     }
 
-    /// Returns `true` if the time limit kept a measure from being exact.
+    /// Returns `true` if the time limit made the value of a measure inexact.
     pub fn is_cut_short(&self) -> bool {
         self.values.iter().any(|(_, value)| value.is_none_or(|bracket| !bracket.is_exact()))
     }

@@ -9,7 +9,8 @@ use paracosm_generators::Strategy;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-/// A strategy's values of a measure at one dimension and budget. A value that is a bracket counts as its lower end.
+/// A summary of a strategy's values of a measure for one number of dimensions and one budget. A value that is a bracket
+/// counts as its lower end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparisonCell {
     /// The measure that gave the values.
@@ -22,18 +23,19 @@ pub struct ComparisonCell {
     /// The strategy that made the sets.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
-    /// The number of seeds.
+    /// The number of seeds over which the values are summarised.
     pub seeds: usize,
     /// `true` if every value is exact, that is, if no time limit cut a measure short.
     pub exact: bool,
-    /// The value of the plain set, if the strategy has one.
+    /// The value of the strategy's plain set, which uses no randomness; `None` if the strategy has no plain set.
     pub plain: Option<f64>,
     /// The median of the values over the seeds.
     pub median: f64,
     /// The lower and the upper quartile of the values over the seeds.
     pub quartiles: [f64; 2],
-    /// The comparison with the baseline; `None` for the baseline, if a value of either strategy is a bracket, and if
-    /// neither strategy's values differ between seeds (for example with measures that a shift does not change).
+    /// The comparison of the values with the baseline's values; `None` if no comparison is possible. This is so for the
+    /// baseline, if a value of either strategy is a bracket, and if neither strategy's values differ between seeds (for
+    /// example with measures that a shift does not change).
     pub versus: Option<Versus>,
 }
 
@@ -51,11 +53,11 @@ pub struct Slope {
     pub strategy: Strategy,
     /// The budgets to which the power law is fitted.
     pub budgets: Vec<usize>,
-    /// The exponent for the medians over the seeds.
+    /// The exponent of the power law that is fitted to the medians over the seeds.
     pub slope: f64,
     /// The 95 % bootstrap interval of the exponent, over the seeds.
     pub interval: [f64; 2],
-    /// The exponent for the plain sets, if the strategy has plain sets.
+    /// The exponent of the power law for the plain sets; `None` if the strategy has no plain sets.
     pub plain: Option<f64>,
 }
 

@@ -15,14 +15,15 @@ use paracosm_space::{Coordinate, Point, Record, Value};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// A function that observes a measurement. It receives the measure that is at work and its bracket so far, if any.
+/// A function that observes the progress of measurements. It receives the measure that is at work and its bracket so
+/// far, if any.
 pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + 'a;
 
-/// The error that k is not between 1 and the number of parameters of the space.
+/// The error that `k` is not between 1 and the number of parameters of the space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("k is {k}, expected 1 to {parameters}, the number of parameters")]
 pub struct StrengthFlaw {
-    /// The number of parameters to be considered together.
+    /// The given number `k` of parameters in each combination.
     pub k: usize,
     /// The number of parameters of the space.
     pub parameters: usize,
@@ -30,17 +31,17 @@ pub struct StrengthFlaw {
 
 impl Reason for StrengthFlaw {}
 
-/// The holes of a coverage report, in coordinates.
+/// The largest holes that a coverage report found, as boxes in coordinates.
 #[derive(Debug, Default)]
 pub struct Holes {
     /// The largest empty box of the continuous coordinates.
     pub dispersion: Option<Dispersion>,
-    /// The largest hole that any k parameters show, with k.
+    /// The number k, and the largest hole over any k parameters.
     pub k_wise: Option<(usize, KwiseDispersion)>,
 }
 
 impl Coverage {
-    /// Measures how well tests cover their space. The measures that use `k` consider `k` parameters together; the
+    /// Measures the coverage of a space by tests. The measures that use `k` consider `k` parameters together; the
     /// default is the strength for which the tests were made, or else 2, or the number of parameters if that is
     /// smaller. `limit` is a time limit for all slow measures together.
     ///
@@ -50,7 +51,8 @@ impl Coverage {
         Self::watched(tests, measures, k, limit, &mut |_, _| ())
     }
 
-    /// Does the same as [`Coverage::of`]. `watch` receives the measure that is at work, and its bracket so far.
+    /// Measures the coverage of a space by tests, as [`Coverage::of`] does, and reports the progress. `watch` receives
+    /// the measure that is at work, and its bracket so far.
     ///
     /// # Errors
     /// The same as of [`Coverage::of`].
@@ -65,7 +67,7 @@ impl Coverage {
     }
 }
 
-/// Does the same as [`Coverage::watched`], and returns also the holes in coordinates.
+/// Measures the coverage of a space by tests, as [`Coverage::watched`] does, and returns also the holes in coordinates.
 pub fn measure_holes(
     tests: &TestSet,
     measures: &[Measure],
@@ -139,14 +141,14 @@ pub fn measure_holes(
     Ok((Coverage { tests: tests.points.len(), continuous, violating, discrete, k_epsilon, k_wise_dispersion }, holes))
 }
 
-/// Returns the set of those tests that satisfy the constraints.
+/// Returns the set of the tests that satisfy the constraints.
 pub fn keeping(tests: &TestSet, kinds: &[TestKind]) -> TestSet {
     let keeps = |point: &&Point| kinds.iter().any(|kind| kind.rules().allows(&point.discrete));
     let points = tests.points.iter().filter(keeps).cloned().collect();
     TestSet { space: tests.space.clone(), points, k: tests.k, demand: tests.demand.clone() }
 }
 
-/// Returns the place of a hole in values of the parameters.
+/// Returns the place of a hole as values of the parameters.
 pub fn place(
     tests: &TestSet,
     fixed: &[(usize, usize)],
@@ -241,7 +243,7 @@ fn counted(tests: &TestSet, parameters: &[usize], k: usize, kinds: &[TestKind]) 
     Ok(coverage_of_kinds(kinds, parameters, k, tests.points.iter().map(|point| point.discrete.as_slice()))?)
 }
 
-/// Returns the name of a discrete coordinate and one of its values.
+/// Returns the name of a discrete coordinate, and the value of the coordinate at a level.
 pub fn named_level(coordinates: &[Coordinate], coordinate: usize, level: usize) -> (String, Value) {
     let coordinate = coordinates[coordinate];
     let levels = coordinate.parameter.levels().expect("it is a discrete parameter");

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize, Serializer};
 /// A report of the coverage of a space by a set of tests. Measures that were not asked for are absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coverage {
-    /// The number of tests.
+    /// The number of all tests, including the tests that violate constraints.
     pub tests: usize,
     /// The coverage of the continuous parameters; `None` if the space has no continuous parameters.
     pub continuous: Option<Continuous>,
@@ -43,13 +43,13 @@ pub struct Continuous {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Measured {
-    /// A number; null if there are no tests or the time was too short.
+    /// A result that is a number; null if there are no tests or the time was too short.
     Number(Option<f64>),
-    /// A number that is exact or lies in a bracket.
+    /// A result that is an exact number, or a bracket (a lower and an upper bound) of a number.
     Bracket(Bracket),
-    /// The largest empty box.
+    /// A result that is the largest box without a test inside.
     Hole(Hole),
-    /// The largest empty ball with its centre in the cube; null without tests.
+    /// A result that is the largest ball without a test inside and with its centre in the cube; null without tests.
     Ball(Option<Ball>),
 }
 
@@ -66,7 +66,7 @@ impl Measured {
 }
 
 impl Continuous {
-    /// Returns the result of a measure, if the measure was taken.
+    /// Returns the result of a measure; `None` if the measure was not taken.
     pub fn measured(&self, measure: Measure) -> Option<&Measured> {
         self.measured.iter().find(|(taken, _)| *taken == measure).map(|(_, measured)| measured)
     }
@@ -91,97 +91,100 @@ impl Serialize for Continuous {
 /// The largest box without a test inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Hole {
-    /// The volume of the box, as a share of the space.
+    /// The volume of the largest empty box, as a share of the space.
     #[serde(flatten)]
     pub volume: Bracket,
-    /// The two ends, for each parameter as values, of a box that has the lower volume.
+    /// The two ends of the largest empty box along each parameter, as values of the parameter. The box has the lower
+    /// volume.
     pub largest_empty_box: Record<[f64; 2]>,
 }
 
 /// The largest ball without a test inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ball {
-    /// The radius of the ball, with each parameter scaled to `[0,1]`.
+    /// The radius of the largest empty ball, with each parameter scaled to `[0,1]`.
     #[serde(flatten)]
     pub radius: Bracket,
-    /// The centre of a ball with the lower radius, as values.
+    /// The centre of the largest empty ball, as parameter values. The ball has the lower radius.
     pub centre: Record<f64>,
 }
 
 /// The coverage of the discrete parameters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Discrete {
-    /// The number of parameters that are considered together.
+    /// The number of parameters in each combination of values.
     pub k: usize,
     /// The number of valid combinations of values of any k parameters.
     pub valid: u64,
-    /// The number of valid combinations that some test contains.
+    /// The number of valid combinations that at least one test contains.
     pub covered: u64,
-    /// The share of the valid combinations that some test contains (covered / valid).
+    /// The share of the valid combinations that at least one test contains (covered / valid).
     pub ratio: f64,
-    /// Some valid combinations that no test contains, 20 at most.
+    /// Examples of valid combinations that no test contains, 20 at most.
     pub missing: Vec<Record<Value>>,
-    /// The share of the valid combinations of all parameters that are tested; null if there are too many combinations
+    /// The tested share of the valid combinations of all discrete parameters; null if there are too many combinations
     /// to count.
     pub combinations: Option<f64>,
-    /// The coverage of the groups of parameters that have a k of their own.
+    /// The coverage of each group of parameters that has its own k.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub strengths: Vec<Strength>,
 }
 
-/// The coverage of a group of discrete parameters that has a k of its own.
+/// The coverage of a group of discrete parameters that has its own k.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Strength {
     /// The names of the group's parameters.
     pub parameters: Vec<String>,
-    /// The number of the group's parameters that are considered together.
+    /// The number of parameters of the group in each combination of values.
     pub k: usize,
     /// The number of valid combinations of values of any k parameters of the group.
     pub valid: u64,
-    /// The number of valid combinations that some test contains.
+    /// The number of valid combinations of the group that at least one test contains.
     pub covered: u64,
-    /// The share of the valid combinations that some test contains (covered / valid).
+    /// The share of the group's valid combinations that at least one test contains (covered / valid).
     pub ratio: f64,
-    /// Some valid combinations that no test contains, 20 at most.
+    /// Examples of valid combinations of the group that no test contains, 20 at most.
     pub missing: Vec<Record<Value>>,
 }
 
-/// The (k, epsilon)-coverage of tests. Tests are (k, epsilon)-covering if any k discrete parameters show all valid
-/// combinations of their values, and no row of discrete values has an empty box larger than epsilon (the paper, section
-/// 3.1).
+/// The (k, epsilon)-coverage of tests, which joins k-wise coverage and dispersion. Tests are (k, epsilon)-covering if
+/// any k discrete parameters show all valid combinations of their values, and no row of discrete values has an empty
+/// box larger than epsilon (the paper, section 3.1).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KEpsilon {
-    /// The number of discrete parameters that are considered together.
+    /// The number of discrete parameters in each combination of values.
     pub k: usize,
     /// `true` if the tests cover all valid combinations of any k discrete parameters.
     pub complete: bool,
-    /// The smallest epsilon; null if a valid combination is not covered. After a time-out this is an upper bound.
+    /// The smallest epsilon for which the tests are (k, epsilon)-covering; null if a valid combination is not covered.
+    /// After a time-out this is an upper bound.
     pub epsilon: Option<f64>,
-    /// The largest dispersion among the rows that the tests have. After a time-out this is an upper bound.
+    /// The largest dispersion among the rows of discrete values that the tests have. After a time-out this is an upper
+    /// bound.
     pub epsilon_over_covered_rows: f64,
-    /// A lower bound of the largest dispersion among the rows. Without a time-out this is the largest dispersion
-    /// itself.
+    /// A lower bound of the largest dispersion among the rows of discrete values. Without a time-out this is the
+    /// largest dispersion itself.
     pub epsilon_at_least: f64,
 }
 
-/// The largest hole that any k parameters show.
+/// The largest hole, which is a part of the space without a test, over any k parameters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KwiseHole {
-    /// The number of parameters that are considered together.
+    /// The number of parameters over which the hole extends.
     pub k: usize,
     /// The volume of the hole, as a share of the space of its k parameters.
     #[serde(flatten)]
     pub volume: Bracket,
-    /// The place of the hole.
+    /// The place of the largest hole in the space.
     pub worst: KwiseWorst,
 }
 
-/// The place of a hole, which is values of some discrete parameters and a box over some continuous parameters.
+/// The place of a hole, given by values of discrete parameters and a box over continuous parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KwiseWorst {
     /// The discrete parameters of the hole, with their values.
     pub fixed: Record<Value>,
-    /// The two ends of the box for each continuous parameter of the hole, as values.
+    /// The two ends of the hole's box along each continuous parameter, as values.
     pub empty_box: Record<[f64; 2]>,
 }
 

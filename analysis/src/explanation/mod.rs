@@ -32,29 +32,30 @@ const SURE: f64 = 2.0;
 pub struct Explanation {
     /// The explanation as a sentence without a full stop.
     pub words: String,
-    /// The number of tests that passed or failed.
+    /// The number of tests of the campaign that passed or failed.
     pub tests: usize,
-    /// The number of tests that failed.
+    /// The number of tests of the campaign that failed.
     pub failures: usize,
-    /// The rules of the explanation. A test is predicted to fail if a rule holds. There are no rules if the tree does
-    /// not find failing tests outside its own data better than chance by at least two standard errors.
+    /// The rules by which the explanation predicts failures. A test is predicted to fail if a rule holds. There are no
+    /// rules if the tree does not find failing tests outside its own data better than chance by at least two standard
+    /// errors.
     pub rules: Vec<Rule>,
-    /// The accuracy for tests from which the tree was not made.
+    /// The accuracy of the predictions for tests that were left out when the decision tree was made.
     pub cross_validated: Accuracy,
-    /// The accuracy for the tests from which the tree was made.
+    /// The accuracy of the predictions for the tests from which the decision tree was made.
     pub fitted: Accuracy,
     /// The accuracy of a prediction that always names the more frequent verdict.
     pub always: f64,
 }
 
-/// Conditions under which the share of failing tests is larger than among all tests.
+/// A rule, which is a set of conditions under which a larger share of tests fails than among all tests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rule {
-    /// The conditions, all of which have to hold.
+    /// The conditions of the rule in words, all of which have to hold.
     pub conditions: Vec<String>,
-    /// The number of tests that satisfy all conditions.
+    /// The number of tests that satisfy all conditions of the rule.
     pub tests: usize,
-    /// The number of tests that satisfy all conditions and failed.
+    /// The number of tests that satisfy all conditions of the rule and failed.
     pub failures: usize,
 }
 
@@ -116,12 +117,12 @@ impl Explanation {
 }
 
 impl Explanation {
-    /// Returns the rules in words, one line for each rule.
+    /// Returns the rules of the explanation in words, one line for each rule.
     pub fn rules_in_words(&self) -> Vec<String> {
         words::rules(self)
     }
 
-    /// Returns a sentence about the reliability of the rules, or a sentence that says that there are no rules.
+    /// Returns a sentence about the reliability of the rules, or about the absence of rules.
     pub fn trust_in_words(&self) -> String {
         words::trust(self)
     }

@@ -10,16 +10,16 @@
 //! A leaf predicts failure if a larger share of its tests fails than among all tests, because this rule separates the
 //! verdicts best.
 
-/// One column of the table that a tree explains: a value for each test.
+/// A column of the table that a decision tree explains, with a value for each test.
 #[derive(Debug, Clone)]
 pub enum Column {
-    /// A column of numbers.
+    /// A column of numbers, one number for each test.
     Numbers(Vec<f64>),
     /// A column of levels without an order, and the number of levels.
     Levels(Vec<usize>, usize),
 }
 
-/// The tests as columns of values, and whether each test failed.
+/// The tests as columns of values, with a mark for each test that failed.
 #[derive(Debug, Clone)]
 pub struct Table {
     pub columns: Vec<Column>,
@@ -29,9 +29,9 @@ pub struct Table {
 /// The condition at a node of a tree.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Condition {
-    /// The number in this column is below this limit.
+    /// The condition that the number in a column is below a limit.
     Below(usize, f64),
-    /// The level in this column is one of the levels marked `true`.
+    /// The condition that the level in a column is one of the levels marked `true`.
     Among(usize, Vec<bool>),
 }
 
@@ -41,19 +41,19 @@ pub struct Tree {
     pub nodes: Vec<Node>,
 }
 
-/// A node with the numbers of tests and failures that reach it.
+/// A node of a decision tree, with the numbers of tests and failures that reach the node.
 #[derive(Debug, Clone)]
 pub struct Node {
     pub tests: usize,
     pub failures: usize,
-    /// The condition, and the indices of the nodes for yes and no; `None` at a leaf.
+    /// The condition of the node, and the indices of the child nodes for yes and no; `None` at a leaf.
     pub split: Option<(Condition, [usize; 2])>,
 }
 
-/// A division of some tests into two parts.
+/// A division of tests into two parts by a condition.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Split {
-    /// The impurity that the split removes, in tests weighted by the weights of the search.
+    /// The decrease of Gini's impurity by the split, in weighted tests.
     pub gain: f64,
     pub test: Condition,
 }
@@ -74,7 +74,8 @@ impl Table {
         rows.iter().filter(|&&row| self.failed[row]).count()
     }
 
-    /// Finds the best split of these rows with at least `least` rows on either side; the first of equal splits.
+    /// Finds the best split of these rows with at least `least` rows on either side; among equal splits the first
+    /// split.
     pub fn best_split(&self, rows: &[usize], weights: Weights, least: usize) -> Option<Split> {
         let cutting = Cutting { weights, least };
         let splits = (0..self.columns.len()).filter_map(|column| match &self.columns[column] {
@@ -191,7 +192,7 @@ pub fn round_between(a: f64, b: f64) -> f64 {
 }
 
 impl Tree {
-    /// Grows a tree for these rows with at most this number of leaves, each of at least `least` tests.
+    /// Grows a tree for these rows, with at most `leaves` leaves of at least `least` tests each.
     pub fn grow(table: &Table, rows: &[usize], leaves: usize, least: usize) -> Self {
         let leaf = |rows: &[usize]| Node { tests: rows.len(), failures: table.failures(rows), split: None };
         let mut tree = Self { nodes: vec![leaf(rows)] };
@@ -214,7 +215,7 @@ impl Tree {
         tree
     }
 
-    /// Returns the tree as it was when it had this number of leaves.
+    /// Returns the tree at the stage of its growth at which the tree had this number of leaves.
     pub fn with_leaves(&self, leaves: usize) -> Self {
         let kept = (2 * leaves - 1).min(self.nodes.len());
         let mut nodes = self.nodes[..kept].to_vec();
@@ -230,7 +231,7 @@ impl Tree {
         node.failures * self.nodes[0].tests > self.nodes[0].failures * node.tests
     }
 
-    /// Checks whether the tree predicts that a test fails.
+    /// Returns `true` if the tree predicts that the test in a row fails.
     pub fn fails(&self, table: &Table, row: usize) -> bool {
         let mut at = &self.nodes[0];
         while let Some((test, [yes, no])) = &at.split {
@@ -239,7 +240,7 @@ impl Tree {
         self.says_fail(at)
     }
 
-    /// Removes the splits of which both sides give the same prediction.
+    /// Returns the tree without the splits of which both sides give the same prediction.
     pub fn pruned(&self) -> Self {
         let mut tree = self.clone();
         // Children come after their parents in the list.
@@ -253,7 +254,8 @@ impl Tree {
         tree
     }
 
-    /// Returns the leaves that predict failure, each with the conditions and the answers on the path to it.
+    /// Returns the leaves that predict failure, each with the conditions and the answers on the path from the root to
+    /// the leaf.
     pub fn failing(&self) -> Vec<(Vec<(&Condition, bool)>, &Node)> {
         let mut failing = Vec::new();
         let mut open = vec![(0, Vec::new())];

@@ -92,7 +92,7 @@ pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
     explanation.rules.iter().enumerate().map(line).collect()
 }
 
-/// Returns a sentence that says how far the rules can be trusted, or that there are no rules.
+/// Returns a sentence about the reliability of the rules, or about the absence of rules.
 pub(super) fn trust(explanation: &Explanation) -> String {
     let Explanation { tests, failures, cross_validated, .. } = explanation;
     if explanation.rules.is_empty() {

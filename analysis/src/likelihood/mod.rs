@@ -32,7 +32,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// All methods.
+    /// All methods that estimate a probability of failure.
     pub const ALL: [Self; 3] = [Self::MonteCarlo, Self::Qmc, Self::Subset];
 
     /// Returns the name by which a user chooses the method.
@@ -60,33 +60,33 @@ impl fmt::Display for Method {
     }
 }
 
-/// The error that no method has this name.
+/// The error that no method of estimation has the given name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no method is called `{name}`{}; the methods are {}", did_you_mean(.nearest), Method::ALL.map(Method::name).join(", "))]
 pub struct UnknownMethod {
-    /// The name that was not found.
+    /// The name of the method that was not found.
     pub name: String,
-    /// A similar name that was perhaps meant.
+    /// The name of a similar method that the user perhaps meant.
     pub nearest: Option<&'static str>,
 }
 
-/// A reason why there is no estimate.
+/// A reason why the probability of failure cannot be estimated.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LikelihoodFlaw {
-    /// The confidence is not between 0 and 1.
+    /// The confidence of the interval is not between 0 and 1.
     #[error("the confidence is {found}, expected a number above 0 and below 1")]
     Confidence {
-        /// The confidence that was given.
+        /// The confidence that the user gave.
         found: f64,
     },
     /// The budget is too small for the method.
     #[error("the budget is {budget}, expected at least {least} for the method {method}")]
     Budget {
-        /// The budget that was given.
+        /// The budget that the user gave.
         budget: usize,
         /// The least budget of the method.
         least: usize,
-        /// The method that was chosen.
+        /// The method that the user chose.
         method: Method,
     },
     /// No parameter is open, so that nothing is random.
@@ -97,12 +97,12 @@ pub enum LikelihoodFlaw {
         "the space has constraints, expected none: distributions of parameters that depend on each other are not known"
     )]
     Constraints,
-    /// No test could be judged: each test broke, or its world could not be built.
+    /// No test could be judged, because each test broke, or its world could not be built.
     #[error(
         "no test could be judged{}", first.as_ref().map(|first| format!("; the problem of the first test: {first}")).unwrap_or_default()
     )]
     NothingJudged {
-        /// The problem of the first test, if it is known.
+        /// The problem of the first test, if the problem is known.
         first: Option<Problem>,
     },
 }
@@ -122,13 +122,13 @@ impl FromStr for Method {
 /// The settings of an estimate, which are the method, the budget, the confidence and the seed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// The method of the estimate.
+    /// The method by which the probability is to be estimated.
     pub method: Method,
     /// The greatest number of tests that are run.
     pub budget: usize,
     /// The probability with which the interval is to contain the true value, above 0 and below 1.
     pub confidence: f64,
-    /// The seed of all random numbers.
+    /// The seed of all random numbers of the estimate.
     pub seed: u64,
 }
 
@@ -151,29 +151,31 @@ impl Question {
 pub struct Likelihood {
     /// The estimated probability of a failure, given that the test can be judged.
     pub probability: f64,
-    /// The lower end of the interval. In the lower end, tests that could not be judged count as passed.
+    /// The lower end of the confidence interval of the probability. In the lower end, tests that could not be judged
+    /// count as passed.
     pub lower: f64,
-    /// The upper end of the interval. In the upper end, tests that could not be judged count as failed.
+    /// The upper end of the confidence interval of the probability. In the upper end, tests that could not be judged
+    /// count as failed.
     pub upper: f64,
     /// The probability with which the method gives an interval that contains the true value.
     pub confidence: f64,
-    /// The method of the estimate.
+    /// The method by which the probability was estimated.
     pub method: Method,
     /// The statistical basis of the interval, in words.
     pub interval: String,
-    /// The number of tests that were run.
+    /// The number of tests that were run for the estimate.
     pub evaluations: usize,
-    /// The number of failing tests. Only for `monte-carlo` does the probability follow from the share of failing
-    /// tests.
+    /// The number of failing tests among the tests of the estimate. Only for `monte-carlo` does the probability follow
+    /// from the share of failing tests.
     pub failures: usize,
     /// The number of tests that could not be judged, because they broke or their worlds could not be built.
     pub unjudged: usize,
-    /// Further remarks that a reader needs to understand the numbers.
+    /// Remarks that a reader needs to understand the estimate.
     pub notes: Vec<String>,
 }
 
-/// A function that runs tests. It returns the robustness at each point of the unit cube, negative (-0 included) for a
-/// failure, and `None` if the test could not be judged.
+/// A function that runs tests and returns the robustness of each test. The robustness at a point of the unit cube is
+/// negative (-0 included) for a failure, and `None` if the test could not be judged.
 pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<f64>>, Error> + 'a;
 
 /// Estimates the probability that a uniformly distributed point of the unit cube with `dims` dimensions is a failure.

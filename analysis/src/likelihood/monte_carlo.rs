@@ -4,10 +4,10 @@ use super::{Question, Runs, Tail, Tally};
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::Error;
 
-/// The number of tests that run at a time: enough for many cores, few enough for the memory.
+/// The number of tests that run at a time, enough for many cores and few enough for the memory.
 pub(super) const BATCH: usize = 4096;
 
-/// The statistical basis of the interval.
+/// The statistical basis of the interval, in words.
 pub(super) const SOURCE: &str = "Clopper and Pearson, independent tests";
 
 pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Result<Tail, Error> {

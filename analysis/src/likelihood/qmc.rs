@@ -11,7 +11,7 @@ use paracosm_campaign::Error;
 use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
 
-/// The least number of repetitions: with fewer repetitions Student's interval is wide.
+/// The least number of repetitions, because Student's interval is wide with fewer repetitions.
 pub(super) const REPLICATES: usize = 10;
 
 pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Result<Tail, Error> {

@@ -5,9 +5,9 @@ use paracosm_campaign::{Campaign, Error, Learned, Problem, Scales, Study, Trial}
 use paracosm_oracles::Verdict;
 use paracosm_space::Values;
 
-/// Estimates the probability that a test of the study fails, if its open parameters have the distributions of its
-/// space. `watch` receives every trial in order; its first error ends the work. The campaign must be one of this
-/// study. It sets how many tests run at a time, which does not change the result. The study's strategy is not used.
+/// Estimates the probability that a test of a study fails, if the open parameters have the distributions of the space.
+/// `watch` receives every trial in order; its first error ends the work. The campaign must be one of this study. It
+/// sets how many tests run at a time, which does not change the result. The study's strategy is not used.
 ///
 /// # Errors
 /// The question is not valid, the space has constraints, no test could be judged, or `watch` returned an error.

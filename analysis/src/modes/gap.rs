@@ -9,16 +9,16 @@ const FEWEST: usize = 6;
 /// The least share of a group's range that a gap has, however many figures there are.
 const LEAST_SHARE: f64 = 0.25;
 
-/// A figure by which things are distinguished.
+/// A numerical property of failing tests, by which the tests are divided.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Figure<'a> {
-    /// The value of the figure for each of the things.
+    /// The value of the figure for each failing test.
     pub values: &'a [f64],
-    /// A smaller difference does not count as a difference.
+    /// The difference up to which two values of the figure count as equal.
     pub resolution: f64,
 }
 
-/// A group of things, with the indices of the figures that separated them from others.
+/// A group of failing tests, with the indices of the figures that separated the group from other tests.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
     pub members: Vec<usize>,

@@ -19,7 +19,7 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A figure of a violation by which modes are divided.
+/// A number that describes a violation and by which failure modes are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum CriticalFigure {
     /// The time of the violation, in seconds.
@@ -57,48 +57,48 @@ impl CriticalFigure {
 /// The failure modes of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Modes {
-    /// The number of failing tests.
+    /// The number of failing tests of the campaign.
     pub failures: usize,
-    /// The failure modes, the most frequent first.
+    /// The failure modes of the campaign, the most frequent mode first.
     pub modes: Vec<Mode>,
 }
 
-/// A failure mode, that is, a group of failing tests in which the same went wrong.
+/// A failure mode, which is a group of failing tests with the same kind of failure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mode {
     /// The name of the mode in a few words, such as `no-collision/pedestrian/left/braking`. It ends in `#1`, `#2` …
     /// if parts of formulas or figures divide the mode further.
     pub name: String,
-    /// A sentence about what happens.
+    /// A sentence that describes the failures of the mode.
     pub words: String,
     /// The number of failing tests of this mode.
     pub count: usize,
-    /// The index of a typical test, which is the test nearest to the medians of the figures.
+    /// The index of a typical test, whose figures are nearest to the medians of the mode.
     pub representative: usize,
-    /// The index of the worst test.
+    /// The index of the test with the worst robustness in the mode.
     pub worst: usize,
-    /// The requirements that the tests violate.
+    /// The ids of the requirements that the tests of the mode violate.
     pub violates: Vec<String>,
-    /// The part of each violated formula on which the robustness depends, by the requirement's id, as far as it is
-    /// known.
+    /// The part of each violated formula on which the robustness depends, if the part is known, by the requirement's
+    /// id.
     pub parts: Record<String>,
-    /// The contact of the car, if the car touched an object.
+    /// The contact of the car with an object; `None` if the car touched no object.
     pub contact: Option<Touch>,
     /// The least and the greatest value of each figure that all tests of the mode have.
     pub figures: BTreeMap<CriticalFigure, [f64; 2]>,
-    /// The place of the tests in the space, by the least and the greatest value of a continuous parameter and all
-    /// values of a discrete parameter.
+    /// The values of each parameter among the tests of the mode, as the least and the greatest value or as a list of
+    /// levels.
     pub parameters: Record<ValueRange>,
-    /// The indices of the tests.
+    /// The indices of the failing tests of the mode.
     pub trials: Vec<usize>,
 }
 
-/// A contact of the ego vehicle.
+/// A contact of the ego vehicle with an object.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Touch {
     /// The name of the object that the car touched.
     pub with: String,
-    /// The class of the object.
+    /// The class of the object that the car touched.
     #[serde(serialize_with = "in_a_word")]
     pub class: Class,
     /// The side of the car that touched the object.
@@ -113,13 +113,13 @@ fn in_a_word<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok
     serializer.collect_str(value)
 }
 
-/// The values of a parameter among some tests.
+/// The range of the values that a parameter has in a group of tests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ValueRange {
-    /// The least and the greatest value.
+    /// The least and the greatest value of a continuous parameter.
     Interval([f64; 2]),
-    /// All values that occur, in the order of the parameter's choice.
+    /// All values of a discrete parameter that occur, in the order of the parameter's levels.
     Values(Vec<Value>),
 }
 
@@ -128,7 +128,7 @@ impl JsonArtefact for Modes {
 }
 
 impl Modes {
-    /// Groups the failing trials of a campaign.
+    /// Groups the failing trials of a campaign by failure modes.
     pub fn of(log: &Log) -> Self {
         let failing: Vec<&Trial> = log.trials().iter().filter(|trial| trial.is_failure()).collect();
         let mut kinds: BTreeMap<Kind, Vec<&Trial>> = BTreeMap::new();
@@ -144,7 +144,7 @@ impl Modes {
 }
 
 impl Touch {
-    /// Returns the contact with which a trial ended, if the car touched an object.
+    /// Returns the contact with which a trial ended; `None` if the car touched no object.
     pub fn of(trial: &Trial) -> Option<Self> {
         let Contact { with, class, face, motion, .. } = trial.contact()?.clone();
         Some(Self { with, class, face, motion })

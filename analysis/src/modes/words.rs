@@ -17,7 +17,7 @@ pub(super) struct Story<'a> {
     /// `true` if the parts distinguish the mode from other modes.
     pub is_told_by_part: bool,
     pub ranges: &'a BTreeMap<CriticalFigure, [f64; 2]>,
-    /// The figures by which the mode was separated from others.
+    /// The figures by which the mode was separated from other modes.
     pub apart: &'a [CriticalFigure],
 }
 

@@ -1,6 +1,6 @@
 //! Implements delta debugging: finds the fewest things of a set that are needed.
 
-/// Removes as many of `items` as possible and returns the rest, from which no further single item can be removed. The
+/// Removes as many of `items` as possible, and returns the items from which no further single item can be removed. The
 /// algorithm is `ddmin` of Zeller and Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE
 /// Transactions on Software Engineering 28(2), 2002. `suffices` checks whether some items are enough; all items
 /// together are assumed to be.

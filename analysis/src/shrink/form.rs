@@ -7,16 +7,17 @@ use super::number::{Decimals, simpler};
 use paracosm_space::{Domain, Parameter, Shape, Value};
 use std::cmp::Ordering;
 
-/// The form of a parameter's value.
+/// The form of a parameter's value, which is nominal or given by knots.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
-    /// The nominal value.
+    /// The nominal value of the parameter.
     Nominal,
-    /// A value of its own, as knots. A constant has one knot; a signal not simplified has all its coordinates.
+    /// A value other than the nominal value, given by knots. A constant has one knot; a signal not simplified has all
+    /// its coordinates.
     Own(Vec<Value>),
 }
 
-/// A parameter with its nominal value, to which shrinking moves it.
+/// A parameter with its nominal value, to which shrinking moves the parameter.
 #[derive(Debug, Clone)]
 pub(super) struct Dimension<'a> {
     pub parameter: &'a Parameter,
@@ -24,12 +25,12 @@ pub(super) struct Dimension<'a> {
 }
 
 impl Dimension<'_> {
-    /// Returns the form of a value of the parameter.
+    /// Returns the form of a given value of the parameter.
     pub fn form(&self, value: &Value) -> Form {
         if self.value(&Form::Nominal) == *value { Form::Nominal } else { Form::Own(value.scalars().to_vec()) }
     }
 
-    /// Returns the value that has this form.
+    /// Returns the value that has the given form.
     pub fn value(&self, form: &Form) -> Value {
         match (form, self.parameter.signal) {
             (Form::Nominal, None) => self.nominal.clone(),
@@ -39,7 +40,7 @@ impl Dimension<'_> {
         }
     }
 
-    /// Returns the nominal value as this number of knots.
+    /// Returns the nominal value of the parameter, given by `count` knots.
     pub fn nominal_knots(&self, count: usize) -> Vec<Value> {
         match self.parameter.signal {
             Some(shape) if self.nominal.scalars().len() > 1 => reduced(shape, self.nominal.scalars(), count),
@@ -47,7 +48,7 @@ impl Dimension<'_> {
         }
     }
 
-    /// Returns the same signal with fewer knots, as nearly as possible.
+    /// Returns the knots of the signal with `count` knots that is nearest to a given signal.
     pub fn with_knots(&self, knots: &[Value], count: usize) -> Vec<Value> {
         match self.parameter.signal {
             Some(shape) => reduced(shape, &self.expanded(shape, knots), count),

@@ -29,20 +29,21 @@ use thiserror::Error;
 pub struct Shrunk {
     /// The index of the test in its campaign.
     pub index: usize,
-    /// The requirements that both the test of the campaign and the shrunk test violate.
+    /// The ids of the requirements that both the original test and the shrunk test violate.
     pub violates: Vec<String>,
-    /// The failures of the test of the campaign and of the shrunk test, in words.
+    /// The descriptions in words of the failures of the original test and of the shrunk test.
     pub failures: [String; 2],
-    /// `true` if both tests fail in one mode. They then violate the same requirements by the same parts of their
-    /// formulas, and the car touches the same object with the same side during the same motion.
+    /// `true` if the original test and the shrunk test fail in the same failure mode. They then violate the same
+    /// requirements by the same parts of their formulas, and the car touches the same object with the same side during
+    /// the same motion.
     pub same_mode: bool,
-    /// The values of each open parameter before and after.
+    /// The values of each open parameter before and after shrinking.
     pub parameters: Vec<Change>,
-    /// The number of tests that were run.
+    /// The number of tests that were run for shrinking.
     pub runs: usize,
-    /// `true` if every step was tried, `false` if the budget of runs did not suffice. If `true`, no parameter and no
-    /// two parameters can be set to their nominal values without losing the failure, and no other step that was tried
-    /// keeps the failure. A simpler test that takes three steps at once may still fail.
+    /// `true` if the search tried every step of shrinking; `false` if the budget of runs did not suffice. If `true`, no
+    /// parameter and no two parameters can be set to their nominal values without losing the failure, and no other step
+    /// that was tried keeps the failure. A simpler test that takes three steps at once may still fail.
     pub minimal: bool,
     /// The trial of the shrunk test.
     pub trial: Trial,
@@ -66,22 +67,23 @@ pub struct Change {
 /// The properties of a failure that shrinking keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sameness {
-    /// The violated requirements. The shrunk test violates at least these.
+    /// The violated requirements of the original test. The shrunk test violates at least these requirements.
     Requirements,
-    /// The failure mode. This means the same violated requirements and no others, the same parts of their formulas,
-    /// and the same contact (the object, the side of the car, and whether the car drives, brakes or stands).
+    /// The failure mode of the original test. This means the same violated requirements and no others, the same parts
+    /// of their formulas, and the same contact (the object, the side of the car, and whether the car drives, brakes or
+    /// stands).
     Mode,
 }
 
 /// A reason why a test cannot be shrunk.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ShrinkFlaw {
-    /// The test did not fail.
+    /// The test to shrink did not fail.
     #[error("test {index} has the verdict `{verdict}`, expected a failing test: there is nothing to shrink")]
     NoFailure {
-        /// The index of the test.
+        /// The index of the test in its campaign.
         index: usize,
-        /// The verdict of the test.
+        /// The verdict of the test in the log.
         verdict: Verdict,
     },
     /// The test does not fail in the same way when it is run again.
@@ -89,11 +91,11 @@ pub enum ShrinkFlaw {
         "test {index} violates {} in the log, but does not fail in the same way when it is run again: the verdict is now `{verdict}`", violates.join(", ")
     )]
     Passes {
-        /// The index of the test.
+        /// The index of the test in its campaign.
         index: usize,
-        /// The requirements that the test violates in the log.
+        /// The ids of the requirements that the test violates in the log.
         violates: Vec<String>,
-        /// The verdict of the new run.
+        /// The verdict of the test when it was run again.
         verdict: Verdict,
     },
 }
@@ -163,7 +165,7 @@ impl Shrunk {
         })
     }
 
-    /// Returns a sentence that says which values the failure needs.
+    /// Returns a sentence with the parameter values that the failure needs.
     pub fn sentence(&self) -> String {
         let needed: Vec<String> = self.parameters.iter().filter(|change| !change.nominal).map(Change::words).collect();
         let violates = self.violates.join(", ");
@@ -196,14 +198,13 @@ fn mode(trial: &Trial) -> (Vec<(&str, Option<&str>)>, Option<Touch>) {
     (trial.violated().map(part).collect(), Touch::of(trial))
 }
 
-/// Returns how a failing trial fails, in words.
+/// Returns a description in words of the failure of a trial.
 fn in_words(log: &Log, trial: &Trial) -> String {
     let modes = Modes::of(&log.with_trials(vec![trial.clone()])).modes;
     modes.into_iter().map(|mode| mode.words).collect()
 }
 
-/// Returns the nominal values of the open parameters, which are those that the scenario declares, or the nearest in
-/// the domain.
+/// Returns the nominal values of the open parameters, which the scenario declares, or the nearest values in the domain.
 fn nominal(study: &Study) -> Values {
     let declared = study.program().and_then(|program| Ok(program.declare()?.parameters)).unwrap_or_default();
     let value = |parameter: &Parameter| {

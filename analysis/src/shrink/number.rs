@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 /// The number of levels below the coarsest on which a number counts as round.
 const FINEST: i32 = 9;
 
-/// The decimal grids of an interval.
+/// The decimal grids of an interval, which rank numbers by simplicity.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Decimals {
     lo: f64,
@@ -19,13 +19,14 @@ pub(super) struct Decimals {
 }
 
 impl Decimals {
-    /// Returns the grids of the interval from `lo` to `hi`.
+    /// Returns the decimal grids of the interval from `lo` to `hi`.
     pub fn of(lo: f64, hi: f64) -> Self {
         let coarsest = libm::floor(libm::log10(0.5 * hi - 0.5 * lo)) as i32;
         Self { lo, hi, coarsest }
     }
 
-    /// Returns the level of the coarsest grid that has this number. A lower level is simpler, and 0 is the simplest.
+    /// Returns the level of the coarsest grid that contains this number. A lower level is simpler, and 0 is the
+    /// simplest.
     pub fn level(&self, number: f64) -> i32 {
         let fits = |level: &i32| self.at(libm::round(number / self.step(*level)), *level) == number;
         (0..=FINEST).find(fits).unwrap_or(FINEST + 1)
@@ -36,8 +37,8 @@ impl Decimals {
         self.step(2)
     }
 
-    /// Returns for each level, from the roundest, the first number of its grid that is not nearer to `goal` than
-    /// `number` is.
+    /// Returns the nearest number on each grid, from the coarsest grid, that is at least as far from `goal` as
+    /// `number`.
     pub fn beyond(&self, number: f64, goal: f64) -> impl Iterator<Item = f64> {
         let grids = *self;
         (0..=FINEST).filter_map(move |level| {

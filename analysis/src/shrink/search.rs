@@ -17,23 +17,23 @@ use paracosm_space::{Domain, Space, Value, Values};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// A search that is running.
+/// A running search for the simplest test that still fails.
 pub(super) struct Shrinker<'a, F> {
     space: &'a Space,
     dimensions: Vec<Dimension<'a>>,
     fails: F,
     current: Vec<Form>,
-    /// The tests that were run, as JSON, and whether they failed.
+    /// The tests that were run, as JSON, each with `true` if the test failed.
     tried: BTreeMap<String, bool>,
     budget: usize,
     exhausted: bool,
 }
 
-/// The result of a search.
+/// The result of a search for the simplest test that still fails.
 #[derive(Debug)]
 pub(super) struct Simpler {
     pub test: Values,
-    /// The number of tests that were run.
+    /// The number of tests that the search ran.
     pub runs: usize,
     /// `true` if no simpler test was left untried for lack of runs.
     pub complete: bool,
@@ -55,7 +55,7 @@ where
         Self { space, dimensions, fails, current, tried: BTreeMap::new(), budget, exhausted: false }
     }
 
-    /// Runs the search to its end.
+    /// Runs the search for the simplest test that still fails, until the search finds no simpler test.
     pub fn run(mut self) -> Result<Simpler, E> {
         loop {
             let before = self.current.clone();

@@ -4,7 +4,7 @@
 use super::quantile;
 use super::random::SplitMix64;
 
-/// The number of resamples. A thousand are enough for the ends of a 95 % interval.
+/// The number of resamples for a bootstrap interval. A thousand are enough for the ends of a 95 % interval.
 pub const RESAMPLES: usize = 2_000;
 
 /// Returns the 95 % percentile bootstrap interval of a statistic of `n` values.

@@ -52,7 +52,7 @@ fn moments(values: &[f64]) -> (f64, f64) {
     (mean, squares / (n - 1.0))
 }
 
-/// Returns Student's interval for the mean of a normal distribution, from a sample of it.
+/// Returns Student's interval for the mean of a normal distribution, from a sample of the distribution.
 ///
 /// # Panics
 /// There are fewer than two values.
@@ -64,8 +64,8 @@ pub fn mean_interval(values: &[f64], confidence: f64) -> [f64; 2] {
     [mean - half, mean + half]
 }
 
-/// Returns Cox's interval for the mean of a log-normal distribution, from a sample of it, with Student's quantile
-/// (Olsson, Confidence intervals for the mean of a log-normal distribution, J. Statistics Education 13, 2005).
+/// Returns Cox's interval for the mean of a log-normal distribution, from a sample, with Student's quantile (Olsson,
+/// Confidence intervals for the mean of a log-normal distribution, J. Statistics Education 13, 2005).
 ///
 /// # Panics
 /// There are fewer than two values, or a value is not above 0.

@@ -33,7 +33,7 @@ pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
 }
 
-/// Returns the median, and the lower and the upper quartile, as [`quantile`] defines them.
+/// Returns the median, the lower quartile and the upper quartile of values, as [`quantile`] defines quantiles.
 ///
 /// # Panics
 /// `values` is empty.
@@ -43,10 +43,10 @@ pub fn median_and_quartiles(values: &[f64]) -> (f64, [f64; 2]) {
     (quantile(&sorted, 0.5), [quantile(&sorted, 0.25), quantile(&sorted, 0.75)])
 }
 
-/// Returns the effect size A12. It is the probability that a value of `a` is larger than a value of `b`, where equal
-/// values count half (Vargha and Delaney, A critique and improvement of the CL common language effect size statistics
-/// of McGraw and Wong, J. Educ. Behav. Stat. 25, 2000). 0.5 means no difference; the authors call 0.56 small, 0.64
-/// medium and 0.71 large, and likewise below 0.5.
+/// Returns the effect size A12 of Vargha and Delaney for two groups of values. It is the probability that a value of
+/// `a` is larger than a value of `b`, where equal values count half (Vargha and Delaney, A critique and improvement of
+/// the CL common language effect size statistics of McGraw and Wong, J. Educ. Behav. Stat. 25, 2000). 0.5 means no
+/// difference; the authors call 0.56 small, 0.64 medium and 0.71 large, and likewise below 0.5.
 ///
 /// # Panics
 /// `a` or `b` is empty.

@@ -15,7 +15,8 @@ impl SplitMix64 {
         word ^ (word >> 31)
     }
 
-    /// Returns a random number below `n`. All numbers are equally likely, up to a relative difference of n / 2^64.
+    /// Returns a random whole number below `n`. All numbers are equally likely, up to a relative difference of n /
+    /// 2^64.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }

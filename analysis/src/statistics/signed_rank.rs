@@ -6,13 +6,14 @@
 //! sum of the positive ranks can be counted, even if ranks are shared, because twice a shared rank is a whole number
 //! (Lehmann, Nonparametrics, 1975, chapter 3).
 
-/// The greatest number of differences for which the distribution is counted. For more, it is approximated.
+/// The greatest number of differences for which the exact distribution of the rank sum is counted. For more
+/// differences, it is approximated.
 pub const MOST_EXACT: usize = 50;
 
-/// Returns the two-sided p-value of the hypothesis that the differences are symmetric around 0. It is exact up to
-/// [`MOST_EXACT`] differences that are not 0. Beyond, it uses the normal approximation with corrections for ties and
-/// for continuity (Hollander, Wolfe and Chicken, Nonparametric Statistical Methods, 2014, section 3.1). It is 1 if
-/// all differences are 0.
+/// Returns the two-sided p-value of Wilcoxon's test of the hypothesis that the differences are symmetric around 0. It
+/// is exact up to [`MOST_EXACT`] differences that are not 0. Beyond, it uses the normal approximation with corrections
+/// for ties and for continuity (Hollander, Wolfe and Chicken, Nonparametric Statistical Methods, 2014, section 3.1). It
+/// is 1 if all differences are 0.
 pub fn signed_rank_p(differences: &[f64]) -> f64 {
     let mut different: Vec<f64> = differences.iter().copied().filter(|difference| *difference != 0.0).collect();
     different.sort_by(|a, b| a.abs().total_cmp(&b.abs()));

@@ -5,12 +5,12 @@
 //! small. The estimator of Kaplan and Meier uses what is known about them (Nonparametric estimation from incomplete
 //! observations, JASA 53, 1958).
 
-/// A time to an event, or a censored time.
+/// The time to an event, or a censored time, after which the case was no longer observed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lifetime {
-    /// The time that was waited.
+    /// The time to the event, or the time after which the case was no longer observed.
     pub time: f64,
-    /// `true` if the event happened at this time; `false` if it would have happened later, or never.
+    /// `true` if the event happened at this time; `false` if the event would have happened later, or never.
     pub happened: bool,
 }
 
@@ -18,12 +18,13 @@ pub struct Lifetime {
 /// function that begins at 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survival {
-    /// The times at which the curve falls, in ascending order, each with the share from then on.
+    /// The times at which the curve falls, in ascending order, each with the value of the curve from this time on.
     pub steps: Vec<(f64, f64)>,
 }
 
 impl Survival {
-    /// Estimates the curve from lifetimes. If an event and a censoring have the same time, the event comes first.
+    /// Estimates the survival curve from the times of cases with and without an event. If an event and a censoring have
+    /// the same time, the event comes first.
     pub fn of(lifetimes: &[Lifetime]) -> Self {
         let mut sorted = lifetimes.to_vec();
         sorted.sort_by(|a, b| a.time.total_cmp(&b.time));

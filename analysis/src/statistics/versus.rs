@@ -3,31 +3,32 @@
 use super::{bootstrap_interval, holm, median_and_quartiles, quantile, signed_rank_p, vargha_delaney};
 use serde::Serialize;
 
-/// A comparison of values with those of a baseline. Each value has a partner in the baseline that was made with the
-/// same seed.
+/// A comparison of values with the values of a baseline. Each value has a partner in the baseline that was made with
+/// the same seed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Versus {
-    /// The factor by which the values are larger than the baseline's.
+    /// The factor by which the values are larger than the values of the baseline.
     pub ratio: f64,
-    /// The 95 % bootstrap interval of the factor, over the pairs.
+    /// The 95 % bootstrap interval of the factor by which the values are larger than the baseline's values.
     pub interval: [f64; 2],
     /// The probability that a value is better than a value of the baseline (Vargha and Delaney's A12).
     pub better: f64,
     /// The p-value of Wilcoxon's signed-rank test of the differences of the pairs, two-sided.
     pub p: f64,
-    /// The p-value after Holm's correction for all comparisons that belong together.
+    /// The p-value after Holm's correction for all comparisons of the same family.
     pub p_holm: f64,
 }
 
 impl Versus {
-    /// Compares by the median of the ratios of the pairs. The p-value is not corrected yet.
+    /// Compares values with the values of a baseline by the median of the ratios of the pairs. The p-value is not
+    /// corrected yet.
     pub fn of_medians(values: &[f64], base: &[f64]) -> Self {
         let ratios: Vec<f64> = values.iter().zip(base).map(|(value, base)| value / base).collect();
         let ratio = median_and_quartiles(&ratios).0;
         Self::of(values, base, ratio, bootstrap_interval(ratios.len(), |drawn| median_of(drawn, &ratios)))
     }
 
-    /// Compares by the ratio of the means. The p-value is not corrected yet.
+    /// Compares values with the values of a baseline by the ratio of the means. The p-value is not corrected yet.
     pub fn of_means(values: &[f64], base: &[f64]) -> Self {
         let all: Vec<usize> = (0..values.len()).collect();
         let sum = |drawn: &[usize], of: &[f64]| drawn.iter().map(|&index| of[index]).sum::<f64>();
@@ -41,7 +42,7 @@ impl Versus {
     }
 }
 
-/// Corrects the p-values of comparisons that belong together, by [`holm`].
+/// Corrects the p-values of all comparisons of a family by [`holm`].
 pub fn correct<'a>(compared: impl Iterator<Item = &'a mut Versus>) {
     let mut compared: Vec<&mut Versus> = compared.collect();
     let p: Vec<f64> = compared.iter().map(|versus| versus.p).collect();
@@ -50,7 +51,7 @@ pub fn correct<'a>(compared: impl Iterator<Item = &'a mut Versus>) {
     }
 }
 
-/// Returns the median of the values at these indices.
+/// Returns the median of the values at the given indices.
 pub fn median_of(indices: &[usize], values: &[f64]) -> f64 {
     let mut drawn: Vec<f64> = indices.iter().map(|&i| values[i]).collect();
     drawn.sort_unstable_by(f64::total_cmp);

@@ -30,17 +30,17 @@ pub struct Unexplained {
     pub why: Conclusion,
 }
 
-/// The guilty combinations of a campaign, as far as they were found.
+/// The combinations of discrete values that further tests found guilty of the failures of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LocatedReport {
-    /// The greatest number of further tests that were allowed.
+    /// The greatest number of further tests that the search was allowed to run.
     pub limit: usize,
     /// The number of further tests that were run.
     pub ran: usize,
-    /// The searches for guilty combinations, in the order in which they ended. Each search began with a failing trial
-    /// without any values that were found guilty before.
+    /// The searches for guilty combinations, in the order in which the searches ended. Each search began with a failing
+    /// trial without any values that were found guilty before.
     pub locations: Vec<Location>,
-    /// The failing trials without a guilty combination.
+    /// The failing trials for which no guilty combination was found.
     pub unexplained: Vec<Unexplained>,
 }
 
@@ -49,8 +49,9 @@ impl JsonArtefact for LocatedReport {
 }
 
 impl LocatedReport {
-    /// Locates the guilty combinations of the failing trials. `run` runs a test; it is called at most `limit` times.
-    /// The result is `None` if there are no discrete parameters, no failing tests or no passing tests.
+    /// Locates the guilty combinations of discrete values in the failing trials of a campaign, by further tests. `run`
+    /// runs a test; it is called at most `limit` times. The result is `None` if there are no discrete parameters, no
+    /// failing tests or no passing tests.
     ///
     /// # Errors
     /// A trial does not fit into the study's space, its constraints cannot be satisfied, or `run` returned an error.

@@ -28,29 +28,29 @@ const USUAL_SIZE: usize = 3;
 /// seconds.
 const MOST_LOOKED_AT: f64 = 1e8;
 
-/// A suspect, which is a combination of values that only failing tests have, and has no smaller part like this.
+/// A suspect, which is a smallest combination of values that only failing tests have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NamedSuspect {
-    /// The values of the combination.
+    /// The discrete values of the suspect combination.
     pub values: Values,
-    /// The number of tests that have the values. All of them failed.
+    /// The number of tests that have all values of the combination. All these tests failed.
     pub failures: usize,
-    /// The suspicion against the values on their own, from 0 to 1.
+    /// The average suspicion against the single values of the combination, from 0 to 1.
     pub suspicion: f64,
 }
 
 /// The suspects of a campaign, which are combinations of discrete values that only failing tests have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SuspectReport {
-    /// The greatest number of values in a combination. It is three, or the strength that the tests were made for if
-    /// that is greater; fewer if there are too many combinations to examine.
+    /// The greatest number of values in an examined combination. It is three, or the strength that the tests were made
+    /// for if that is greater; fewer if there are too many combinations to examine.
     pub size: usize,
-    /// The number of suspects.
+    /// The number of suspects that were found.
     pub found: u64,
-    /// The first suspects, 20 at most. The smallest come first, and among equally small suspects those that explain
-    /// most failures.
+    /// The suspects with the highest ranks, 20 at most. The smallest come first, and among equally small suspects those
+    /// that explain most failures.
     pub ranked: Vec<NamedSuspect>,
-    /// A few suspects that together explain all failures but the unexplained ones.
+    /// A few suspects that together explain all failures except the unexplained failures.
     pub explanation: Vec<NamedSuspect>,
     /// The indices of the failing trials without a suspect combination.
     pub unexplained: Vec<usize>,

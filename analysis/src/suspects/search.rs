@@ -18,14 +18,14 @@ const MOST_RESTARTS: usize = 5;
 /// The number of passing tests into which located values are put if they do not explain all failures.
 const CONFIRMATIONS: usize = 2;
 
-/// (parameter, level) pairs.
+/// A list of (parameter, level) pairs.
 pub(super) type Pairs = Vec<(usize, usize)>;
 
 /// A reason why a search ends early.
 enum Stop {
-    /// A test could not be run.
+    /// A test of the search could not be run.
     Failed(Error),
-    /// There is nothing more to find.
+    /// The search ended with a conclusion.
     Ended(Conclusion),
 }
 
@@ -80,7 +80,7 @@ impl<'e, R> LocationSearch<'e, R> {
         self.ran
     }
 
-    /// Keeps guilty combinations, which no passing test has, out of further tests.
+    /// Forbids further tests to have guilty combinations, which no passing test has.
     pub fn forbid<'p>(&mut self, guilty: impl Iterator<Item = &'p Pairs>) {
         let levels = self.evidence.rules.levels();
         let literal = |&(parameter, level): &(usize, usize)| {
@@ -93,7 +93,7 @@ impl<'e, R> LocationSearch<'e, R> {
         self.rules = Rules::new(levels, &constraints).expect("passing tests keep all of them");
     }
 
-    /// Returns the conclusion that passing tests with these values refute them, if there are such tests.
+    /// Returns the conclusion that passing tests refute the given values; `None` if no passing test has the values.
     pub fn refuted(&self, values: &[(usize, usize)]) -> Option<Conclusion> {
         let passed: Vec<usize> = self.having(values, false).collect();
         let trials = self.trials(&passed);

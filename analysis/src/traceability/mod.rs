@@ -19,26 +19,26 @@ use paracosm_space::Values;
 use serde::Serialize;
 use std::fmt;
 
-/// The results of a campaign for each requirement, and what its tests leave untested.
+/// The results of a campaign for each requirement, with a list of untested requirements and values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Traceability {
-    /// The number of tests.
+    /// The number of all tests of the campaign.
     pub tests: usize,
-    /// The indices of the tests, in order.
+    /// The indices of the tests, in the order of the log.
     pub indices: Vec<usize>,
     /// The number of tests that broke or could not be built.
     pub broken: usize,
-    /// The requirements in the order in which the study states them, then the requirements that only the system
+    /// The requirements in the order of the study, each with its results, then the requirements that only the system
     /// knows.
     pub requirements: Vec<Traced>,
     /// The values of each open parameter that no test has tried.
     pub parameters: Vec<Tried>,
-    /// The parameters with the same value in all tests.
+    /// The parameters that have the same value in all tests, with this value.
     pub fixed: Values,
     /// The part of the operational design domain that the tests are about, if the study states it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub odd: Option<Odd>,
-    /// The list of what is untested.
+    /// The list of untested requirements, parameters and attributes of the design domain, with reasons.
     pub untested: Vec<Gap>,
 }
 
@@ -54,7 +54,8 @@ pub enum Became {
     Undecided,
     /// The requirement holds, but the test never came to the situation that the requirement is about.
     NotReached,
-    /// The requirement was not judged, because the test broke, could not be built, or said nothing about it.
+    /// The requirement was not judged, because the test broke, could not be built, or gave no result for the
+    /// requirement.
     NotJudged,
 }
 
@@ -70,18 +71,18 @@ impl fmt::Display for Became {
     }
 }
 
-/// A requirement with its results.
+/// A requirement with its results in the tests of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Traced {
-    /// The short name of the requirement.
+    /// The short name that identifies the requirement.
     pub id: String,
-    /// The requirement as one sentence; empty if only the system knows it.
+    /// The text of the requirement as one sentence; empty if only the system knows the requirement.
     pub text: String,
-    /// The source of the requirement.
+    /// The source of the requirement, for example a regulation or a hazard; `None` if the source is not stated.
     pub source: Option<String>,
-    /// The severity of a violation.
+    /// The severity of a violation of the requirement; `None` if the severity is not stated.
     pub severity: Option<String>,
-    /// The formula of the requirement; empty if it is not known here.
+    /// The formula of the requirement; empty if the formula is not known.
     pub formula: String,
     /// The unit of the requirement's robustness.
     pub unit: String,
@@ -91,7 +92,7 @@ pub struct Traced {
     pub failed: usize,
     /// The number of tests in which the requirement is undecided.
     pub undecided: usize,
-    /// The number of tests in which the requirement holds but was not reached.
+    /// The number of tests in which the requirement holds, but its situation never occurred.
     pub not_reached: usize,
     worst: Option<Least>,
     /// The indices of the tests that violate the requirement.
@@ -107,12 +108,12 @@ struct Least {
     robustness: Number,
 }
 
-/// Something that is untested, with the reason why.
+/// An untested requirement, parameter or attribute of the design domain, with the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Gap {
-    /// The name of a requirement, a parameter, or an attribute of the design domain.
+    /// The name of the untested requirement, parameter or attribute of the design domain.
     pub what: String,
-    /// The reason why it counts as untested.
+    /// The reason why the requirement, parameter or attribute counts as untested.
     pub why: String,
 }
 

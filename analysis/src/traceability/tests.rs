@@ -64,9 +64,9 @@ fn tenths_and_levels_without_a_test_are_named_and_broken_tests_try_nothing() {
     let said: Vec<String> = traceability.untested.iter().map(|gap| format!("{}: {}", gap.what, gap.why)).collect();
     let expected = [
         "b: the requirement was undecided in every test",
-        "x: nothing from 6 to 8 m",
-        "x: nothing from 14 to 18 m",
-        "lanes: never 4",
+        "x: no test from 6 to 8 m",
+        "x: no test from 14 to 18 m",
+        "lanes: no test with 4",
     ];
     assert_eq!(said, expected);
 }

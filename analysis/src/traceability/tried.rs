@@ -11,14 +11,14 @@ const PARTS: usize = 10;
 /// The untried values of a parameter, or of a coordinate of a signal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tried {
-    /// The name of the coordinate.
+    /// The name of the parameter, or of the coordinate of a signal.
     pub name: String,
-    /// The unit of the coordinate's values.
+    /// The unit of the parameter's values.
     pub unit: Option<String>,
-    /// The parts of an interval without a test, in whole tenths of it.
+    /// The parts of a continuous parameter's interval without a test, in whole tenths of the interval.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<[f64; 2]>,
-    /// The levels of a choice without a test.
+    /// The levels of a discrete parameter that no test has.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub levels: Vec<Value>,
 }

@@ -10,16 +10,16 @@ use serde_json::error::Category;
 use std::fmt;
 use thiserror::Error;
 
-/// The answer to a test.
+/// The answer of an external system to a test.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
-    /// The trace of the test, to its end.
+    /// The complete trace of the test.
     Trace(Trace),
-    /// The robustness of the requirements, with their ids.
+    /// The id and the robustness of each requirement.
     Robustness(Vec<(String, f64)>),
-    /// The system could not do the test.
+    /// The system could not run the test.
     NotDone {
-        /// The reason that the system gives.
+        /// The reason why the system could not run the test.
         why: String,
     },
 }
@@ -46,40 +46,40 @@ struct Line {
 #[derive(Clone, Copy)]
 struct Sample(f64);
 
-/// The reason why a line is not the answer to a test.
+/// The reason why a line of an external system's output is not a valid answer to a test.
 #[derive(Debug, Error)]
 pub enum AnswerFlaw {
-    /// The line is not JSON, or is JSON of another form.
+    /// The line is not JSON, or the JSON does not have the form of an answer.
     #[error("found `{found}` in column {column} ({}), expected {EXPECTED}", words(.source))]
     NoAnswer {
-        /// The text that was found.
+        /// The first characters of the invalid text, at most 40.
         found: String,
-        /// The place of the text, in bytes from 1.
+        /// The position of the error in the line, in bytes from 1.
         column: usize,
-        /// The error of the JSON reader.
+        /// The error that the JSON parser reported.
         source: serde_json::Error,
     },
-    /// The line is the answer to another test.
+    /// The index in the answer differs from the index of the test.
     #[error("found the answer to test {found}, expected the answer to test {expected}")]
     Index {
-        /// The index of the test in the answer.
+        /// The index in the answer.
         found: usize,
-        /// The index of the test that was asked.
+        /// The index of the test that the system was asked to run.
         expected: usize,
     },
-    /// The answer has only an index.
+    /// The answer has an index, but no trace, no robustness and no error.
     #[error("found only an index, expected {EXPECTED}")]
     Empty,
-    /// The answer has several results.
+    /// The answer has more than one of the entries `trace`, `robustness` and `error`.
     #[error("found several of `trace`, `robustness` and `error`, expected exactly one of these three")]
     Several,
-    /// A robustness is not a number.
+    /// The robustness of a requirement is not a number.
     #[error("the robustness of `{requirement}` is not a number")]
     Robustness {
-        /// The id of the requirement.
+        /// The id of the requirement whose robustness is not a number.
         requirement: String,
     },
-    /// The answer has the robustness of no requirement.
+    /// The answer contains an empty list of robustness values.
     #[error("`robustness` is empty, expected the robustness of at least one requirement")]
     NoRobustness,
     /// The trace of the answer is invalid.
@@ -88,7 +88,7 @@ pub enum AnswerFlaw {
 }
 
 impl Answer {
-    /// Reads the answer to the test with this index.
+    /// Reads the answer of an external system to the test with the given index.
     ///
     /// # Errors
     /// The line is not a valid answer to this test.
@@ -294,18 +294,18 @@ mod tests {
         let infinite = Answer::read(r#"{"index":3,"robustness":{"a":-Infinity,"b":Infinity}}"#, 3).unwrap();
         let expected = [("a".to_owned(), f64::NEG_INFINITY), ("b".to_owned(), f64::INFINITY)];
         assert!(matches!(infinite, Answer::Robustness(all) if all == expected));
-        refuses(r#"{"index":3,"robustness":{"a":NaN}}"#, "the robustness of `a` is no number");
+        refuses(r#"{"index":3,"robustness":{"a":NaN}}"#, "the robustness of `a` is not a number");
         refuses(r#"{"index":3,"robustness":{"a":"NaN"}}"#, "expected a number");
         refuses(r#"{"trace":{"time":[0,1],"a":[0,1]}}"#, "missing field `index`");
         refuses(r#"{"index":3,"robustnes":{"a":1}}"#, "unknown field `robustnes`, expected one of");
         refuses(r#"{"index":3}"#, "found only an index");
         refuses(r#"{"index":3,"error":"x","robustness":{"a":1}}"#, "several");
         refuses(r#"{"index":3.5,"error":"x"}"#, "invalid type");
-        refuses(r#"{"index":4,"error":"x"}"#, "found the answer to test 4, expected that to test 3");
+        refuses(r#"{"index":4,"error":"x"}"#, "found the answer to test 4, expected the answer to test 3");
         refuses(r#"[1,2]"#, "expected an answer as JSON");
-        refuses(r#"{"index":3,"robustness":{}}"#, "robustness of nothing");
-        refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is no number");
-        refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "`a` has two values");
+        refuses(r#"{"index":3,"robustness":{}}"#, "`robustness` is empty");
+        refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is not a number");
+        refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "found `a` twice, expected one value per name");
     }
 
     #[test]
@@ -313,15 +313,15 @@ mod tests {
         let trace = |columns: &str| format!(r#"{{"index":3,"trace":{{{columns}}}}}"#);
         refuses(&trace(r#""a":[0,1]"#), "found a, expected `time` among them");
         refuses(&trace(r#""time":[0,1]"#), "found no signal beside `time`");
-        refuses(&trace(r#""time":[],"a":[]"#), "found 0 samples, expected two");
-        refuses(&trace(r#""time":[0],"a":[1]"#), "found 1 samples, expected two");
+        refuses(&trace(r#""time":[],"a":[]"#), "found 0 samples, expected at least 2");
+        refuses(&trace(r#""time":[0],"a":[1]"#), "found 1 sample, expected at least 2");
         refuses(&trace(r#""time":[0,1],"a":[1,2,3]"#), "`a` has 3 samples, expected 2");
         let nothing = "has no finite value (NaN, infinity or null) at sample 1";
         refuses(&trace(r#""time":[0,0.5],"a":[1,null]"#), &format!("`a` {nothing}, 0.5 s"));
         refuses(&trace(r#""time":[0,0.5],"NaN":[1,NaN]"#), &format!("`NaN` {nothing}, 0.5 s"));
         refuses(&trace(r#""time":[0,0.5],"a":[1,-Infinity]"#), &format!("`a` {nothing}, 0.5 s"));
         refuses(&trace(r#""time":[0,Infinity],"a":[1,2]"#), &format!("`time` {nothing}"));
-        refuses(&trace(r#""time":[0,1],"a":[1,"x"]"#), "expected a number or a truth");
+        refuses(&trace(r#""time":[0,1],"a":[1,"x"]"#), "expected a number, true or false");
         refuses(&trace(r#""time":[1,2],"a":[1,2]"#), "begins at 1 s, expected 0 s");
         refuses(&trace(r#""time":[0,1,1],"a":[1,2,3]"#), "from 1 to 1 at sample 2");
         refuses(&trace(r#""time":[0,1,3],"a":[1,2,3]"#), "not evenly spaced: sample 1 is at 1 s, expected 1.5 s");

@@ -34,13 +34,13 @@ enum Noise {
     NoText,
 }
 
-/// A system cannot be started.
+/// The error that an external system cannot be started.
 #[derive(Debug, Error)]
 #[error("cannot start the system `{program}`: {source}")]
 pub struct NotStarted {
-    /// The name of the program.
+    /// The name of the program that cannot be started.
     pub program: String,
-    /// The error of the operating system.
+    /// The error that the operating system reported.
     pub source: io::Error,
 }
 
@@ -55,7 +55,8 @@ pub(super) struct Process {
 }
 
 impl Process {
-    /// Starts the command of these words, of which there is at least one.
+    /// Starts the process of a command, which is a list of words that begins with the program. The list must not be
+    /// empty.
     pub fn start(words: &[String]) -> Result<Self, NotStarted> {
         let started = process::Process::start(words, &[]);
         let mut process = started.map_err(|source| NotStarted { program: words[0].clone(), source })?;
@@ -73,8 +74,8 @@ impl Process {
         self.answered
     }
 
-    /// Sends a question and returns the line of the answer, or the reason why there is none. Stops waiting once `stop`
-    /// is set.
+    /// Sends a question to the process and returns the line of the answer, or the reason why the answer is missing.
+    /// Stops waiting once `stop` is set.
     pub fn ask(&mut self, question: &[u8], timeout: Duration, stop: &AtomicBool) -> Result<String, Problem> {
         let asked = Instant::now();
         // The thread that writes ends with the process, which is noticed below.
@@ -126,7 +127,7 @@ impl Process {
         Problem::new(ProblemKind::Process, self.process.post_mortem(how))
     }
 
-    /// Ends the process and everything that it started, at once.
+    /// Kills the process and all processes that it started.
     pub fn kill(mut self) {
         self.process.end();
     }

@@ -26,10 +26,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use thiserror::Error;
 
-/// An external system, given by the command that starts it.
+/// An external system under test, which a command starts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BlackBox {
-    /// The command, whose words are separated and quoted as in a shell.
+    /// The command that starts the system, with words separated and quoted as in a shell.
     #[serde(rename = "system")]
     pub command: String,
     /// The time that the system may take to answer, in seconds.
@@ -42,7 +42,7 @@ const TIMEOUT: f64 = 60.0;
 /// The longest time-out in seconds: a year.
 const LONGEST_TIMEOUT: f64 = 366.0 * 86400.0;
 
-/// Returns a time-out in seconds, the default for `None`.
+/// Returns the given time-out in seconds after a check, or the default time-out of 60 s for `None`.
 ///
 /// # Errors
 /// The time-out is not a positive number of seconds, or is longer than a year.
@@ -51,19 +51,19 @@ pub fn checked_timeout(timeout: Option<f64>) -> Result<f64, TimeoutFlaw> {
     if seconds > 0.0 && seconds <= LONGEST_TIMEOUT { Ok(seconds) } else { Err(TimeoutFlaw { seconds }) }
 }
 
-/// The time-out is out of range.
+/// The error that a time-out is out of range.
 #[derive(Debug, Error)]
 #[error("the time-out is {seconds} s, expected more than 0 s and at most a year")]
 pub struct TimeoutFlaw {
-    /// The time-out that was given.
+    /// The given time-out, in seconds.
     pub seconds: f64,
 }
 
-/// A command cannot start a system.
+/// The error that the command of an external system is invalid.
 #[derive(Debug, Error)]
 #[error("--system '{command}': {flaw}")]
 pub struct NoSystem {
-    /// The command.
+    /// The invalid command.
     pub command: String,
     /// The error in the command.
     pub flaw: CommandFlaw,
@@ -73,7 +73,7 @@ impl Reason for TimeoutFlaw {}
 impl Reason for NoSystem {}
 
 impl BlackBox {
-    /// Makes the system that this command starts; its time-out for an answer is in seconds, by default 60.
+    /// Makes an external system that the given command starts, with a time-out per answer in seconds (60 by default).
     ///
     /// # Errors
     /// The command is empty or has a quote without an end; or the time-out is not positive or longer than a year.
@@ -88,7 +88,7 @@ impl BlackBox {
     }
 }
 
-/// A connection to a system in a process of its own.
+/// A connection to an external system, which runs in a separate process.
 pub struct Connection {
     words: Vec<String>,
     timeout: Duration,
@@ -97,7 +97,7 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// Makes a connection that no longer waits for answers once `stop` is set.
+    /// Makes a connection to an external system; the connection stops waiting for answers once `stop` is set.
     ///
     /// # Errors
     /// The system was read from a file, and its command or its time-out is invalid.
@@ -107,7 +107,7 @@ impl Connection {
         Ok(Self { words: system.words()?, timeout, process: None, stop })
     }
 
-    /// Starts the process.
+    /// Starts the process of the external system, if the process does not run yet.
     ///
     /// # Errors
     /// The process cannot be started, for example because the program does not exist.
@@ -118,7 +118,7 @@ impl Connection {
         Ok(())
     }
 
-    /// Returns the answer to a test, or the problem if there is none.
+    /// Sends a test to the system and returns the answer, or the problem if the answer is missing or invalid.
     pub fn ask(&mut self, index: usize, test: &Values) -> Result<Answer, Problem> {
         let mut question = serde_json::to_vec(&Question { index, test }).expect("a test is always JSON");
         question.push(b'\n');

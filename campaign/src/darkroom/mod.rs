@@ -15,7 +15,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
 
-/// Draws images for the drivers of a campaign, on any number of threads.
+/// A service that draws the camera images for the drivers of a campaign and that many threads share.
 ///
 /// A thread that wants images leaves an order and waits for the developer. The first thread that gets the developer
 /// draws all orders that were left by then. The more threads there are, the more images are drawn at once.
@@ -34,13 +34,13 @@ struct Order {
     reply: Sender<Vec<Result<Frame, Undrawn>>>,
 }
 
-/// The driver uses cameras, but no images can be drawn for it.
+/// The error that a driver uses cameras, but no images can be drawn for the driver.
 #[derive(Debug, Error)]
 pub enum Blind {
     /// A camera of the driver is invalid.
     #[error("the driver sees through cameras: {0}")]
     Camera(NoCamera),
-    /// The machine has nothing to draw with.
+    /// The machine has no usable graphics adapter.
     #[error("the driver sees through cameras, but {0}")]
     Nothing(RenderError),
 }
@@ -51,19 +51,19 @@ impl Reason for NoCamera {}
 /// The reason why a driver did not get the images of its cameras.
 #[derive(Debug, Clone, Error)]
 pub enum NoImage {
-    /// The machine has nothing to draw with.
+    /// The darkroom could not be opened.
     #[error("{0}")]
     Closed(Arc<Error>),
-    /// A camera is invalid.
+    /// A camera of the driver is invalid.
     #[error(transparent)]
     Camera(#[from] NoCamera),
-    /// A model cannot be shown.
+    /// A 3D model that replaces an actor in images cannot be used.
     #[error(transparent)]
     Model(#[from] Arc<ModelFlaw>),
     /// An image cannot be drawn.
     #[error("camera `{camera}`, image {number}: {why}")]
     Undrawn {
-        /// The name of the camera.
+        /// The name of the camera whose image was not drawn.
         camera: String,
         /// The number of the image among the images of the camera.
         number: u64,
@@ -73,7 +73,7 @@ pub enum NoImage {
 }
 
 impl Darkroom {
-    /// Opens a darkroom for the cameras of a driver, in which actors have these appearances.
+    /// Opens a darkroom for the cameras of a driver, with the given appearances of actors.
     ///
     /// # Errors
     /// The machine has nothing to draw with, or a camera is invalid.
@@ -85,8 +85,8 @@ impl Darkroom {
         Ok(Self { orders: Mutex::default(), developer, stages, appearances })
     }
 
-    /// Returns the images that have arrived at the drivers of these runs. An image that cannot be drawn is an error of
-    /// its run alone.
+    /// Draws and returns the camera images that have arrived at the drivers of the given runs. An image that cannot be
+    /// drawn is an error of its run alone.
     pub fn develop(&self, runs: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
         let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, self)).collect();
         let colours = WantedImages { rgb: true, ..WantedImages::default() };
@@ -115,7 +115,7 @@ impl Darkroom {
 
 #[cfg(test)]
 impl Darkroom {
-    /// Loses the device of the darkroom; `open` makes the next one.
+    /// Makes the darkroom lose its graphics device; `open` then makes a new renderer.
     pub fn lose(&self, open: fn() -> Result<paracosm_render::Renderer, RenderError>) {
         self.developer.lock().unwrap_or_else(PoisonError::into_inner).lose(open);
     }

@@ -7,34 +7,34 @@ use paracosm_engine::sensor::{Cameras, Image};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A darkroom that cannot exist.
+/// An empty type that replaces the darkroom in a program that was built without the renderer.
 pub enum Darkroom {}
 
 /// The reason why a driver did not get the images of its cameras.
 #[derive(Debug, Clone, Error)]
 pub enum NoImage {
-    /// The program has nothing to draw with.
+    /// The darkroom could not be opened.
     #[error("{0}")]
     Closed(Arc<Error>),
 }
 
-/// The driver uses cameras, but the program cannot draw images.
+/// The error that a driver uses cameras, but the program was built without the renderer.
 #[derive(Debug, Error)]
 #[error("the driver sees through cameras ({}), and {WithoutCameras}", cameras.join(", "))]
 pub struct Blind {
-    /// The names of the cameras.
+    /// The names of the driver's cameras.
     pub cameras: Vec<String>,
 }
 
 impl Reason for Blind {}
 
 impl Darkroom {
-    /// Returns the error that this program cannot draw images.
+    /// Returns the error that the program was built without the renderer.
     pub fn open(cameras: &Cameras, _: &Appearances) -> Result<Self, Error> {
         Err(Error::unavailable(Blind { cameras: cameras.all.keys().cloned().collect() }))
     }
 
-    /// Returns no images, since there is no darkroom.
+    /// Returns no images, because a program without the renderer has no darkroom.
     pub fn develop(&self, _: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
         match *self {}
     }

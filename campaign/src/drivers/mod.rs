@@ -20,7 +20,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// The drivers of a worker.
+/// A source of drivers for the tests of a worker, which keeps idle drivers for further tests.
 pub struct Drivers<'a> {
     source: Source<'a>,
     /// True if the drivers run in an external process.
@@ -32,7 +32,7 @@ pub struct Drivers<'a> {
 
 /// The source of new drivers.
 enum Source<'a> {
-    /// A function makes each driver here, or asks for it at an address.
+    /// A function that makes each driver in this process, or asks for a driver at an address.
     Made(Box<Make<'a>>),
     Process(Box<Launcher>),
 }
@@ -40,7 +40,7 @@ enum Source<'a> {
 /// A function that makes a driver.
 type Make<'a> = dyn Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a;
 
-/// The reason why there is no driver for a test.
+/// The reason why no driver is available for a test.
 #[derive(Debug, Error)]
 pub enum NoDriver {
     /// The driver cannot be made.
@@ -59,7 +59,7 @@ pub enum DriverAway {
     Server {
         /// The address of the server.
         address: Address,
-        /// The error of the connection.
+        /// The error of the connection to the server.
         source: OpenError,
     },
     /// The command does not start a driver.
@@ -67,7 +67,7 @@ pub enum DriverAway {
     Command {
         /// The command that should start the driver.
         command: String,
-        /// The problem with the process.
+        /// The problem with the process of the command.
         problem: Problem,
     },
 }
@@ -107,8 +107,8 @@ impl Problem {
 }
 
 impl<'a> Drivers<'a> {
-    /// Makes the source of the chosen drivers. Only a driver of the engine is made at once, as a check. Once `stop` is
-    /// set, nobody waits for external drivers.
+    /// Makes a source of drivers of the given choice. A first driver of this process is made at once, as a check;
+    /// external drivers are not. Once `stop` is set, nobody waits for external drivers.
     ///
     /// # Errors
     /// The choice was read from a file, and the driver or a setting of it does not exist.
@@ -133,7 +133,7 @@ impl<'a> Drivers<'a> {
         Ok(Self { source, external: true, idle: Vec::new(), stop })
     }
 
-    /// Makes a source of drivers that run in this process.
+    /// Makes a source of drivers that the given function makes in this process.
     pub fn made_by(make: impl Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a) -> Self {
         Self { source: Source::Made(Box::new(make)), external: false, idle: Vec::new(), stop: Arc::default() }
     }
@@ -143,7 +143,7 @@ impl<'a> Drivers<'a> {
         !self.idle.is_empty()
     }
 
-    /// Returns an idle driver, or a new one.
+    /// Returns an idle driver, or a new driver if no driver is idle.
     ///
     /// # Errors
     /// No driver can be made, for example because nobody listens at its address.
@@ -160,15 +160,14 @@ impl<'a> Drivers<'a> {
         self.idle.extend(driver);
     }
 
-    /// Drops the idle drivers if tests that they have run before could make a difference.
+    /// Drops the idle drivers if earlier tests could influence the answers of the drivers.
     pub fn renew(&mut self) {
         if self.external {
             self.idle.clear();
         }
     }
 
-    /// Returns `true` if a test that broke may run again, because something other than the test may have caused the
-    /// error.
+    /// Returns `true` if a test that ended in an error may run again with a new driver.
     pub fn gives_another_chance(&self) -> bool {
         self.external && !self.stop.load(Ordering::Relaxed)
     }

@@ -49,7 +49,7 @@ impl Launcher {
         Self { words, terms, latency, stop, running: None }
     }
 
-    /// Returns a driver of the process, which is started if it does not run.
+    /// Returns a driver in the external process, and starts the process if necessary.
     ///
     /// # Errors
     /// The process cannot be started, ends, does not listen, or does not offer a driver.

@@ -22,7 +22,7 @@ use std::slice;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A scenario with its drivers, and the darkroom that draws images for them.
+/// A simulator of a scenario, with drivers and with a darkroom that draws the camera images for the drivers.
 pub struct Simulator<'a> {
     program: Program,
     model: VehicleModel,
@@ -57,7 +57,7 @@ impl<'a> Simulator<'a> {
         Ride::begin(place, &self.program, test, self.model, self.drivers.hire())
     }
 
-    /// Prepares a driver, and a darkroom if the driver uses cameras.
+    /// Prepares a driver, and opens a darkroom if the driver uses cameras.
     ///
     /// # Errors
     /// No driver can be made, or the driver uses cameras and there is no way to draw images.
@@ -66,7 +66,7 @@ impl<'a> Simulator<'a> {
         if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
     }
 
-    /// Returns the cameras of the drivers, if they have any.
+    /// Returns the cameras of the drivers; the result is empty if the drivers use no cameras.
     ///
     /// # Errors
     /// No driver can be made.
@@ -77,12 +77,12 @@ impl<'a> Simulator<'a> {
         Ok(cameras)
     }
 
-    /// Returns the darkroom that draws for the drivers, if they use cameras.
+    /// Returns the darkroom that draws the camera images for the drivers; `None` if no darkroom is open.
     pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
         self.darkroom.as_ref()
     }
 
-    /// Runs a test.
+    /// Runs a test, and returns the outcome.
     pub fn run(&mut self, test: Test<'_>) -> Result<Outcome, Problem> {
         let has_past = self.drivers.any_idle();
         let outcome = self.ride(test, None, |_| ());
@@ -90,7 +90,8 @@ impl<'a> Simulator<'a> {
         if is_doubtful { self.watch(test, None, |_| ()) } else { outcome }
     }
 
-    /// Runs a test and films it with these cameras. `see` gets the run whenever the driver is asked, and at the end.
+    /// Runs a test while the given cameras film the run. `see` gets the run whenever the driver is asked, and at the
+    /// end.
     pub fn watch(&mut self, test: Test<'_>, film: Option<Shutters>, see: impl FnMut(&Run)) -> Result<Outcome, Problem> {
         // If the test had to be run again, `see` would get it twice.
         self.drivers.renew();
@@ -111,8 +112,8 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Runs the tests that the desk gives out, at most `at_once` at a time, until `stopped`. `tests` returns the test
-    /// with an index, and `judged` makes a result of its outcome.
+    /// Runs the tests that `desk` gives out, at most `at_once` tests at a time, until `stopped` returns `true`. `tests`
+    /// returns the test with an index, and `judged` makes a result of its outcome.
     pub fn run_in_lockstep<T>(
         &mut self,
         desk: &Desk<T>,

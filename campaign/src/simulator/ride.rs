@@ -11,7 +11,7 @@ use paracosm_oracles::Verdict;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The index of a test, and the result of the test.
+/// The index and the result of a test that is over.
 pub type TestEnd = (usize, Result<Outcome, Problem>);
 
 /// A test that is being run. A panic of the run or of its driver ends this test alone.
@@ -52,15 +52,15 @@ impl Ride {
         ride
     }
 
-    /// Films the run with these cameras.
+    /// Makes the given cameras film the run.
     pub fn film(&mut self, cameras: Shutters) {
         if let Some(run) = &mut self.run {
             run.film(cameras);
         }
     }
 
-    /// Continues until the driver waits for images or the test is over. `see` gets the run whenever the driver is
-    /// asked, and at the end.
+    /// Continues the run until the driver waits for images or the test is over. `see` gets the run whenever the driver
+    /// is asked, and at the end.
     pub fn go_on(&mut self, see: impl FnMut(&Run)) {
         if self.outcome.is_none() {
             let went = catch_unwind(AssertUnwindSafe(|| self.until_images(see)));
@@ -89,7 +89,7 @@ impl Ride {
         }
     }
 
-    /// Returns the run, if the test is not over.
+    /// Returns the run of the test; `None` if the test is over.
     pub fn run(&self) -> Option<&Run> {
         self.run.as_ref().filter(|_| self.outcome.is_none())
     }
@@ -99,7 +99,7 @@ impl Ride {
         self.outcome.is_some()
     }
 
-    /// Gives the driver the images that it waits for, or ends the test with the reason why there are none.
+    /// Gives the driver the images for which it waits, or ends the test with the reason why the images are missing.
     pub fn show(&mut self, images: Result<Vec<Image>, NoImage>) {
         match images {
             Ok(images) => self.images = images,
@@ -111,7 +111,7 @@ impl Ride {
         }
     }
 
-    /// Returns the result of the test with its index. Also returns the driver, unless the test broke and left it in an
+    /// Returns the index and the result of the test. Also returns the driver, unless the test broke and left it in an
     /// unknown state.
     pub fn end(self) -> (TestEnd, Option<Box<dyn Driver>>) {
         let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was abandoned before its end"));

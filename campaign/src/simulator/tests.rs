@@ -156,7 +156,7 @@ fn where_there_is_no_new_device_the_tests_under_way_are_errors_that_say_so_and_t
     assert!(broken.last().is_some_and(|trial| trial.index == 11), "{found:?}");
     for trial in broken {
         let error = trial.error().unwrap_or_default();
-        assert!(error.starts_with("the driver could not see at ") && error.contains("camera `front`"), "{error}");
+        assert!(error.starts_with("the driver got no images at ") && error.contains("camera `front`"), "{error}");
         assert!(error.contains("no graphics adapter was found (it was unplugged)"), "{error}");
     }
 }

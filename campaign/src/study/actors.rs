@@ -8,43 +8,43 @@ use paracosm_engine::{Run, Setup, Test};
 use paracosm_space::{Domain, Value, Values, did_you_mean, nearest};
 use thiserror::Error;
 
-/// The reason why an actor cannot be shown as a model.
+/// The reason why a 3D model cannot replace an actor in images.
 #[derive(Debug, Error)]
 pub enum AppearanceFlaw {
-    /// The scenario has no such actor.
+    /// The scenario has no actor with the given name.
     #[error(
         "--model {actor}={file}: `{scenario}` has no actor `{actor}`{}; it has {}", did_you_mean(.nearest), all.join(", ")
     )]
     NoActor {
-        /// The name of the actor.
+        /// The name that no actor has.
         actor: String,
-        /// The file of the model.
+        /// The path of the file with the 3D model.
         file: String,
         /// The name of the scenario.
         scenario: String,
-        /// The name of an actor that was perhaps meant.
+        /// The most similar name of an actor; `None` if no name is similar.
         nearest: Option<String>,
-        /// The names of all actors; of several actors with one name, only the first.
+        /// The names of all actors, with only the first actor of each numbered series.
         all: Vec<String>,
     },
-    /// The actor already has a model.
+    /// The actor already has a 3D model.
     #[error("--model {actor}={file}: the actor already has another model, {other}")]
     Twice {
         /// The name of the actor.
         actor: String,
-        /// The file of the new model.
+        /// The path of the file with the new 3D model.
         file: String,
-        /// The file of the model that the actor has.
+        /// The path of the file with the 3D model that the actor already has.
         other: String,
     },
-    /// The model cannot be used.
+    /// The 3D model cannot be used.
     #[error("--model {actor}={file}: {flaw}")]
     Model {
         /// The name of the actor.
         actor: String,
-        /// The file of the model.
+        /// The path of the file with the 3D model.
         file: String,
-        /// The flaw of the model.
+        /// The reason why the 3D model cannot be used.
         flaw: ModelFlaw,
     },
 }

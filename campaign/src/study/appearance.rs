@@ -15,7 +15,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// The models of actors, by the actors' names. Actors without an entry have their usual look.
+/// The 3D models that replace actors in images, by the names of the actors. Actors without an entry have their usual
+/// look.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Appearances(BTreeMap<String, Appearance>);
@@ -33,7 +34,7 @@ struct Appearance {
 }
 
 impl Appearances {
-    /// Returns `true` if all actors have their usual look.
+    /// Returns `true` if no 3D model replaces an actor.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -45,12 +46,12 @@ impl Appearances {
     }
 }
 
-/// The program was built without the renderer.
+/// The error that the program was built without the renderer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("this program draws nothing: it was built without the feature `camera`")]
 pub struct WithoutCameras;
 
-/// The reason why a file cannot be used as a model.
+/// The reason why a file cannot be used as the 3D model of an actor.
 #[cfg(not(feature = "camera"))]
 pub type ModelFlaw = WithoutCameras;
 

@@ -12,7 +12,8 @@ use paracosm_oracles::Semantics;
 use paracosm_space::{Distribution, Domain, Parameter, Space, Value};
 use std::path::{Path, PathBuf};
 
-/// Builds a study. The methods only note the choices; [`build`](Self::build) checks them.
+/// A builder of a study, which collects the choices for the study. The methods only note the choices;
+/// [`build`](Self::build) checks them.
 ///
 /// ```
 /// use paracosm_campaign::{Catalogue, Study};
@@ -89,7 +90,7 @@ impl StudyBuilder {
         }
     }
 
-    /// Sets the driver under test. The name is the name of a driver of `paracosm-fuzz list`, the address
+    /// Sets the driver under test by its name. The name is the name of a driver of `paracosm-fuzz list`, the address
     /// `grpc://HOST:PORT` of a server, or a network, which is `cnn` or a file whose name ends in `.onnx`.
     pub fn driver(mut self, name: &str) -> Self {
         self.driver = Some(Wish::Name(name.to_owned()));
@@ -103,15 +104,15 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets a driver of this program, which each worker makes for itself. Only this program can replay its tests.
+    /// Sets a function of this program that makes the driver under test. Only this program can replay its tests.
     pub fn own_driver(mut self, name: &str, make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static) -> Self {
         self.driver = Some(Wish::own(name, make));
         self
     }
 
-    /// Changes a setting of the driver. A driver in an external process gets all settings except two: `latency`, the
-    /// seconds from a question to the time when its answer takes effect, and `seed`, the seed of its randomness and of
-    /// its sensors' noise.
+    /// Changes a setting of the driver under test. A driver in an external process gets all settings except two:
+    /// `latency`, the seconds from a question to the time when its answer takes effect, and `seed`, the seed of its
+    /// randomness and of its sensors' noise.
     pub fn set_driver(mut self, setting: &str, value: f64) -> Self {
         self.driver_settings.push((setting.to_owned(), value));
         self
@@ -124,23 +125,24 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets the model that moves the car.
+    /// Sets the vehicle model that computes the motion of the ego vehicle.
     pub fn vehicle(mut self, model: VehicleModel) -> Self {
         self.vehicle = Some(model);
         self
     }
 
-    /// Lets the tests vary a parameter over its declared domain.
+    /// Lets the tests vary a parameter over the parameter's declared domain.
     pub fn open(self, name: &str) -> Self {
         self.opened(name, None, None)
     }
 
-    /// Lets the tests vary a parameter over a part of its domain.
+    /// Lets the tests vary a parameter over a part of the parameter's domain.
     pub fn open_over(self, name: &str, domain: Domain) -> Self {
         self.opened(name, Some(domain), None)
     }
 
-    /// Lets the tests vary a parameter over its domain or a part of it, and, if a variation is given, over time.
+    /// Lets the tests vary a parameter over a domain and, if a variation is given, over time. Without `over`, the
+    /// domain is the declared domain of the parameter.
     pub fn opened(mut self, name: &str, over: Option<Domain>, variation: Option<Variation>) -> Self {
         self.opened.push(Opened { name: name.to_owned(), over, variation });
         self
@@ -152,7 +154,7 @@ impl StudyBuilder {
         self
     }
 
-    /// Gives an open parameter a distribution, which estimates of the probability of failure use.
+    /// Gives an open parameter a distribution, from which the probability of failure is estimated.
     pub fn distribute(mut self, name: &str, distribution: Distribution) -> Self {
         self.distributions.push((name.to_owned(), distribution));
         self
@@ -165,33 +167,33 @@ impl StudyBuilder {
         self
     }
 
-    /// Shows an actor to cameras as the model in a glTF file, stretched to the actor's size. The ego vehicle is `car`;
-    /// every other actor has the name that it has in traces and messages. Actors of one name, `tree`, `tree-2` and so
-    /// on, look like the first actor unless they have a model of their own.
+    /// Replaces an actor in camera images by the 3D model in a glTF file, stretched to the actor's size. The ego
+    /// vehicle is `car`; every other actor has the name that it has in traces and messages. Actors of one name, `tree`,
+    /// `tree-2` and so on, look like the first actor unless they have a model of their own.
     pub fn show(mut self, actor: &str, file: &str) -> Self {
         self.models.push((actor.to_owned(), file.to_owned()));
         self
     }
 
-    /// Judges every trace by the requirements of a TOML file, and keeps the design domain that the file states.
+    /// Adds the requirements and the operational design domain of a TOML file to the study.
     pub fn require(mut self, path: &Path) -> Self {
         self.requirements.push(path.to_owned());
         self
     }
 
-    /// Keeps the table `[odd]` of a SPACE.toml, if the file has one.
+    /// Adds the operational design domain in the table `[odd]` of a SPACE.toml to the study, if the file has the table.
     pub fn odd_of(mut self, path: &Path) -> Self {
         self.odd = Some(path.to_owned());
         self
     }
 
-    /// Judges every trace by this formula as well. The first formula has the id `spec-1`, the next formula has the id
-    /// `spec-2`; such formulas have no unit and no scale.
+    /// Adds a requirement with the given formula, which judges every trace. The first formula has the id `spec-1`, the
+    /// next formula has the id `spec-2`; such formulas have no unit and no scale.
     pub fn spec(self, formula: &str) -> Self {
         self.spec_in(Semantics::Sampled, formula)
     }
 
-    /// Judges every trace by this formula as [`spec`](Self::spec) does, with sampled or dense time.
+    /// Adds a requirement with the given formula as [`spec`](Self::spec) does, with sampled or dense time.
     pub fn spec_in(mut self, time: Semantics, formula: &str) -> Self {
         self.specs.push((time, formula.to_owned()));
         self
@@ -209,19 +211,19 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets the number of tests.
+    /// Sets the budget, which is the greatest number of tests.
     pub fn budget(mut self, tests: usize) -> Self {
         self.sampling.budget = tests;
         self
     }
 
-    /// Sets the seed of all randomness of the strategy. Without a seed, Halton is the plain sequence.
+    /// Sets the seed of all randomness in the strategy. Without a seed, Halton is the plain sequence.
     pub fn seed(mut self, seed: u64) -> Self {
         self.sampling.seed = Some(seed);
         self
     }
 
-    /// Checks the choices and returns the study.
+    /// Checks all choices, and makes the study.
     ///
     /// # Errors
     /// The program cannot be run; a driver, setting, parameter or actor does not exist; a value is out of range; a

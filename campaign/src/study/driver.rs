@@ -18,7 +18,7 @@ use thiserror::Error;
 /// The default driver.
 const USUAL: &str = "aeb";
 
-/// The choice of a driver, with all its settings.
+/// The choice of the driver under test, with the settings of the driver.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct DriverChoice {
@@ -46,14 +46,14 @@ struct External {
     origin: Origin,
 }
 
-/// The place where drivers are made.
+/// The origin of drivers, which is this process, a server or an external process.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
     /// Drivers are made in this process.
     Here,
-    /// A server that somebody has started offers drivers.
+    /// A server at an address offers drivers.
     Server(Address, Terms),
-    /// A process that is started with these words offers drivers.
+    /// A process that a command starts offers drivers.
     Process(Vec<String>, Terms),
 }
 
@@ -118,18 +118,18 @@ impl Wish {
 /// The reason why a driver cannot be chosen or made.
 #[derive(Debug, Error)]
 pub enum DriverFlaw {
-    /// No driver has that name.
+    /// No driver has the requested name.
     #[error("no driver is called `{name}`{}; `paracosm-fuzz list` shows all drivers", did_you_mean(.nearest))]
     Unknown {
-        /// The name that was asked for.
+        /// The name that no driver has.
         name: String,
-        /// The name of a driver that was perhaps meant.
+        /// The most similar name of a driver; `None` if no name is similar.
         nearest: Option<&'static str>,
     },
-    /// The driver has no such setting, or the setting is out of range.
+    /// The driver has no setting with the given name, or the value of the setting is out of range.
     #[error("{0}; `paracosm-fuzz list` shows all drivers with their settings")]
     Setting(DriverError),
-    /// A network has no other setting than `latency`.
+    /// A network was given a setting other than `latency`.
     #[error("driver `{driver}` is a network and has no setting `{setting}`, only `{}`", LATENCY.name)]
     NetworkSetting {
         /// The name of the driver.
@@ -147,12 +147,12 @@ pub enum DriverFlaw {
         setting: &'static str,
         /// The value of the setting.
         value: f64,
-        /// The least and the greatest value.
+        /// The least and the greatest allowed value of the setting.
         range: (f64, f64),
-        /// True if the setting has to be a whole number.
+        /// True if the value of the setting has to be a whole number.
         whole: bool,
     },
-    /// A setting that is passed on to the driver is not finite.
+    /// A setting of a driver in an external process is not a finite number.
     #[error("driver.{setting} is {value}, expected a finite number")]
     NotFinite {
         /// The name of the setting.
@@ -160,27 +160,27 @@ pub enum DriverFlaw {
         /// The value of the setting.
         value: f64,
     },
-    /// The address is invalid.
+    /// The address of the driver's server is invalid.
     #[error("--driver {0}")]
     Address(AddressError),
-    /// The command is invalid.
+    /// The command that should start the driver is invalid.
     #[error("--driver-command '{command}': {flaw}")]
     Command {
-        /// The command of the driver.
+        /// The command that should start the driver.
         command: String,
         /// The error in the command.
         flaw: CommandFlaw,
     },
-    /// The time-out is out of range.
+    /// The time-out of the driver is out of range.
     #[error(transparent)]
     Timeout(#[from] TimeoutFlaw),
-    /// The driver is in an external process, and cannot be made in this one.
+    /// The driver is in an external process, and cannot be made in this process.
     #[error("driver `{driver}` runs in a process of its own, and cannot be made in this process")]
     InAProcess {
-        /// The driver, by its address or its command.
+        /// The address or the command of the driver.
         driver: String,
     },
-    /// The driver cannot have a time-out.
+    /// A time-out was given for a driver that is not in an external process.
     #[error("--timeout applies to a --system, a --driver-command or a driver at an address, but not to `{driver}`")]
     NoTimeout {
         /// The name of the driver.
@@ -273,12 +273,12 @@ impl DriverChoice {
         Ok(Self { name: name.to_owned(), settings, source: Source::External(External { by, timeout, origin }) })
     }
 
-    /// Returns the name of the driver; for a driver in an external process, its address or its command.
+    /// Returns the name of the driver, or the address or the command of a driver in an external process.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Makes a new driver of this choice.
+    /// Makes a new instance of the chosen driver.
     ///
     /// # Errors
     /// The choice was read from a file, and the driver, network or setting does not exist; or the driver is in an
@@ -301,14 +301,14 @@ impl DriverChoice {
         matches!(self.source, Source::External(_))
     }
 
-    /// Returns the seconds from a question to the time when its answer takes effect, without the delays that the driver
-    /// itself models.
+    /// Returns the latency that the settings add to the driver, in seconds from a question until the answer takes
+    /// effect. The delays that the driver itself models are not included.
     pub fn latency(&self) -> f64 {
         let modelled = matches!(self.source, Source::External(_) | Source::Network(_));
         self.settings.get(LATENCY.name).copied().filter(|_| modelled).unwrap_or(0.0)
     }
 
-    /// Returns the place where the driver is made.
+    /// Returns the origin of the driver, which is this process, a server or an external process.
     pub fn origin(&self) -> &Origin {
         match &self.source {
             Source::External(external) => &external.origin,

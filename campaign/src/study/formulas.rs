@@ -6,10 +6,10 @@ use crate::{Error, Reason};
 use paracosm_oracles::{EvaluationError, Formula, ParseError, Semantics, Trace};
 use thiserror::Error;
 
-/// A formula cannot judge any trace of a study.
+/// The reason why a formula cannot judge any trace of a study.
 #[derive(Debug, Error)]
 pub enum FormulaFlaw {
-    /// The text is not a formula.
+    /// The text is not a valid formula.
     #[error(transparent)]
     Parse(#[from] ParseError),
     /// The formula names a signal that the scenario does not have.
@@ -20,21 +20,21 @@ pub enum FormulaFlaw {
         /// The name of the scenario.
         scenario: String,
     },
-    /// The formula cannot be evaluated.
+    /// The formula cannot be evaluated on the traces of the study.
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
-    /// The world that shows which signals exist cannot be built.
+    /// The signals of the traces are not known, because the nominal world of the scenario cannot be built.
     #[error(transparent)]
     World(#[from] Error),
 }
 
-/// A formula of `--spec` cannot judge any trace of a study.
+/// The error that a formula of the option `--spec` cannot judge any trace of a study.
 #[derive(Debug, Error)]
 #[error("--spec {text}: {flaw}")]
 pub struct SpecFlaw {
     /// The text of the formula.
     pub text: String,
-    /// The flaw of the formula.
+    /// The reason why the formula cannot judge any trace.
     pub flaw: Box<FormulaFlaw>,
 }
 
@@ -83,13 +83,13 @@ impl Study {
         Ok(formula)
     }
 
-    /// Returns the requirements that were given with the study and have a formula, in order.
+    /// Returns the requirements that the user has added to the study with a formula.
     pub fn given(&self) -> impl Iterator<Item = &StatedRequirement> {
         self.requirements.iter().filter(|requirement| requirement.given && requirement.formula.is_some())
     }
 
-    /// Returns the given formulas that look further ahead than a test of the scenario lasts, each with the part that
-    /// does so.
+    /// Returns the formulas that the user has added and that refer to times after the end of a test. Each entry has the
+    /// id of the requirement, and the part of the formula that looks too far ahead.
     pub fn outlasting(&self) -> Vec<(String, Formula)> {
         let Subject::Scenario(simulation) = &self.subject else { return Vec::new() };
         let part = |requirement: &StatedRequirement| {

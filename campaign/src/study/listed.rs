@@ -23,7 +23,7 @@ pub(super) const SEED: Setting = Setting {
     about: "the seed of the driver's randomness and of its sensors' noise",
 };
 
-/// A driver in the form in which lists show it.
+/// An entry in the list of drivers that a user can choose.
 #[derive(Debug, Clone, Copy)]
 pub struct ListedDriver {
     /// The name by which the driver is chosen.
@@ -35,13 +35,13 @@ pub struct ListedDriver {
 }
 
 impl ListedDriver {
-    /// Returns the entry of a driver that comes with the engine.
+    /// Returns the list entry of a driver that comes with the engine.
     pub const fn of(driver: &Descriptor) -> Self {
         Self { name: driver.name, about: driver.about, settings: driver.settings }
     }
 
-    /// Returns all drivers that can be chosen, which are those of the engine, networks, and drivers in an external
-    /// process.
+    /// Returns the list entries of all drivers that a user can choose, which are drivers of the engine, networks, and
+    /// drivers in an external process.
     pub fn all() -> impl Iterator<Item = Self> {
         driver::ALL.iter().map(|driver| Self::of(driver)).chain(ELSEWHERE)
     }

@@ -66,13 +66,14 @@ impl Maker {
 }
 
 impl Study {
-    /// Begins a study of a scenario. By default the driver is `aeb`, the strategy `halton`, and the budget 500 tests.
+    /// Makes a builder of a study that tests a driver in a scenario. By default the driver is `aeb`, the strategy
+    /// `halton`, and the budget 500 tests.
     pub fn of(program: Program) -> StudyBuilder {
         StudyBuilder::of(program)
     }
 
-    /// Begins a study of an external system over this space. By default the strategy is `halton`, and the budget 500
-    /// tests.
+    /// Makes a builder of a study that tests an external system over the given space. By default the strategy is
+    /// `halton`, and the budget 500 tests.
     pub fn of_system(system: BlackBox, space: Space) -> StudyBuilder {
         StudyBuilder::of_system(system, space)
     }
@@ -94,7 +95,7 @@ impl Study {
         &self.made_by
     }
 
-    /// Returns the scenario or the system that the tests run on.
+    /// Returns the subject of the study, which is a scenario or an external system.
     pub fn subject(&self) -> &Subject {
         &self.subject
     }
@@ -104,23 +105,23 @@ impl Study {
         &self.space
     }
 
-    /// Returns the requirements of every run. The requirements of a system that answers with robustness are not known
-    /// here.
+    /// Returns the requirements that every test should satisfy. The requirements of a system that answers with
+    /// robustness are not known here.
     pub fn requirements(&self) -> &[StatedRequirement] {
         &self.requirements
     }
 
-    /// Returns the requirement with this id, if it is known before the campaign.
+    /// Returns the requirement with the given id; `None` if the study does not state the requirement.
     pub fn requirement(&self, id: &str) -> Option<&StatedRequirement> {
         self.requirements.iter().find(|requirement| requirement.id == id)
     }
 
-    /// Returns the part of the operational design domain that the tests are about, if it was stated.
+    /// Returns the attributes of the operational design domain; `None` if the study does not state the domain.
     pub fn odd(&self) -> Option<&Odd> {
         self.odd.as_ref()
     }
 
-    /// Returns the choice of tests.
+    /// Returns the strategy, the budget and all other options that determine the tests.
     pub fn sampling(&self) -> &Sampling {
         &self.sampling
     }
@@ -130,12 +131,12 @@ impl Study {
         self.subject.title()
     }
 
-    /// Returns the values of the parameters that are not open.
+    /// Returns the fixed values of the parameters that the tests do not vary.
     pub fn fixed(&self) -> &Values {
         self.subject.fixed()
     }
 
-    /// Returns the program of the scenario.
+    /// Returns the program of the study's scenario.
     ///
     /// # Errors
     /// The study is that of an external system, or was read from a file and names a scenario that no catalogue has.
@@ -143,8 +144,8 @@ impl Study {
         Ok(self.subject.scenario()?.program()?)
     }
 
-    /// Returns the signals of the trace of a test, as far as they are known before the test runs. They are those of the
-    /// world with nominal values. Returns `None` for an external system.
+    /// Returns the names of the signals in the trace of a test with nominal values. Returns `None` for an external
+    /// system, whose signals are not known before a test runs.
     ///
     /// # Errors
     /// The program does not exist, or cannot build its nominal world.
@@ -155,7 +156,7 @@ impl Study {
         Ok(Some(Run::new(program, Test::new(&values, &self.space), setup)?.signals().to_vec()))
     }
 
-    /// Makes a generator of the study's tests, which complete the existing ones.
+    /// Makes a generator that proposes the study's tests in addition to the existing tests.
     ///
     /// # Errors
     /// The strategy cannot do what the study asks.
@@ -163,8 +164,8 @@ impl Study {
         self.sampling.strategy.build(&self.sampling.request(&self.space, existing))
     }
 
-    /// Makes a generator of the study's strategy that draws discrete values for every test instead of using the rows of
-    /// a family.
+    /// Makes a generator of the study's strategy that draws the discrete values of every test independently. The
+    /// generator does not use the rows of a family.
     ///
     /// # Errors
     /// The same errors as [`Study::generator`].
@@ -172,19 +173,19 @@ impl Study {
         self.sampling.strategy.build_independent(&self.sampling.request(&self.space, &[]))
     }
 
-    /// Returns all values from which a test's world is built, the test's own and the fixed ones.
+    /// Returns the values of all parameters of a test's world, including the fixed parameters.
     pub fn complete(&self, test: &Values) -> Values {
         let own = test.iter().filter(|(name, _)| parameters::is_of_world(name));
         own.chain(self.fixed().iter()).map(owned).collect()
     }
 
-    /// Returns `true` if exactly this software wrote the study, so that a replay has to give the same trace.
+    /// Returns `true` if this version of the software wrote the study, so that a replay has to give the same trace.
     pub fn is_of_this_software(&self) -> bool {
         let ended_early = matches!(&self.subject, Subject::Scenario(simulation) if simulation.stop_runs_early);
         self.made_by == Maker::this() && !ended_early
     }
 
-    /// Returns the same study with another choice of tests.
+    /// Returns a copy of the study with the given sampling, which determines the tests.
     ///
     /// # Errors
     /// The budget or the batch is 0.
@@ -193,7 +194,7 @@ impl Study {
         Ok(Self { sampling, ..self.clone() })
     }
 
-    /// Returns the same study with another driver and changed settings.
+    /// Returns a copy of the study with the given driver and the given settings of the driver.
     ///
     /// # Errors
     /// The same errors as for [`StudyBuilder::driver`].
@@ -201,7 +202,7 @@ impl Study {
         self.with_driver(&driver::Wish::Name(name.to_owned()), settings)
     }
 
-    /// Returns the same study with a driver of this program, as [`StudyBuilder::own_driver`] sets it.
+    /// Returns a copy of the study with a driver that the given function makes, as [`StudyBuilder::own_driver`] does.
     ///
     /// # Errors
     /// The study is that of an external system.
@@ -227,8 +228,8 @@ impl Study {
         Self { odd: None, sampling, ..self.clone() }
     }
 
-    /// Returns the study with the program of its scenario, if the catalogue has the scenario. If it does not, the first
-    /// test reports that.
+    /// Looks for the scenario of the study in a catalogue, and returns the study with the scenario's program. If the
+    /// catalogue does not have the scenario, the first test reports the error.
     pub fn with_program_of(mut self, catalogue: &Catalogue) -> Self {
         if let Subject::Scenario(simulation) = &mut self.subject {
             simulation.look_for_program(catalogue, &self.space);

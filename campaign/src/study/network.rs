@@ -29,29 +29,29 @@ impl PartialEq for Network {
     }
 }
 
-/// The reason why a network cannot be used.
+/// The reason why a neural network cannot be used as a driver.
 #[derive(Debug, Error)]
 pub enum NetworkFlaw {
-    /// This program was built without networks.
+    /// The program was built without neural networks.
     #[error(
         "driver `{driver}` is a network, but this program was built without networks: build it with \
          `cargo build --release --features neural`"
     )]
     NotBuilt {
-        /// The driver.
+        /// The name of the driver.
         driver: String,
     },
-    /// The file has changed.
+    /// The file of the network has changed since the campaign was run.
     #[error("the network {file} has the hash {found}, expected {expected}: the campaign was run with another network")]
     Changed {
-        /// The file.
+        /// The path of the network's file, or the name of a network that comes with the software.
         file: String,
-        /// The hash of the file now.
+        /// The present hash of the file.
         found: String,
         /// The hash of the file when the campaign was run.
         expected: String,
     },
-    /// No network was trained for the scenario.
+    /// No network that comes with the software was trained for the scenario.
     #[error(
         "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {}; a network of your \
          own is --driver MODEL.onnx", known.join(", ")
@@ -59,13 +59,13 @@ pub enum NetworkFlaw {
     NotTaught {
         /// The name of the scenario.
         scenario: String,
-        /// The scenarios for which there is a network.
+        /// The names of the scenarios for which a network exists.
         known: Vec<&'static str>,
     },
-    /// No network of that name comes with the software.
+    /// No network with the given name comes with the software.
     #[error("no network called `{file}` comes with this version of the software")]
     Unknown {
-        /// The name of the network.
+        /// The name that no network has.
         file: String,
     },
 }
@@ -79,12 +79,12 @@ pub(super) fn is_network(driver: &str) -> bool {
 
 #[cfg(not(feature = "neural"))]
 impl Network {
-    /// Returns the network that a driver's name means in a scenario.
+    /// Returns the error that the program was built without neural networks.
     pub fn of(driver: &str, _scenario: &str) -> Result<Self, Error> {
         Err(Self::missing(driver))
     }
 
-    /// Makes a driver that follows the network.
+    /// Returns the error that the program was built without neural networks.
     pub fn driver(&self, name: &str) -> Result<Box<dyn Driver>, Error> {
         Err(Self::missing(name))
     }
@@ -96,7 +96,7 @@ impl Network {
 
 #[cfg(feature = "neural")]
 impl Network {
-    /// Returns the network that a driver's name means in a scenario.
+    /// Reads the network for a driver's name, which is a file or a network that comes with the software.
     pub fn of(driver: &str, scenario: &str) -> Result<Self, Error> {
         let file = if driver == CLONED { cloned_for(scenario)?.name.to_owned() } else { driver.to_owned() };
         let contents = contents(driver, &file)?;
@@ -105,7 +105,7 @@ impl Network {
         Ok(network)
     }
 
-    /// Makes a driver that follows the network.
+    /// Makes a driver that the network controls.
     pub fn driver(&self, name: &str) -> Result<Box<dyn Driver>, Error> {
         if self.model.get().is_none() {
             let contents = contents(name, &self.file)?;

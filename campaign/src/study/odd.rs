@@ -15,20 +15,20 @@ use std::path::Path;
 use thiserror::Error;
 use toml::Spanned;
 
-/// The attributes of the design domain, by name.
+/// The attributes of the operational design domain, by their names.
 pub type Odd = Record<Attribute>;
 
-/// The treatment of an attribute of the design domain in the tests.
+/// An attribute of the operational design domain, with the attribute's treatment in the tests.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attribute {
-    /// The open parameters that vary the attribute.
+    /// The names of the open parameters that vary the attribute.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub varied: Vec<String>,
-    /// The value of the attribute in all tests.
+    /// The constant value of the attribute in all tests.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub fixed: Option<String>,
-    /// The part of the attribute that no test covers, and the reason.
+    /// The part of the attribute that no test covers, with the reason.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub excluded: Option<String>,
 }
@@ -46,10 +46,10 @@ pub(super) struct WrittenAttribute {
     excluded: Option<String>,
 }
 
-/// The error in an attribute of the design domain.
+/// The error in an attribute of the operational design domain.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum OddFlaw {
-    /// The attribute has no entry.
+    /// The attribute has no entry `varied`, `fixed` or `excluded`.
     #[error("attribute `{attribute}`: expected `varied`, `fixed` or `excluded`")]
     Nothing {
         /// The name of the attribute.
@@ -67,21 +67,21 @@ pub enum OddFlaw {
         /// The fixed value of the parameter.
         value: Value,
     },
-    /// A name in `varied` is not that of a parameter.
+    /// A name in the entry `varied` is not the name of an open parameter.
     #[error(
         "attribute `{attribute}`: the tests vary no `{parameter}`{}; they vary {}", did_you_mean(.nearest), open.join(", ")
     )]
     NotOpen {
         /// The name of the attribute.
         attribute: String,
-        /// The name in `varied`.
+        /// The name in the entry `varied` that no open parameter has.
         parameter: String,
-        /// The name of a parameter that was perhaps meant.
+        /// The most similar name of a parameter; `None` if no name is similar.
         nearest: Option<String>,
         /// The names of the open parameters.
         open: Vec<String>,
     },
-    /// Two files state the design domain.
+    /// Two files state the operational design domain.
     #[error("[odd] stands in another file as well, expected it in one file only")]
     Twice,
 }

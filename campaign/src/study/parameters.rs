@@ -17,31 +17,31 @@ pub enum Variation {
     Constant,
     /// The parameter has a value for every tick.
     PerTick,
-    /// The parameter follows a shape that a few coordinates describe.
+    /// The parameter follows a curve over time that a few coordinates describe.
     Shape(Shape),
 }
 
-/// A parameter cannot be opened or fixed in this way.
+/// The reason why a parameter cannot be opened, fixed or given a distribution.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ParameterMisuse {
-    /// The scenario has no parameter with that name.
+    /// The scenario has no parameter with the given name.
     #[error("scenario `{scenario}` has no parameter `{name}`{}; it has {}", did_you_mean(.nearest), all.join(", "))]
     Unknown {
         /// The name of the scenario.
         scenario: String,
-        /// The name that was given.
+        /// The name that no parameter of the scenario has.
         name: String,
-        /// The name of a parameter that was perhaps meant.
+        /// The most similar name of a parameter; `None` if no name is similar.
         nearest: Option<String>,
         /// The names of all parameters of the scenario.
         all: Vec<String>,
     },
-    /// The parameter takes single values, but was given an interval.
+    /// An interval was given for a parameter whose domain is a list of values.
     #[error("parameter `{name}` takes {domain}, which is not an interval")]
     NoInterval {
         /// The name of the parameter.
         name: String,
-        /// The values that the parameter takes.
+        /// The domain of the parameter, which is a list of values.
         domain: Domain,
     },
     /// The parameter was fixed twice, or fixed and opened.
@@ -62,7 +62,7 @@ pub enum ParameterMisuse {
         /// The name of the parameter.
         name: String,
     },
-    /// The parameter is the last open one, and cannot be fixed.
+    /// The parameter cannot be fixed, because no other parameter is open.
     #[error("with `{name}` fixed no parameter is left open, so there is nothing to test")]
     LastOpen {
         /// The name of the parameter.

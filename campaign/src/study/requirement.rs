@@ -3,21 +3,21 @@
 use paracosm_oracles::{Formula, Requirement, Semantics};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A requirement in the form in which a study states it.
+/// A requirement that every test of a study should satisfy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StatedRequirement {
-    /// The short name of the requirement.
+    /// The id of the requirement, which is a short name.
     pub id: String,
-    /// The requirement in one sentence.
+    /// The description of the requirement in one sentence.
     pub text: String,
     /// The formula that every trace should satisfy. `None` if the formula is not known here: the system under test
     /// judges itself by it, or nobody does.
     #[serde(serialize_with = "write_formula", deserialize_with = "read_formula")]
     pub formula: Option<Formula>,
-    /// The unit of the robustness.
+    /// The unit of the requirement's robustness.
     pub unit: String,
-    /// The scale of the robustness in that unit, which is a robustness that counts as large. `None` if no scale was
-    /// stated, so that a search has to learn it.
+    /// The scale of the requirement, which is a large value of the robustness, in the unit of the robustness. `None` if
+    /// no scale was stated, so that a search has to learn the scale.
     pub scale: Option<f64>,
     /// The source of the requirement, for example a regulation, a specification or a hazard.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -25,10 +25,11 @@ pub struct StatedRequirement {
     /// The severity of a violation, in a word chosen by the author.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub severity: Option<String>,
-    /// The semantics of time, which looks at the samples only, or also at the time between them.
+    /// The semantics of time in the formula, which is sampled or dense. Sampled time has only the samples; dense time
+    /// also has the time between samples.
     #[serde(skip_serializing_if = "is_sampled", default)]
     pub time: Semantics,
-    /// True if the requirement was given with the study and is not the scenario's own.
+    /// True if the user added the requirement; false if the scenario states the requirement.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub given: bool,
 }

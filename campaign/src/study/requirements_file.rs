@@ -34,43 +34,43 @@ struct Entry {
     time: Option<Semantics>,
 }
 
-/// The error in a requirement of a file.
+/// The error in a requirement of a requirements file.
 #[derive(Debug, Error)]
 pub enum RequirementFlaw {
-    /// Two requirements have one id.
+    /// Two requirements have the same id.
     #[error("requirement `{id}` stands twice in the file")]
     Twice {
-        /// The id.
+        /// The id that two requirements share.
         id: String,
     },
-    /// The id is not a valid name.
+    /// The id of a requirement is not a valid name.
     #[error("`id` is `{id}`, expected a word of letters, digits and - _ . : /")]
     Id {
-        /// The id.
+        /// The id that is not a valid name.
         id: String,
     },
-    /// The scenario already states this for its own requirement.
+    /// The file states a formula, unit, scale or time for a requirement of the scenario.
     #[error("requirement `{id}` is the scenario's own, which has {claim}: remove these keys, or take another id")]
     OfScenario {
-        /// The id.
+        /// The id of the scenario's requirement.
         id: String,
-        /// The entry that the scenario states.
+        /// The properties that the scenario already states, in words.
         claim: &'static str,
     },
-    /// The formula cannot judge any trace.
+    /// The formula of a requirement cannot judge any trace.
     #[error("requirement `{id}`: {flaw}")]
     Formula {
-        /// The id.
+        /// The id of the requirement with the formula.
         id: String,
-        /// The flaw of the formula.
+        /// The reason why the formula cannot judge any trace.
         flaw: Box<FormulaFlaw>,
     },
-    /// The scale is not a positive number.
+    /// The scale of a requirement is not a positive number.
     #[error("requirement `{id}`: `scale` is {found}, expected a number above 0")]
     Scale {
-        /// The id.
+        /// The id of the requirement with the invalid scale.
         id: String,
-        /// The scale that was found.
+        /// The invalid scale.
         found: f64,
     },
 }

@@ -10,7 +10,7 @@ use thiserror::Error;
 /// The default number of tests that an adaptive strategy is asked for at a time.
 const ADAPTIVE_BATCH: usize = 16;
 
-/// The choice of tests, with their number, and the strategy with its options.
+/// The options that determine the tests of a study, with the strategy, the budget and the seed.
 ///
 /// ```
 /// use paracosm_campaign::Sampling;
@@ -24,23 +24,23 @@ const ADAPTIVE_BATCH: usize = 16;
 pub struct Sampling {
     /// The strategy that proposes tests.
     pub strategy: Strategy,
-    /// The family of rows that covers the discrete parameters.
+    /// The method that makes the rows of discrete values, for example a covering array.
     pub discrete: DiscreteFamily,
-    /// The number of parameters that are covered together; `None` means two.
+    /// The number of parameters whose combinations of values are covered; `None` means two.
     pub k: Option<usize>,
     /// The largest allowed volume of an empty box in any row of discrete values. The campaign ends when no row has a
     /// larger empty box, or the budget is spent; the next test goes to the row with the largest empty box.
     pub epsilon: Option<f64>,
     /// The measure that the strategy `greedy` minimises; `None` means the default.
     pub aim: Option<Aim>,
-    /// The index of a sequence's first point; `None` means the default.
+    /// The index of the first point that is taken from a sequence of points; `None` means the default.
     pub skip: Option<u64>,
-    /// The seed of all randomness; `None` means the plain set of points if the strategy has one, otherwise seed 0.
+    /// The seed of all randomness; `None` means a set of points without randomness if possible, otherwise seed 0.
     pub seed: Option<u64>,
-    /// The number of tests that the strategy is asked for at a time; it changes the tests of an adaptive strategy.
+    /// The number of tests that the strategy proposes at a time. The number changes the tests of an adaptive strategy.
     /// `None` means 16 for an adaptive strategy, and as many as fit in memory for others.
     pub batch: Option<usize>,
-    /// The greatest number of tests that are run.
+    /// The budget, which is the greatest number of tests.
     pub budget: usize,
     /// True if the first test that violates a requirement, in the order of the indices, ends the campaign.
     pub stop_at_first: bool,
@@ -74,13 +74,13 @@ impl fmt::Display for Sampling {
     }
 }
 
-/// The reason why a choice of tests is invalid.
+/// The reason why the options that determine the tests are invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SamplingFlaw {
-    /// The budget is 0.
+    /// The budget is 0 tests.
     #[error("the budget is 0, expected at least 1 test")]
     NoBudget,
-    /// The batch is 0.
+    /// The number of tests that the strategy proposes at a time is 0.
     #[error("the batch is 0, expected at least 1 test")]
     NoBatch,
 }
@@ -97,12 +97,12 @@ impl Sampling {
         }
     }
 
-    /// Returns the number of tests that the strategy is asked for at a time, if it matters.
+    /// Returns the number of tests that the strategy proposes at a time; `None` if the study does not set the number.
     pub fn batch_size(&self) -> Option<usize> {
         self.batch.or_else(|| self.strategy.is_adaptive().then_some(ADAPTIVE_BATCH))
     }
 
-    /// Returns the request for a generator of tests of this space, given existing tests.
+    /// Returns the request from which a strategy makes a generator of tests in a space, in addition to existing tests.
     pub fn request<'a>(&self, space: &'a Space, existing: &'a [Point]) -> Request<'a> {
         Request {
             space,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// The scenario or the system that tests run on.
+/// The subject of a study, which is a scenario with a driver or an external system.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -17,13 +17,13 @@ use thiserror::Error;
                  with `timeout`"
 )]
 pub enum Subject {
-    /// A simulated world with the system under test in it.
+    /// A simulated scenario with a driver under test.
     Scenario(Box<Simulation>),
-    /// A process that answers tests.
+    /// An external system under test, which answers tests in a separate process.
     System(BlackBox),
 }
 
-/// A scenario with a driver.
+/// A scenario with the driver under test and the fixed parameters.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Simulation {
     pub(super) scenario: String,
@@ -52,21 +52,21 @@ enum Source {
     Unknown,
 }
 
-/// The scenario that a study names is not available.
+/// The error that the scenario of a study is not available.
 #[derive(Debug, Error)]
 #[error("the campaign was run on the scenario `{scenario}`, which is not available here{}", why(.source))]
 pub struct MissingScenario {
-    /// The name of the scenario.
+    /// The name of the missing scenario.
     pub scenario: String,
-    /// The reason, if somebody has looked for the scenario.
+    /// The reason why the scenario was not found; `None` if the software has not looked for the scenario.
     pub source: Option<Arc<Error>>,
 }
 
-/// A scenario is needed, but the subject is an external system.
+/// The error that a scenario is needed, but the subject of the study is an external system.
 #[derive(Debug, Error)]
 #[error("the system `{command}` is not a scenario, but this works only with a scenario")]
 pub struct NoScenario {
-    /// The command of the system.
+    /// The command of the external system.
     pub command: String,
 }
 
@@ -81,7 +81,7 @@ fn why(source: &Option<Arc<Error>>) -> String {
 static NOTHING_FIXED: Values = Values::EMPTY;
 
 impl Subject {
-    /// Returns the scenario.
+    /// Returns the scenario of the subject, with the driver.
     ///
     /// # Errors
     /// The subject is an external system.
@@ -107,7 +107,7 @@ impl Subject {
         }
     }
 
-    /// Returns the values of the parameters that are not open.
+    /// Returns the fixed values of the parameters that the tests do not vary.
     pub fn fixed(&self) -> &Values {
         match self {
             Self::Scenario(simulation) => &simulation.fixed,
@@ -143,7 +143,7 @@ impl Simulation {
         &self.scenario
     }
 
-    /// Returns the model that moves the car.
+    /// Returns the vehicle model that computes the motion of the ego vehicle.
     pub fn vehicle(&self) -> VehicleModel {
         self.vehicle
     }
@@ -153,7 +153,7 @@ impl Simulation {
         &self.driver
     }
 
-    /// Returns the models that replace actors in images.
+    /// Returns the 3D models that replace actors in images.
     pub fn appearances(&self) -> &Appearances {
         &self.appearances
     }
@@ -193,12 +193,12 @@ impl Simulation {
         self.dt
     }
 
-    /// Returns the simulated duration of a test in seconds, unless a contact ends it.
+    /// Returns the simulated duration of a test in seconds, unless a contact ends the test early.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Returns the number of ticks of a test, unless a contact ends it.
+    /// Returns the number of ticks of a test, unless a contact ends the test early.
     pub fn ticks(&self) -> usize {
         (self.duration / self.dt).round() as usize
     }

@@ -22,17 +22,17 @@ pub(super) type Keys<'k> = [(&'k str, &'k [&'static str])];
 /// The error in a TOML file.
 #[derive(Debug, Error)]
 pub enum TomlFlaw {
-    /// A key is not one of the keys of its table.
+    /// A table contains an unknown key.
     #[error("unknown field `{key}`, expected one of {}{}", quoted(.expected), did_you_mean(.nearest))]
     Key {
         /// The unknown key.
         key: String,
-        /// The keys that the table may have.
+        /// The keys that the table can have.
         expected: Vec<&'static str>,
-        /// A key that was perhaps meant.
+        /// The most similar key that the table can have; `None` if no key is similar.
         nearest: Option<&'static str>,
     },
-    /// The file is not TOML, or a value has another type.
+    /// The file is not TOML, or a value has the wrong type.
     #[error("{}", .0.message())]
     Syntax(toml::de::Error),
 }
@@ -52,7 +52,7 @@ impl<'p> TomlFile<'p> {
         self.path
     }
 
-    /// Returns the contents of the file.
+    /// Parses the text of the file as a value of type `T`.
     ///
     /// # Errors
     /// The contents are not TOML or have another form. An unknown key is reported first.
@@ -66,7 +66,7 @@ impl<'p> TomlFile<'p> {
         })
     }
 
-    /// Makes an error about the text at a byte.
+    /// Makes an error in the line that contains the byte at `offset`.
     pub fn at(&self, offset: usize, flaw: impl Reason) -> Error {
         Error::in_file(self.path, self.line(offset), flaw)
     }

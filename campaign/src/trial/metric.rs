@@ -14,14 +14,14 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::{self, Display};
 
-/// A number, a flag or a word that describes a test.
+/// A measured number, flag or word that describes a test.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Metric {
-    /// A quantity.
+    /// The number of a measured quantity.
     Number(f64),
-    /// A flag, which is `true` if something happened.
+    /// A flag, for example `true` if the situation that the test is about occurred.
     Flag(bool),
-    /// A word of a fixed list; `None` if no word applies.
+    /// A word from a fixed list; `None` if no word applies.
     Word(Option<String>),
 }
 

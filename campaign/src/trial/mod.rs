@@ -12,27 +12,27 @@ use paracosm_space::{Record, Values};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A test with its result.
+/// A test of a campaign, with the result of the test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "line::Line", into = "line::Line")]
 pub struct Trial {
     /// The position of the test in the campaign, from 0.
     pub index: usize,
-    /// The values of the open parameters.
+    /// The values of the open parameters in the test.
     pub test: Values,
-    /// The verdict on the test.
+    /// The verdict on the test, for example pass or fail.
     pub verdict: Verdict,
-    /// The reason for the verdict `invalid` or `error`.
+    /// The reason for the verdict `invalid` or `error`; `None` for all other verdicts.
     pub problem: Option<Problem>,
-    /// The judgements of the requirements, in the order in which they were made.
+    /// The judgement of each requirement, in the order in which the requirements were judged.
     pub judgements: Vec<Judgement>,
-    /// The measurements; `None` if there was no simulated run.
+    /// The measurements of the simulated run; `None` if the test was not simulated.
     pub measured: Option<Measurements>,
     /// Metrics of other versions of the software.
     others: Record<Metric>,
-    /// The number of simulated ticks.
+    /// The number of ticks of the trace; 0 if the trial has no trace.
     pub ticks: usize,
-    /// The fingerprint of the trace; `None` if there is no trace.
+    /// The hash of the trace; `None` if the trial has no trace.
     pub trace_hash: Option<String>,
 }
 
@@ -41,7 +41,7 @@ pub struct Trial {
 pub struct Problem {
     /// The kind of the problem.
     pub kind: ProblemKind,
-    /// The description of the problem, for people.
+    /// The description of the problem in words.
     pub message: String,
 }
 
@@ -53,7 +53,7 @@ fn owned((name, metric): (&str, &Metric)) -> (String, Metric) {
 }
 
 impl Problem {
-    /// Makes a problem of a kind, with its description.
+    /// Makes a problem of the given kind with a description.
     pub fn new(kind: ProblemKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
     }
@@ -65,33 +65,33 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The kinds of problems that end a test without an answer.
+/// The kind of a problem that leaves a test without a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ProblemKind {
     /// The world of the test cannot be built; the verdict is `invalid`.
     World,
-    /// The program cannot run such a test at all.
+    /// The program of the scenario cannot run the test.
     Program,
-    /// The world reached an impossible state.
+    /// The simulated world reached an impossible state.
     State,
-    /// The run panicked.
+    /// The run of the test ended in a panic.
     Panic,
-    /// The driver cannot continue.
+    /// The driver reported a fault, or could not be made.
     Driver,
-    /// The driver could not be shown the images of its cameras.
+    /// The driver did not get the images of its cameras.
     Camera,
-    /// The system itself reports that it cannot do the test.
+    /// The external system reported that it cannot run the test.
     System,
-    /// The system or the driver cannot be started, or its process is gone.
+    /// The system or the driver cannot be started, or the process has ended.
     Process,
     /// The system or the driver did not answer in time.
     TimedOut,
-    /// The answer of the system or the driver is not a valid answer.
+    /// The system or the driver gave an invalid answer.
     Answer,
-    /// The system was judged by other requirements than in earlier tests.
+    /// The external system judged different requirements than in its first answer.
     Requirements,
-    /// A formula does not fit the trace, and will not fit any other trace of the same source.
+    /// A formula cannot judge any trace of the system or the scenario.
     Misfit {
         /// The id of the requirement.
         requirement: String,
@@ -99,14 +99,14 @@ pub enum ProblemKind {
         #[serde(skip_serializing_if = "Option::is_none", default)]
         period: Option<f64>,
     },
-    /// A formula cannot judge this trace, but may fit another one.
+    /// A formula cannot judge the trace of the test, but may judge the traces of other tests.
     Unasked {
         /// The id of the requirement.
         requirement: String,
     },
-    /// The campaign no longer waited for the test.
+    /// The campaign was stopped before the test ended.
     Interrupted,
-    /// The log of an older version does not state the kind.
+    /// The kind is not known, because an older version of the software wrote the log.
     Unstated,
 }
 
@@ -124,7 +124,7 @@ impl ProblemKind {
 }
 
 impl Trial {
-    /// Makes the trial of a test with this verdict and these judgements, without a trace.
+    /// Makes the trial of a test with the given verdict and judgements, without a trace.
     pub fn judged(index: usize, test: Values, verdict: Verdict, judgements: Vec<Judgement>) -> Self {
         Self {
             index,
@@ -139,12 +139,12 @@ impl Trial {
         }
     }
 
-    /// Makes the trial of a test that broke.
+    /// Makes the trial of a test that has no result because of a problem.
     pub fn broken(index: usize, test: Values, problem: Problem) -> Self {
         Self { problem: Some(problem), ..Self::judged(index, test, Verdict::Error, Vec::new()) }
     }
 
-    /// Makes the trial of a simulated test, and returns it with its trace.
+    /// Makes the trial of a simulated test, and returns the trial with the trace.
     pub fn simulated(index: usize, test: Values, outcome: Outcome) -> (Self, Option<Trace>) {
         let Outcome { ending, judgements, measured, trace } = outcome;
         let problem = Problem::of(&ending);
@@ -159,7 +159,7 @@ impl Trial {
         Self { ticks: trace.len() - 1, trace_hash: Some(trace.hash()), ..self }
     }
 
-    /// Returns the robustness of a requirement in its unit; `None` if it was not decided.
+    /// Returns the robustness of a requirement in the requirement's unit; `None` if the requirement was not decided.
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
         self.judgement(requirement)?.robustness
     }
@@ -168,35 +168,36 @@ impl Trial {
         self.judgements.iter().find(|judgement| judgement.requirement == requirement)
     }
 
-    /// Returns the ids of the requirements that the trial was judged by, in order; some may be undecided.
+    /// Returns the ids of all requirements by which the trial was judged, in the order of the judgements. Some
+    /// requirements may be undecided.
     pub fn requirements(&self) -> impl Iterator<Item = &str> {
         self.judgements.iter().map(|judgement| judgement.requirement.as_str())
     }
 
-    /// Returns `true` if the trial violates this requirement. A robustness of 0 counts as a violation only in a failing
-    /// trial in which no requirement has a negative robustness.
+    /// Returns `true` if the trial violates the requirement with the given id. A robustness of 0 counts as a violation
+    /// only in a failing trial in which no requirement has a negative robustness.
     pub fn violates(&self, requirement: &str) -> bool {
         let below = |id: &str| self.robustness(id).is_some_and(|robustness| robustness < 0.0);
         let is_zero = self.robustness(requirement) == Some(0.0);
         below(requirement) || is_zero && self.is_failure() && !self.requirements().any(below)
     }
 
-    /// Returns the ids of the requirements that the trial violates, in order.
+    /// Returns the ids of the requirements that the trial violates, in the order of the judgements.
     pub fn violated(&self) -> impl Iterator<Item = &str> {
         self.requirements().filter(|id| self.violates(id))
     }
 
-    /// Returns the time and the part of the formula at which a requirement is violated, as far as they are known.
+    /// Returns the violation of a requirement, with the time and the violated part of the formula; `None` if not known.
     pub fn violation(&self, requirement: &str) -> Option<&Violation> {
         self.judgement(requirement)?.violation.as_ref()
     }
 
-    /// Returns the contact of the ego vehicle with another object, if there was one.
+    /// Returns the contact of the ego vehicle with an object; `None` if no contact occurred.
     pub fn contact(&self) -> Option<&Contact> {
         self.measured.as_ref()?.contact.as_ref()
     }
 
-    /// Returns `true` if the situation that the test is about occurred; `None` if it is not known.
+    /// Returns `true` if the situation that the test is about occurred; `None` if the trial has no measurements.
     pub fn triggered(&self) -> Option<bool> {
         self.measured.as_ref().map(|measured| measured.triggered)
     }
@@ -206,13 +207,13 @@ impl Trial {
         metric::flat(self)
     }
 
-    /// Returns the reason why the test has no result, in words.
+    /// Returns the reason why the test has no result, in words; `None` if the test has a result.
     pub fn error(&self) -> Option<&str> {
         self.problem.as_ref().map(|problem| problem.message.as_str())
     }
 
-    /// Returns `true` if this trial repeats the result of a logged one. Logs of older versions do not state the kind of
-    /// a problem, and have metrics that tests no longer have; these differences are ignored.
+    /// Returns `true` if the trial has the same result as a logged trial of the same test. Logs of older versions do
+    /// not state the kind of a problem, and have metrics that tests no longer have; these differences are ignored.
     pub fn repeats(&self, logged: &Self) -> bool {
         let mut logged = logged.clone();
         logged.others = logged.others.iter().filter(|(name, _)| !RETIRED.contains(name)).map(owned).collect();
@@ -229,7 +230,7 @@ impl Trial {
         self.verdict == Verdict::Fail
     }
 
-    /// Returns `true` if the trial covers its place in the space. Trials with the verdict `error` or `invalid` do not.
+    /// Returns `true` if the test counts for coverage, because the verdict is neither `error` nor `invalid`.
     pub fn covers(&self) -> bool {
         !matches!(self.verdict, Verdict::Error | Verdict::Invalid)
     }

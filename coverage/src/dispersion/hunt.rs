@@ -36,7 +36,7 @@ const MOST_DIMS: usize = 1_500;
 /// The number of boxes that one attempt explores.
 const ATTEMPT: usize = 500;
 
-/// The search for the largest empty box on all cores.
+/// A search for the largest empty box among points in three or more dimensions, on all cores.
 pub(super) struct Hunt<'a> {
     points: &'a PointSet,
     /// The volume of the witness, for all threads to see.
@@ -53,13 +53,14 @@ pub(super) struct Hunt<'a> {
 }
 
 impl<'a> Hunt<'a> {
-    /// Makes a search for boxes larger than the witness found so far and larger than `above`.
+    /// Makes a search for empty boxes that are larger than the box `witness` and larger than the volume `above`.
     pub fn new(points: &'a PointSet, witness: LargestEmptyBox, above: f64) -> Self {
         let bar = Bar::new(witness.volume().max(above));
         Self { points, bar, witness, open: vec![Open::cube(points)], upper: 1.0, attempts: 0, full: false }
     }
 
-    /// Searches to the end, or until the deadline. `watch` receives the bracket while it narrows.
+    /// Searches for the largest empty box, until the result is exact or the deadline passes. `watch` receives the
+    /// bracket while it narrows.
     pub fn run(mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
         if self.points.dims() > MOST_DIMS {
             return Dispersion { volume: self.bracket(), witness: self.witness };
@@ -81,8 +82,8 @@ impl<'a> Hunt<'a> {
         Dispersion { volume: self.bracket(), witness: self.witness }
     }
 
-    /// Checks that no box is larger than `above`, for which the search was made; `None` if the answer was not known
-    /// at the deadline.
+    /// Returns true if no empty box is larger than `above`; `None` if the answer is not known at the deadline. The
+    /// search must have been made for the same `above`.
     pub fn finds_none(mut self, above: f64, deadline: Deadline) -> Option<bool> {
         if self.points.dims() > MOST_DIMS {
             return (self.witness.volume() > above).then_some(false);

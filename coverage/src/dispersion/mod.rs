@@ -37,7 +37,7 @@ use hunt::Hunt;
 use plane::Plane;
 
 impl Measure {
-    /// The volume of the largest box without a test.
+    /// The measure "dispersion", which is the volume of the largest box without a test.
     pub const DISPERSION: Self = Self::of(&Descriptor {
         name: "dispersion",
         key: "dispersion",
@@ -50,10 +50,10 @@ impl Measure {
     });
 }
 
-/// Computes the dispersion, the largest volume of an open axis-parallel box in `[0,1]^d` that holds none of the
-/// points. A point on a face of a box is not in the box. The dispersion of a set without points is 1, the volume of
-/// the cube (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling
-/// 23, 1996).
+/// Computes the dispersion of points, which is the largest volume of an open axis-parallel box in `[0,1]^d` without a
+/// point. A point on a face of a box is not in the box. The dispersion of a set without points is 1, the volume of the
+/// cube (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23,
+/// 1996).
 ///
 /// The result is exact, in any dimension, unless `deadline` cuts the search short (in one dimension it never does).
 /// From three dimensions on, the limit of memory (some 200 MiB) can also cut it short, but only for many points on a
@@ -62,13 +62,13 @@ pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
     dispersion_watched(points, deadline, &mut |_| ())
 }
 
-/// Computes the [`dispersion`], and calls `watch` with the bracket while it narrows.
+/// Computes the [`dispersion`] of points, and calls `watch` with the present bracket each time the bracket narrows.
 pub fn dispersion_watched(points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
     largest_above(points, f64::NEG_INFINITY, deadline, watch)
 }
 
-/// Checks whether the dispersion is at most `volume`; `None` if the answer was not known at the deadline. This takes
-/// less time than to compute the dispersion.
+/// Returns true if the dispersion of the points is at most `volume`; `None` if the answer is not known at the deadline.
+/// This check takes less time than the computation of the dispersion.
 pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<bool> {
     let slab = widest_slab(points);
     match points.dims() {
@@ -78,7 +78,7 @@ pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<
     }
 }
 
-/// The dispersion; `None` if the search proves that it is at most `above`.
+/// Returns the dispersion of points; `None` if the search proves that the dispersion is at most `above`.
 pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
     let found = largest_above(points, above, deadline, &mut |_| ());
     (found.volume.upper > above).then_some(found)

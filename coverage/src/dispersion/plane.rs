@@ -29,7 +29,7 @@ use std::ops::Range;
 /// The number of points from which on a part of the work is shared with other cores.
 const SHARED: usize = 2_000;
 
-/// The search for the largest empty rectangle on all cores.
+/// A search for the largest empty rectangle among points of the unit square, on all cores.
 pub(super) struct Plane {
     /// The points in the order of their second coordinate.
     points: Vec<[f64; 2]>,
@@ -41,7 +41,8 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// Makes a search for rectangles larger than the witness found so far and larger than `above`.
+    /// Makes a search for empty rectangles that are larger than the rectangle `witness` and larger than the area
+    /// `above`.
     ///
     /// # Panics
     /// The points do not have two coordinates.
@@ -56,7 +57,7 @@ impl Plane {
         Self { points, columns, bar, witness }
     }
 
-    /// Searches for the largest empty rectangle, to the end or until the deadline.
+    /// Searches for the largest empty rectangle, until the result is exact or the deadline passes.
     pub fn run(self, deadline: Deadline) -> Dispersion {
         let (found, left) = self.search(deadline, f64::INFINITY);
         let witness = found.map_or(self.witness, Rectangle::into_box);
@@ -66,8 +67,8 @@ impl Plane {
         Dispersion { volume: Bracket { lower, upper: left.map_or(lower, |left| left.max(lower)) }, witness }
     }
 
-    /// Returns `true` if no rectangle is larger than `above`, for which the search was made; `None` if the answer was
-    /// not known at the deadline.
+    /// Returns `true` if no empty rectangle is larger than `above`; `None` if the answer is not known at the deadline.
+    /// The search must have been made for the same `above`.
     pub fn finds_none(self, above: f64, deadline: Deadline) -> Option<bool> {
         if self.witness.volume() > above {
             return Some(false);

@@ -11,7 +11,8 @@ use crate::PointSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A volume that many threads raise. Non-negative floats have the same order as their bits.
+/// A volume that many threads share and raise, so that all threads leave out smaller boxes. Non-negative floats have
+/// the same order as their bits.
 #[derive(Debug)]
 pub(super) struct Bar(AtomicU64);
 
@@ -29,7 +30,7 @@ impl Bar {
     }
 }
 
-/// A box with the points strictly inside it, waiting to be explored.
+/// A box that waits to be explored, with the points strictly inside the box.
 #[derive(Debug, Clone)]
 pub(super) struct Open {
     pub volume: f64,
@@ -38,7 +39,7 @@ pub(super) struct Open {
 }
 
 impl Open {
-    /// The unit cube.
+    /// Makes the box that is the whole unit cube, with all points strictly inside the cube.
     pub fn cube(points: &PointSet) -> Self {
         let sides = vec![Side::between(0.0, 1.0); points.dims()];
         let all = 0..points.len() as u32;
@@ -65,25 +66,25 @@ struct Node {
     cut: Option<u32>,
 }
 
-/// The result of a search.
+/// The result of the depth-first search for the largest empty box.
 #[derive(Debug)]
 pub(super) struct Found {
-    /// The first of the largest empty boxes above the bar, if there is one.
+    /// The first of the largest empty boxes above the bar; `None` if no empty box is above the bar.
     pub witness: Option<LargestEmptyBox>,
-    /// The boxes that were not explored, because the search was ended.
+    /// The boxes that the search did not explore before its end.
     pub open: Vec<Open>,
-    /// `true` if the search ended for lack of memory, so that `open` is incomplete.
+    /// `true` if the search ended for lack of memory, so that the list of unexplored boxes in `open` is incomplete.
     pub lost: bool,
 }
 
 impl Found {
-    /// Returns `true` if all boxes were explored.
+    /// Returns `true` if the search explored all boxes.
     pub fn is_done(&self) -> bool {
         self.open.is_empty() && !self.lost
     }
 }
 
-/// The number of points that the lists of a search may hold by default: 64 MiB.
+/// The default number of points that the lists of a search may hold, which take 64 MiB.
 pub(super) const MOST_LISTED: usize = 1 << 24;
 
 pub(super) struct BoxSearch<'a> {
@@ -114,19 +115,19 @@ impl<'a> BoxSearch<'a> {
         Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
     }
 
-    /// Makes a search that can be repeated without its arithmetic. It tries cuts in the order of the axes and
-    /// remembers its pivots.
+    /// Makes a search that records its pivots, so that the search can be repeated without its arithmetic. The search
+    /// tries cuts in the order of the axes.
     pub fn with_trail(points: &'a PointSet, reference: f64) -> Self {
         Self { trail: Some(Vec::new()), ..Self::new(points, reference) }
     }
 
-    /// The pivots in the order in which they were taken.
+    /// Returns the pivots that the search recorded, in the order in which the search took them.
     pub fn into_trail(self) -> Vec<u32> {
         self.trail.unwrap_or_default()
     }
 
-    /// Explores a box as long as `go_on` returns `true`. `go_on` receives the number of points that each step looks
-    /// at.
+    /// Searches a box for the largest empty box inside, as long as `go_on` returns `true`. `go_on` receives the number
+    /// of points that each step looks at.
     ///
     /// The search leaves out boxes below the shared bar, and boxes at or below `floor`. A box that it finds raises
     /// both.

@@ -1,6 +1,6 @@
 //! The sides of a box under search: where they end, and where empty boxes inside may end.
 
-/// A box along one axis, with the constraints on the empty boxes that are searched inside it.
+/// The interval of a box along one axis, with constraints on the empty boxes inside the box.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     pub lower: f64,
@@ -11,7 +11,7 @@ pub(super) struct Side {
     upper_above: f64,
 }
 
-/// One of the two ends of a side.
+/// The lower or the upper end of a side of a box.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum End {
     Lower,
@@ -19,7 +19,7 @@ pub(super) enum End {
 }
 
 impl Side {
-    /// Makes a side without constraints.
+    /// Makes the side from `lower` to `upper`, without constraints.
     pub fn between(lower: f64, upper: f64) -> Self {
         Self { lower, upper, lower_below: f64::INFINITY, upper_above: f64::NEG_INFINITY }
     }
@@ -33,7 +33,7 @@ impl Side {
         self.lower < x && x < self.upper
     }
 
-    /// Returns `true` if an end may move to `x`.
+    /// Returns `true` if the constraints allow that the given end moves to `x`.
     pub fn allows(&self, x: f64, end: End) -> bool {
         match end {
             End::Lower => x < self.lower_below,
@@ -41,7 +41,7 @@ impl Side {
         }
     }
 
-    /// Returns the side with an end at `x`.
+    /// Returns the side with the given end moved to `x`.
     pub fn moved(self, x: f64, end: End) -> Self {
         match end {
             End::Lower => Self { lower: x, ..self },
@@ -49,7 +49,7 @@ impl Side {
         }
     }
 
-    /// Returns the side with the constraint that this end does not reach `x`.
+    /// Returns the side with the added constraint that the given end of an empty box lies beyond `x`.
     pub fn kept(self, x: f64, end: End) -> Self {
         match end {
             End::Lower => Self { lower_below: self.lower_below.min(x), ..self },
@@ -58,7 +58,8 @@ impl Side {
     }
 }
 
-/// The volume of a box: the product of differences in the order of the axes, which rounding keeps monotone.
+/// Returns the volume of a box with the given sides. It is the product of differences in the order of the axes, which
+/// rounding keeps monotone.
 pub(super) fn volume(sides: &[Side]) -> f64 {
     sides.iter().map(Side::length).product()
 }

@@ -8,8 +8,9 @@
 use super::search::{Bar, BoxSearch, Open};
 use crate::PointSet;
 
-/// The pivots of a search for an empty box larger than `above`. `go_on` is called at each pivot with the number of
-/// points looked at, and may end the search. `None` if the search was ended, or if there is such a box.
+/// Returns the pivots of a search that proves that no empty box is larger than `above`. `go_on` is called at each pivot
+/// with the number of points looked at, and may end the search. `None` if `go_on` ended the search, or if a larger
+/// empty box exists.
 pub(crate) fn trail(points: &PointSet, above: f64, go_on: impl FnMut(usize) -> bool) -> Option<Vec<u32>> {
     let mut search = BoxSearch::with_trail(points, above);
     let found = search.explore(&Open::cube(points), &Bar::new(0.0), above, go_on);

@@ -25,7 +25,7 @@ const ALLOCATION: usize = 16;
 /// The next goal as a share of the largest bound. If two such steps reach the end, the goal is the end.
 const GOAL: f64 = 0.99;
 
-/// The search for the largest empty ball on all cores.
+/// A search for the largest empty ball with its centre in the unit cube, on all cores.
 pub(super) struct Hunt<'a> {
     points: &'a PointSet,
     tree: Tree,
@@ -38,7 +38,8 @@ pub(super) struct Hunt<'a> {
 }
 
 impl<'a> Hunt<'a> {
-    /// Makes a search that has looked at the middle and at two corners of the cube. There must be a point.
+    /// Makes a search for the largest empty ball among `points`. The search begins with the best of the middle and two
+    /// corners of the cube. There must be a point.
     pub fn new(points: &'a PointSet, deadline: Deadline) -> Self {
         let tree = Tree::new(points);
         let sides: Box<[Side]> = vec![Side { lower: 0.0, upper: 1.0 }; points.dims()].into();
@@ -49,7 +50,7 @@ impl<'a> Hunt<'a> {
         Self { points, tree, best, open: BinaryHeap::from([Open { bound, sides }]), most_open, deadline }
     }
 
-    /// Searches to the end, or until the deadline.
+    /// Searches for the largest empty ball, until the result is exact or the deadline passes.
     pub fn run(mut self) -> Fill {
         self.climb();
         while let Some(largest) = self.open.peek()

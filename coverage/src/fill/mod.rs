@@ -27,7 +27,7 @@ use crate::{Deadline, PointSet};
 use hunt::Hunt;
 
 impl Measure {
-    /// The radius of the largest empty ball with its centre in the cube.
+    /// The measure "fill", which is the radius of the largest empty ball with its centre in the cube.
     pub const FILL: Self = Self::of(&Descriptor {
         name: "fill",
         key: "fill",
@@ -41,8 +41,8 @@ impl Measure {
     });
 }
 
-/// Computes the fill distance, the largest Euclidean distance of a place in `[0,1]^d` from its nearest point. Returns
-/// `None` for a set without points, because no ball is then too large to be empty.
+/// Computes the fill distance of points, which is the largest Euclidean distance of a place in `[0,1]^d` from its
+/// nearest point. Returns `None` for a set without points, because no ball is then too large to be empty.
 ///
 /// The result is exact, in any dimension, unless `deadline` cuts the search short. The radius is usually irrational,
 /// and is known as a floating-point number. "Exact" means that no place in the cube is further from all points than

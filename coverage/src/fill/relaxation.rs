@@ -31,7 +31,7 @@ const BEYOND_END: f64 = 1e-12;
 const VIOLATION: f64 = 1e-15;
 const PIVOT: f64 = 1e-11;
 
-/// An interval along one axis.
+/// The interval of a box along one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Side {
     pub lower: f64,
@@ -53,7 +53,7 @@ enum Row {
     End { axis: usize, upper: bool },
 }
 
-/// The relaxation of one box after the other, with its working memory.
+/// The working memory for the relaxations of boxes, with the last solved relaxation.
 #[derive(Debug)]
 pub(super) struct Relaxation<'a> {
     tree: &'a Tree,
@@ -73,7 +73,7 @@ pub(super) struct Relaxation<'a> {
     weights: Vec<(u32, f64)>,
     /// For each axis, the larger of the weighted means at the two ends.
     tops: Vec<f64>,
-    /// The place of the solution, in the box.
+    /// The place in the box at which the relaxation has its solution.
     pub place: Vec<f64>,
     /// Working memory for the tree.
     beyond: Vec<f64>,
@@ -98,8 +98,8 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// An upper bound on the squared distance between a place in the box and its nearest point. The method ends as
-    /// soon as the bound is at most `bar`, or when the time is over.
+    /// Computes an upper bound on the squared distance between a place in the box and its nearest point. The method
+    /// ends as soon as the bound is at most `bar`, or when the time is over.
     pub fn solve(&mut self, sides: &[Side], bar: f64, watch: &mut Watch) -> f64 {
         self.start(sides);
         let first = self.bound(sides);
@@ -135,13 +135,13 @@ impl<'a> Relaxation<'a> {
         self.bound(sides).min(first)
     }
 
-    /// The squared distance of the solution's place from the point nearest to it.
+    /// Returns the squared distance between the solution's place and the point nearest to that place.
     pub fn squared_distance(&mut self) -> f64 {
         self.tree.nearest(&self.place, &mut self.beyond).squared
     }
 
-    /// The interval along an axis in which the weights prove that no place of the last solved box has a squared
-    /// distance above `bar`. `side` is the side of that box, or a part of it.
+    /// Returns an interval along an axis in which no place of the last solved box has a squared distance above `bar`,
+    /// as the weights prove. `side` is the side of that box, or a part of that side.
     pub fn hole(&self, axis: usize, side: Side, bar: f64) -> Option<Side> {
         let others: f64 = (0..self.tops.len()).filter(|other| *other != axis).map(|other| self.tops[other]).sum();
         let at = |x: f64| self.mean_square(axis, x);

@@ -31,10 +31,11 @@ impl Centre {
     }
 }
 
-/// A box that may hold a place that is further from all points than any place found so far.
+/// A box that waits to be explored, because a place in the box may be further from all points than the best known
+/// place.
 #[derive(Debug, Clone)]
 pub(super) struct Open {
-    /// The squared distance that no place of the box exceeds.
+    /// An upper bound on the squared distance between a place of the box and its nearest point.
     pub bound: f64,
     pub sides: Box<[Side]>,
 }
@@ -59,12 +60,12 @@ impl Ord for Open {
     }
 }
 
-/// The result of a search.
+/// The result of a search for the place that is furthest from all points.
 #[derive(Debug)]
 pub(super) struct Outcome {
-    /// The best place, if it is better than the best place that was known before.
+    /// The place that the search found; `None` if no place is better than the best place known before the search.
     pub found: Option<Centre>,
-    /// The boxes that are left to explore.
+    /// The boxes that the search has not explored.
     pub open: Vec<Open>,
 }
 
@@ -77,7 +78,7 @@ pub(super) fn same_as(squared: f64, dims: usize) -> f64 {
     distance * distance
 }
 
-/// A search on one thread.
+/// A search on one thread for the place that is furthest from all points.
 #[derive(Debug)]
 pub(super) struct BallSearch<'a> {
     dims: usize,
@@ -97,8 +98,8 @@ impl<'a> BallSearch<'a> {
         Self { dims: tree.dims(), relaxation, climbing, watch: Watch::new(deadline), best: 0.0, found: None }
     }
 
-    /// Explores at most `most` boxes, depth first. The search leaves out boxes that hold no place above `goal` and
-    /// `best`, both squared.
+    /// Searches the box `root` for places with a large distance, and explores at most `most` boxes, depth first. The
+    /// search leaves out boxes that hold no place above `goal` and `best`, both squared.
     pub fn explore(&mut self, root: Open, best: f64, goal: f64, most: usize) -> Outcome {
         self.best = best;
         let mut open = vec![root];
@@ -116,14 +117,14 @@ impl<'a> BallSearch<'a> {
         Outcome { found: self.found.take(), open }
     }
 
-    /// Returns an upper bound on the squared distances between places in a box and their nearest points, as good as the
-    /// time allows.
+    /// Returns an upper bound on the squared distance between a place in a box and the point nearest to the place, as
+    /// good as the time allows.
     pub fn bound(&mut self, sides: &[Side]) -> f64 {
         self.relaxation.solve(sides, 0.0, &mut self.watch)
     }
 
-    /// Climbs from a place to better places, as long as there is time. The relaxation of a box around a place gives the
-    /// next place.
+    /// Moves from a place to places that are further from all points, and returns the last place. The relaxation of a
+    /// box around a place gives the next place.
     pub fn climb(&mut self, mut from: Centre) -> Centre {
         let mut step = from.squared.sqrt();
         while step > SHORTEST_STEP * from.squared.sqrt() && !self.watch.passed_after(0) {

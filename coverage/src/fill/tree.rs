@@ -10,7 +10,7 @@ const LEAF: usize = 8;
 /// long.
 const SAMPLE: usize = 64;
 
-/// Points in the order of the tree: the middle one of a part divides it along its widest axis.
+/// A k-d tree of points. The middle point of each part of the tree divides the part along its widest axis.
 #[derive(Debug)]
 pub(super) struct Tree {
     dims: usize,
@@ -19,14 +19,14 @@ pub(super) struct Tree {
     axes: Vec<u32>,
 }
 
-/// The point nearest to a place.
+/// The result of a search for the point nearest to a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
-    /// The position of the point in the tree.
+    /// The position of the nearest point in the tree.
     pub point: u32,
-    /// The squared distance of the point from the place.
+    /// The squared distance between the place and the nearest point.
     pub squared: f64,
-    /// The number of points that the search looked at.
+    /// The number of points that the search for the nearest point looked at.
     pub looked_at: usize,
 }
 
@@ -123,7 +123,7 @@ impl Query<'_> {
     }
 }
 
-/// The square of the distance between two places.
+/// Returns the square of the distance between two places.
 pub(super) fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }

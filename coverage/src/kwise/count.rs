@@ -48,8 +48,8 @@ impl Bits {
     }
 }
 
-/// The number of combinations of levels of `k` parameters that the tests contain. The tests must be distinct. For `k
-/// = 0` any test contains the empty combination.
+/// Returns the number of combinations of levels of `k` parameters that the tests contain. The tests must be distinct.
+/// For `k = 0` any test contains the empty combination.
 pub(super) fn covered(levels: &[usize], k: usize, tests: &[&[usize]]) -> u64 {
     if k == 0 {
         return u64::from(!tests.is_empty());

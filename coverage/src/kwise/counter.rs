@@ -6,7 +6,7 @@ use paracosm_space::rules::Rules;
 /// The largest number of words that the bits of a counter may take: 64 mebibytes.
 const MOST_WORDS: u128 = 1 << 23;
 
-/// Counts the valid combinations of k levels that the tests so far contain.
+/// A counter of the valid combinations of levels of k parameters that the added tests contain.
 ///
 /// Each combination of levels of k - 1 parameters has a bit for every level of every later parameter.
 #[derive(Debug, Clone)]
@@ -25,7 +25,7 @@ pub struct KwiseCounter {
 }
 
 impl KwiseCounter {
-    /// Makes a counter of the combinations of `k` parameters, before the first test.
+    /// Makes a counter of the valid combinations of levels of `k` parameters, without any test.
     ///
     /// # Errors
     /// `k` is 0 or more than the number of parameters, a parameter has no level, or there are too many combinations:
@@ -35,7 +35,8 @@ impl KwiseCounter {
         Self::among(rules, &all, k)
     }
 
-    /// Makes a counter of the combinations of `k` of the given parameters, which are in ascending order.
+    /// Makes a counter of the valid combinations of levels of `k` parameters out of the given parameters, without any
+    /// test. The given parameters are in ascending order.
     ///
     /// # Errors
     /// The same errors as [`KwiseCounter::new`].
@@ -106,7 +107,7 @@ impl KwiseCounter {
         });
     }
 
-    /// Returns the number of valid combinations that a test contains and no earlier test contains; 0 for a test that
+    /// Returns the number of valid combinations that a test contains and no added test contains; 0 for a test that
     /// violates a constraint.
     ///
     /// # Errors
@@ -120,8 +121,8 @@ impl KwiseCounter {
         Ok(gain)
     }
 
-    /// Adds a test, and returns the number of valid combinations that are new. A test that violates a constraint covers
-    /// no combination.
+    /// Adds a test, and returns the number of valid combinations that no earlier test contains. A test that violates a
+    /// constraint covers no combination.
     ///
     /// # Errors
     /// The test does not belong to this space.
@@ -142,12 +143,12 @@ impl KwiseCounter {
         Ok(self.covered - before)
     }
 
-    /// Returns the number of valid combinations.
+    /// Returns the number of all valid combinations, covered or not.
     pub fn valid(&self) -> u64 {
         self.valid
     }
 
-    /// Returns the number of valid combinations that the tests so far contain.
+    /// Returns the number of valid combinations that at least one added test contains.
     pub fn covered(&self) -> u64 {
         self.covered
     }

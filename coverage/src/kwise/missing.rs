@@ -10,8 +10,8 @@ struct Head {
     missing: Vec<u64>,
 }
 
-/// The first [`MISSING_LISTED`] valid combinations of `k` of the members that none of the valid tests contains. The
-/// members are in ascending order.
+/// Lists the first [`MISSING_LISTED`] valid combinations of `k` of the parameters `members` that no valid test
+/// contains. The members are in ascending order.
 pub(super) fn first_missing(
     rules: &Rules,
     members: &[usize],

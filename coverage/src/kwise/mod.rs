@@ -21,8 +21,8 @@ use std::cmp::Ordering;
 use thiserror::Error;
 
 impl Measure {
-    /// The share of combinations of k discrete parameters that the tests cover, and the epsilon for which the tests
-    /// are (k, epsilon)-covering.
+    /// The measure "k-wise coverage", which is the share of combinations of k discrete values that the tests contain,
+    /// with the epsilon for which the tests are (k, epsilon)-covering.
     pub const K_WISE: Self = Self::of(&Descriptor {
         name: "k-wise",
         key: "discrete",
@@ -35,31 +35,31 @@ impl Measure {
     });
 }
 
-/// The largest number of missing combinations that are listed.
+/// The greatest number of missing combinations that a [`KwiseCoverage`] lists.
 pub const MISSING_LISTED: usize = 20;
 
 /// The largest number of k-wise combinations that can be counted: 2^33, a gibibyte of bits.
 const MOST_TUPLES: u128 = 1 << 33;
 
-/// The k-wise coverage of a set of tests.
+/// The k-wise coverage of a set of tests, with counts of valid combinations of levels of k parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KwiseCoverage {
     /// The number of valid combinations of levels of k parameters.
     pub valid: u64,
-    /// The number of valid combinations that some test contains.
+    /// The number of valid combinations that at least one test contains.
     pub covered: u64,
     /// The first [`MISSING_LISTED`] valid combinations that no test contains, as (parameter, level) indices. They are
     /// ordered by their sets of parameters, then by their levels, both lexicographically.
     pub missing: Vec<Vec<(usize, usize)>>,
-    /// The share of the valid combinations of *all* parameters that are tested. `None` if constraints join too many
-    /// parameters, so that these combinations cannot be counted.
+    /// The share of the valid combinations of levels of *all* parameters that the tests contain. `None` if constraints
+    /// join too many parameters, so that these combinations cannot be counted.
     pub combinations: Option<f64>,
-    /// The positions of the tests that violate a constraint and so cover nothing.
+    /// The positions of the tests that violate a constraint and therefore cover no combination.
     pub invalid: Vec<usize>,
 }
 
 impl KwiseCoverage {
-    /// Returns the share of the valid combinations that some test contains. It is 1 for a k-wise covering family.
+    /// Returns the share of the valid combinations that the tests contain. It is 1 for a k-wise covering family.
     pub fn ratio(&self) -> f64 {
         if self.valid == 0 { 1.0 } else { self.covered as f64 / self.valid as f64 }
     }
@@ -68,51 +68,51 @@ impl KwiseCoverage {
 /// The reason why k-wise coverage cannot be counted.
 #[derive(Debug, Error, PartialEq)]
 pub enum KwiseError {
-    /// k is 0 or more than the number of parameters.
+    /// The number k of parameters in a combination is 0 or exceeds the number of parameters.
     #[error("k is {k}, expected a number from 1 to {parameters}, the number of parameters")]
     Strength {
-        /// The requested k.
+        /// The requested number k of parameters in a combination.
         k: usize,
-        /// The number of parameters.
+        /// The number of parameters from which k parameters are chosen.
         parameters: usize,
     },
-    /// A parameter has no level, so that no test exists.
+    /// The parameter at the given position has no level, so that no test exists.
     #[error("parameter {0} has no level, expected at least one")]
     NoLevel(usize),
-    /// There are more valid combinations than can be counted.
+    /// There are more valid combinations of levels than can be counted.
     #[error("{found} combinations of {k} parameters are valid; at most {MOST_TUPLES} can be counted; use a smaller k")]
     TooMany {
-        /// The requested k.
+        /// The requested number k of parameters in a combination.
         k: usize,
-        /// The number of combinations; `u128::MAX` stands for this number or more.
+        /// The number of valid combinations; `u128::MAX` also stands for any greater number.
         found: u128,
     },
     /// A counter would need too much memory for the valid combinations.
     #[error("counting the combinations of {k} parameters takes {mebibytes} MiB, more than 64; use a smaller k")]
     Memory {
-        /// The requested k.
+        /// The requested number k of parameters in a combination.
         k: usize,
         /// The memory that the counter needs, in MiB.
         mebibytes: u128,
     },
-    /// A test has too many or too few levels.
+    /// The number of levels of a test differs from the number of parameters.
     #[error("test {index} has {}, expected {expected}", plural(*found, "level"))]
     Ragged {
-        /// The position of the test, from 0.
+        /// The position of the wrong test among the tests, from 0.
         index: usize,
-        /// The number of levels of the test.
+        /// The number of levels of the wrong test.
         found: usize,
-        /// The number of parameters.
+        /// The number of parameters, which is the expected number of levels of the test.
         expected: usize,
     },
-    /// A test has a level that the parameter does not have.
+    /// A test has a level that does not exist for its parameter.
     #[error("test {index}, parameter {parameter}: found level {found}, expected a level below {levels}")]
     Level {
-        /// The position of the test, from 0.
+        /// The position of the wrong test among the tests, from 0.
         index: usize,
-        /// The position of the parameter, from 0.
+        /// The position of the parameter with the wrong level, from 0.
         parameter: usize,
-        /// The level of the test.
+        /// The wrong level in the test, which the parameter does not have.
         found: usize,
         /// The number of levels of the parameter.
         levels: usize,
@@ -237,7 +237,7 @@ fn valid(rules: &Rules, parameters: &[usize], k: usize) -> Result<u64, KwiseErro
     Ok(found as u64)
 }
 
-/// Checks that a test belongs to the space.
+/// Checks that a test has a level for each parameter, and that every level exists.
 pub(crate) fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<(), KwiseError> {
     if test.len() != levels.len() {
         return Err(KwiseError::Ragged { index, found: test.len(), expected: levels.len() });
@@ -250,7 +250,8 @@ pub(crate) fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<()
     }
 }
 
-/// The combination of levels of `set` with this mixed-radix number. The last parameter's level is the lowest digit.
+/// Returns the combination of levels of the parameters in `set` that has the mixed-radix number `index`. The last
+/// parameter's level is the lowest digit.
 pub(crate) fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(usize, usize)> {
     let mut tuple: Vec<_> = set.iter().map(|&p| (p, 0)).collect();
     for (parameter, level) in tuple.iter_mut().rev() {
@@ -260,7 +261,7 @@ pub(crate) fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(u
     tuple
 }
 
-/// Changes `set` to the next set of the same size, in lexicographic order. Returns `false` after the last set.
+/// Changes a set of parameters to the next set of its size, in lexicographic order. Returns `false` after the last set.
 pub(crate) fn advance(set: &mut [usize], parameters: usize) -> bool {
     let k = set.len();
     let Some(i) = (0..k).rev().find(|&i| set[i] < parameters - k + i) else { return false };

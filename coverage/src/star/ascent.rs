@@ -8,7 +8,7 @@ use super::cell::BoxKind;
 use super::sides::Sides;
 use crate::Deadline;
 
-/// A local search over the boxes of some points.
+/// A local search for the box with the largest difference between volume and share of points.
 pub(super) struct Ascent<'a> {
     sides: &'a Sides<'a>,
     /// For each side, the points in the order of their coordinates.
@@ -29,7 +29,7 @@ impl<'a> Ascent<'a> {
         Self { sides, orders: Vec::new(), positions: vec![0.0; sides.count()], outside: vec![0; sides.points()] }
     }
 
-    /// The largest difference that the ascents with these numbers find until the deadline.
+    /// Returns the largest difference that the ascents with the given numbers find until the deadline.
     pub(super) fn run(&mut self, ascents: std::ops::Range<usize>, deadline: Deadline) -> f64 {
         let coordinates = self.sides.points() * self.sides.count();
         if coordinates > Self::MOST_COORDINATES {

@@ -2,16 +2,16 @@
 
 use super::sides::{Sides, above_0};
 
-/// The kind of difference that is searched.
+/// The kind of difference between volume and share of points that a search maximises.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BoxKind {
-    /// The volume less the share of points inside, for open boxes.
+    /// The volume of an open box less the share of points inside the box.
     Open,
-    /// The share of points, with those on the faces, less the volume, for closed boxes.
+    /// The share of points in a closed box, including its faces, less the volume of the box.
     Closed,
 }
 
-/// A point that is in some boxes of a cell and not in others.
+/// A point that is inside part of the boxes of a cell, and outside the remaining boxes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Undecided {
     point: u32,
@@ -21,26 +21,26 @@ pub(super) struct Undecided {
     sum: u32,
 }
 
-/// The boxes whose sides are between `lower` and `upper`: `lower < position <= upper` for open boxes and `lower <=
-/// position < upper` for closed boxes. In both, a point is inside along a side if its coordinate is `<= lower`, and
-/// outside if it is `>= upper`.
+/// A cell of boxes, which are all boxes whose sides are between `lower` and `upper`. That is `lower < position <=
+/// upper` for open boxes and `lower <= position < upper` for closed boxes. In both, a point is inside along a side if
+/// its coordinate is `<= lower`, and outside if it is `>= upper`.
 #[derive(Debug, Clone)]
 pub(super) struct Cell {
     lower: Vec<f64>,
     upper: Vec<f64>,
     inside: usize,
     undecided: Vec<Undecided>,
-    /// The upper bound: no box of the cell has a larger value.
+    /// An upper bound on the difference of every box of the cell.
     pub(super) bound: f64,
 }
 
 /// The result of the relaxation of a cell.
 pub(super) enum Relaxed {
-    /// The cell has no box above the threshold.
+    /// No box of the cell has a difference above the threshold.
     Nothing,
-    /// The largest value of the cell's boxes.
+    /// The largest difference of a box of the cell, if the relaxation has solved the cell.
     Solved(f64),
-    /// The relaxation has lowered the cell's bound, but the cell is not solved.
+    /// The relaxation has lowered the upper bound of the cell, but has not solved the cell.
     Bounded,
 }
 
@@ -59,7 +59,7 @@ const MOST_STEPS: usize = 1 << 26;
 /// The greatest number of repeated counts, as a multiple of the number of points that matters.
 const AGAIN_PER_BUDGET: usize = 3;
 
-/// Working memory of the relaxation.
+/// Working memory of the relaxation of a cell.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     /// For each side: the positions that take in (open) or leave out (closed) 0, 1, 2, .. of its points.
@@ -73,7 +73,7 @@ pub(super) struct Scratch {
 }
 
 impl Cell {
-    /// The cell of all boxes that matter.
+    /// Makes the cell of all boxes that can have the largest difference.
     pub(super) fn root(sides: &Sides, kind: BoxKind) -> Self {
         let all = 0..sides.points();
         let least = |side| all.clone().map(|point| sides.coordinate(point, side)).fold(f64::INFINITY, f64::min);
@@ -92,7 +92,7 @@ impl Cell {
         cell
     }
 
-    /// The number of numbers in the cell.
+    /// Returns the number of numbers that the cell stores.
     pub(super) fn size(&self) -> usize {
         self.undecided.len() + self.lower.len()
     }
@@ -168,11 +168,11 @@ impl Cell {
         }
     }
 
-    /// Shrinks the cell and bounds it by its relaxation. In the relaxation the sides are independent: only the number
-    /// of points that each side takes in (or leaves out) counts. A point that is undecided along one side counts
-    /// along this side. A point that is undecided along several sides counts
-    /// * for closed boxes: along the side where it costs most, because it is inside only if all sides take it in;
-    /// * for open boxes: along all these sides, less the repeated counts, if no box above the threshold leaves it out
+    /// Shrinks the cell and lowers the upper bound of the cell by its relaxation. In the relaxation the sides are
+    /// independent: only the number of points that each side takes in (or leaves out) counts. A point that is undecided
+    /// along one side counts along this side. A point that is undecided along several sides counts * for closed boxes:
+    /// along the side where it costs most, because it is inside only if all sides take it in; * for open boxes: along
+    /// all these sides, less the repeated counts, if no box above the threshold leaves it out
     ///   along two sides; otherwise it does not count. The point is certainly outside if exactly one side leaves it
     ///   out.
     ///
@@ -326,7 +326,7 @@ impl Cell {
         }
     }
 
-    /// Cuts the cell in two, below and above a coordinate.
+    /// Cuts the cell into two cells, below and above a coordinate.
     pub(super) fn split(mut self, sides: &Sides, kind: BoxKind, scratch: &mut Scratch) -> [Self; 2] {
         let (side, at) = self.cut(sides, scratch);
         // Below the cut, points at the cut and beyond are outside. The other points stay as undecided as they were.

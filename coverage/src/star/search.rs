@@ -29,7 +29,7 @@ const NEXT_TARGET: [f64; 2] = [0.76, 0.9];
 /// The number of numbers that the stack of a task may hold: some 200 MiB.
 const MOST_NUMBERS: usize = 1 << 24;
 
-/// The largest difference between volume and share of points, over the boxes that `sides` describes.
+/// Finds the largest difference between volume and share of points, over the boxes that `sides` describes.
 pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
     let best = Ascent::new(sides).run(0..ASCENTS, deadline.part(TIME_FOR_ASCENTS));
     let first = Pass::over(sides, best, best, deadline.part(TIME_TO_THE_END));

@@ -8,24 +8,25 @@
 
 use crate::PointSet;
 
-/// A set of points, seen from the free sides of boxes.
+/// A set of points, with the coordinates of the points in the directions of the free sides of boxes.
 pub(crate) struct Sides<'a> {
     points: &'a PointSet,
     anchored: bool,
 }
 
 impl<'a> Sides<'a> {
-    /// Boxes `[0, y)`: one free side per axis.
+    /// Makes the sides for boxes `[0, y)`, which have one free side per axis.
     pub(crate) fn of_anchored_boxes(points: &'a PointSet) -> Self {
         Self { points, anchored: true }
     }
 
-    /// All boxes: the sides `2 j` and `2 j + 1` bound axis `j` from below and above.
+    /// Makes the sides for all boxes, which have two free sides per axis. The sides `2 j` and `2 j + 1` bound axis `j`
+    /// from below and above.
     pub(crate) fn of_all_boxes(points: &'a PointSet) -> Self {
         Self { points, anchored: false }
     }
 
-    /// The number of free sides of a box.
+    /// Returns the number of free sides of a box.
     pub(super) fn count(&self) -> usize {
         self.points.dims() * self.per_axis()
     }
@@ -38,7 +39,7 @@ impl<'a> Sides<'a> {
         self.points.len()
     }
 
-    /// The coordinate of a point in the direction of a side.
+    /// Returns the coordinate of a point in the direction of a side.
     pub(super) fn coordinate(&self, point: usize, side: usize) -> f64 {
         let point = self.points.point(point);
         if self.anchored {
@@ -48,38 +49,38 @@ impl<'a> Sides<'a> {
         if side % 2 == 1 { x } else { -x }
     }
 
-    /// The farthest position in the cube.
+    /// Returns the farthest position of a side in the cube.
     pub(super) fn end(&self, side: usize) -> f64 {
         if self.anchored || side % 2 == 1 { 1.0 } else { 0.0 }
     }
 
-    /// The width of a box along an axis; 0 if its sides have passed each other.
+    /// Returns the width of a box along an axis; 0 if the sides of the box have passed each other.
     pub(super) fn width(&self, axis: usize, positions: &[f64]) -> f64 {
         if self.anchored { positions[axis] } else { above_0(positions[2 * axis] + positions[2 * axis + 1]) }
     }
 
-    /// The volume of a box: the product of its widths, in the order of the axes.
+    /// Returns the volume of a box, which is the product of its widths in the order of the axes.
     pub(super) fn volume(&self, positions: &[f64]) -> f64 {
         (0..self.points.dims()).map(|axis| self.width(axis, positions)).product()
     }
 
-    /// The product of a box's widths along all axes but one.
+    /// Returns the product of the widths of a box along all axes except the axis `without`.
     pub(super) fn volume_across(&self, without: usize, positions: &[f64]) -> f64 {
         (0..self.points.dims()).filter(|axis| *axis != without).map(|axis| self.width(axis, positions)).product()
     }
 
-    /// The farthest position of a side at which the box has this width along the side's axis.
+    /// Returns the farthest position of a side at which the box has the given width along the side's axis.
     pub(super) fn position(&self, side: usize, width: f64, positions: &[f64]) -> f64 {
         if self.anchored { width } else { width - positions[side ^ 1] }
     }
 
-    /// A number of points, as a share of all points.
+    /// Returns a number of points as a share of all points.
     pub(super) fn share(&self, count: usize) -> f64 {
         count as f64 / self.points.len() as f64
     }
 }
 
-/// The number, or 0 if it is negative.
+/// Returns the given number, or 0 if the number is negative.
 pub(super) fn above_0(x: f64) -> f64 {
     if x > 0.0 { x } else { 0.0 }
 }

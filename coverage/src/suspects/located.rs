@@ -4,41 +4,43 @@ use super::JudgedTest;
 use super::partial::Partial;
 use paracosm_space::rules::Rules;
 
-/// A combination whose values are all needed for a failing test to fail.
+/// A located guilty combination, whose values are all needed for a test to fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Located {
     /// The (parameter, level) pairs of the combination, in ascending order of parameters.
     pub values: Vec<(usize, usize)>,
-    /// The values of the combination that constraints tie to each other, so that no valid test can show which of them
-    /// are needed.
+    /// The values of the combination that no valid test can separate, because constraints tie the values to each other.
+    /// It is unknown which of these values are needed.
     pub undivided: Vec<(usize, usize)>,
-    /// A failing test that contains the combination. Its other values differ from those of the first failing test,
-    /// except for values that follow by the constraints or were cleared.
+    /// A failing test that contains the located combination. Its other values differ from those of the first failing
+    /// test, except for values that follow by the constraints or were cleared.
     pub witness: Vec<usize>,
-    /// The number of tests that the search asked for.
+    /// The number of tests that the search for the combination requested.
     pub tests: usize,
-    /// The number of tests that is enough to find one guilty combination of this size, k (ceil(log2 N) + 1) for k of
-    /// N values. `None` if constraints kept the questions from halving the values in doubt, so that no number is
-    /// promised.
+    /// The number of tests that suffices to find a single guilty combination of the same size. It is k (ceil(log2 N) +
+    /// 1) for k of N values. `None` if constraints kept the questions from halving the values in doubt, so that no
+    /// number is promised.
     pub bound: Option<usize>,
 }
 
-/// The agreement of a located combination with other tests. Positions are positions among these tests.
+/// The agreement of a located combination with the results of further tests. Positions are positions among the further
+/// tests.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Standing {
-    /// Every test that contains the combination failed, and every other test passed.
+    /// Every test with the combination failed, and every test without the combination passed.
     Sole,
-    /// All tests that contain the combination failed, but the tests at these positions failed without it. There is
-    /// more than one cause.
+    /// All tests with the combination failed, but the tests at the listed positions failed without the combination.
+    /// There is more than one cause.
     OneOfSeveral(Vec<usize>),
-    /// The tests at these positions contain the combination and passed, so that it is not the cause by itself.
-    /// Several causes misled the search, or failures depend on something else.
+    /// The tests at the listed positions contain the combination and passed, so that the combination alone is not the
+    /// cause. Several causes misled the search, or failures depend on something else.
     Refuted(Vec<usize>),
 }
 
 impl Located {
-    /// Makes a valid test with the located values and otherwise, as far as constraints allow, the levels of another
-    /// test. If the other test passes, a pass of the new test refutes the values, and a failure speaks for them.
+    /// Makes a valid test from the test `other` by replacing levels by the located values. Further levels change only
+    /// if constraints demand this. If the other test passes, a pass of the new test refutes the values, and a failure
+    /// speaks for them.
     ///
     /// # Panics
     /// The values were not located under these rules, or the other test has too few levels.
@@ -50,7 +52,7 @@ impl Located {
         partial.complete(other)
     }
 
-    /// Compares the located combination with other tests.
+    /// Compares the located combination with the results of further tests.
     ///
     /// # Panics
     /// A test has too few levels.

@@ -18,19 +18,20 @@ use crate::kwise::{KwiseError, check};
 use paracosm_space::rules::Rules;
 use thiserror::Error;
 
-/// The reason why a search for a guilty combination cannot begin.
+/// The reason why a search for the combination that makes a test fail cannot begin.
 #[derive(Debug, Error, PartialEq)]
 pub enum LocateError {
-    /// A test does not belong to this space. Test 0 is the failing test, test 1 the passing test.
+    /// The failing or the passing test does not belong to the space. Test 0 is the failing test, test 1 the passing
+    /// test.
     #[error(transparent)]
     Test(#[from] KwiseError),
-    /// A test violates a constraint.
+    /// The failing or the passing test violates a constraint.
     #[error("the {role} test violates a constraint")]
     Invalid {
-        /// The role of the test, `failing` or `passing`.
+        /// The role of the test that violates a constraint, `failing` or `passing`.
         role: &'static str,
     },
-    /// The failing test and the passing test are the same.
+    /// The failing test and the passing test have the same levels.
     #[error("the failing test and the passing test are the same")]
     Same,
 }
@@ -58,7 +59,8 @@ struct Question {
     kept: Vec<usize>,
 }
 
-/// Finds the guilty combination by asking for tests one after the other and learning their results.
+/// A search for the combination of values that makes a test fail, which requests one test after the other and learns
+/// the results.
 ///
 /// ```
 /// use paracosm_space::rules::Rules;
@@ -92,7 +94,7 @@ pub struct Locator<'r> {
 }
 
 impl<'r> Locator<'r> {
-    /// Begins a search with a failing test and a passing test.
+    /// Begins a search for a guilty combination with a failing test and a passing test.
     ///
     /// # Errors
     /// A test does not belong to this space or violates a constraint, or both tests are the same.
@@ -100,9 +102,9 @@ impl<'r> Locator<'r> {
         Self::cautious(rules, failing, passing, |_, _| true)
     }
 
-    /// Begins a search as [`Locator::new`], but changes values only to the levels of the passing test and to levels
-    /// that are `safe`. `safe` receives a parameter and one of its levels. It is not asked about levels that
-    /// constraints force.
+    /// Begins a search as [`Locator::new`] does, but changes values only to levels of the passing test and to levels
+    /// for which `safe` returns `true`. `safe` receives a parameter and a level of the parameter. It is not asked about
+    /// levels that constraints force.
     ///
     /// This helps if several combinations are guilty: a value may be part of one combination, and the level that it
     /// is changed to part of another. A value without a safe level is kept, and is not reported as guilty.
@@ -145,12 +147,12 @@ impl<'r> Locator<'r> {
         Ok(locator)
     }
 
-    /// Returns the test to be run next; `None` when the search is over.
+    /// Returns the levels of the test that the search needs next; `None` when the search is over.
     pub fn question(&self) -> Option<&[usize]> {
         self.question.as_ref().map(|question| question.test.as_slice())
     }
 
-    /// Tells the result of the test in question.
+    /// Takes the result of the test that [`Locator::question`] returned.
     ///
     /// # Panics
     /// The search is over.
@@ -170,7 +172,7 @@ impl<'r> Locator<'r> {
         self.as_promised &= !(failed && was_last && self.question.is_some());
     }
 
-    /// Returns the guilty combination when the search is over; `None` before.
+    /// Returns the guilty combination; `None` before the search is over.
     pub fn located(&self) -> Option<Located> {
         if self.question.is_some() {
             return None;

@@ -21,32 +21,33 @@ use std::collections::BinaryHeap;
 /// The number of suspects that are kept. If there are more, they are searched again when they are needed.
 const KEPT: usize = 1 << 14;
 
-/// A test that failed or passed.
+/// A test of discrete parameters with its result, failed or passed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JudgedTest {
-    /// The level of each parameter.
+    /// The level of each discrete parameter in the test.
     pub levels: Vec<usize>,
     /// `true` if the test failed.
     pub failed: bool,
 }
 
 impl JudgedTest {
-    /// Returns `true` if the test has all of these (parameter, level) pairs.
+    /// Returns `true` if the test has all given (parameter, level) pairs.
     pub fn contains(&self, values: &[(usize, usize)]) -> bool {
         values.iter().all(|&(parameter, level)| self.levels[parameter] == level)
     }
 }
 
-/// A combination that failing tests contain and passing tests do not, while no part of it has this property.
+/// A minimal combination of values that failing tests contain and passing tests do not contain. No part of the
+/// combination has this property.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suspect {
     /// The (parameter, level) pairs of the combination, in ascending order of parameters.
     pub values: Vec<(usize, usize)>,
-    /// The number of failing tests that contain the combination. No other tests contain it.
+    /// The number of failing tests that contain the suspect combination. No passing test contains the combination.
     pub failures: usize,
-    /// The average suspicion of the single values. For each value it takes the share of failed tests among the tests
-    /// with this value, by Laplace's rule (failed + 1) / (all + 2). Values that are together by chance have about the
-    /// share of all tests. The values of a guilty combination have a higher share.
+    /// The average suspicion of the combination's values, between 0 and 1. The suspicion of a value is the share of
+    /// failed tests among the tests with this value, by Laplace's rule (failed + 1) / (all + 2). Values that are
+    /// together by chance have about the share of all tests. The values of a guilty combination have a higher share.
     pub suspicion: f64,
 }
 
@@ -60,15 +61,15 @@ impl Suspect {
     }
 }
 
-/// The suspects that tests show.
+/// The suspects of a set of tests, which are combinations of values that may cause the failures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Suspects {
-    /// The first suspects in the order of their ranks. They are ordered by size, the smallest first; then by
-    /// explained failures, the most first; then by suspicion, the highest first.
+    /// The listed suspects in the order of their ranks. They are ordered by size, the smallest first; then by explained
+    /// failures, the most first; then by suspicion, the highest first.
     pub ranked: Vec<Suspect>,
-    /// The number of all suspects.
+    /// The number of all suspects, listed or not.
     pub found: u64,
-    /// A few suspects that together explain all failures that can be explained. Each is the suspect that explains
+    /// A few suspects that together explain all failures that any suspect explains. Each is the suspect that explains
     /// most of the failures that are left (Chvátal's greedy set cover, at most ln n + 1 times as many as needed for n
     /// failures).
     pub explanation: Vec<Suspect>,
@@ -78,7 +79,8 @@ pub struct Suspects {
     pub invalid: Vec<usize>,
 }
 
-/// Finds the suspects of at most `size` values, and lists the first `most` of them.
+/// Finds the combinations of at most `size` values that may cause the failures of tests. Lists the first `most`
+/// suspects.
 ///
 /// If no test failed or no test passed, combinations cannot be told apart and there are no suspects. The search takes
 /// memory only for the tests and the listed suspects.

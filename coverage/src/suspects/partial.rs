@@ -2,7 +2,7 @@
 
 use paracosm_space::rules::Rules;
 
-/// Levels of some parameters, such that some valid test has all of them.
+/// A partial test, which has levels of some parameters and can be completed to a valid test.
 #[derive(Debug, Clone)]
 pub(super) struct Partial<'r> {
     rules: &'r Rules,
@@ -10,13 +10,13 @@ pub(super) struct Partial<'r> {
 }
 
 impl<'r> Partial<'r> {
-    /// Makes a partial test without any level.
+    /// Makes a partial test that has no level yet.
     pub fn new(rules: &'r Rules) -> Self {
         Self { rules, levels: vec![None; rules.levels().len()] }
     }
 
-    /// Chooses a level of a parameter, if some valid test has it together with the levels chosen before. Returns
-    /// `true` if so.
+    /// Chooses a level of a parameter, if a valid test has this level together with the levels chosen before. Returns
+    /// `true` if the level was chosen.
     pub fn choose(&mut self, parameter: usize, level: usize) -> bool {
         self.levels[parameter] = Some(level);
         let group = self.rules.group_of(parameter);
@@ -27,13 +27,14 @@ impl<'r> Partial<'r> {
         fits
     }
 
-    /// Chooses the first possible level of `levels` other than `than`. Returns `true` if there is one.
+    /// Chooses the first possible level in `levels` that differs from the level `than`. Returns `true` if a level was
+    /// chosen.
     pub fn choose_other(&mut self, parameter: usize, than: usize, levels: &[usize]) -> bool {
         levels.iter().any(|&level| level != than && self.choose(parameter, level))
     }
 
-    /// Completes the test. A parameter without a level gets the preferred level or, if that is impossible, the first
-    /// possible level.
+    /// Completes the partial test to a valid test. A parameter without a level gets the preferred level or, if that is
+    /// impossible, the first possible level.
     pub fn complete(mut self, preferred: &[usize]) -> Vec<usize> {
         for (parameter, &level) in preferred.iter().enumerate() {
             if self.levels[parameter].is_none() && !self.choose(parameter, level) {

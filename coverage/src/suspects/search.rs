@@ -6,13 +6,13 @@
 
 use super::{JudgedTest, Suspect};
 
-/// A receiver of suspects.
+/// A receiver of the suspects that a search finds.
 pub(super) trait Visitor {
-    /// Returns `true` if the visitor needs suspects that have at least `size` values and are in at most `explained` of
-    /// the given failures.
+    /// Returns `true` if the visitor needs suspects that have at least `size` values and are in at most `explained`
+    /// failing tests.
     fn wants(&self, size: usize, explained: usize) -> bool;
 
-    /// Receives a suspect, and the number of the given failures that contain the suspect.
+    /// Receives a suspect and the number of failing tests that contain the suspect.
     fn see(&mut self, suspect: Suspect, explained: usize);
 }
 
@@ -24,7 +24,7 @@ struct Item {
     passed: Vec<u64>,
 }
 
-/// The values that failing tests have, by parameters and in ascending order of levels.
+/// A search for suspects over the values of failing tests. Values are ordered by parameters, then by levels.
 pub(super) struct SuspectSearch {
     size: usize,
     items: Vec<Item>,
@@ -47,7 +47,7 @@ pub(super) fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
-/// Returns the positions of the bits that are set.
+/// Returns the positions of the set bits in a bit set.
 pub(super) fn ones(bits: &[u64]) -> impl Iterator<Item = usize> {
     bits.iter().enumerate().flat_map(|(word, &bits)| {
         let clear_lowest = |bits: &u64| Some(bits & (bits - 1)).filter(|&rest| rest != 0);
@@ -68,7 +68,7 @@ fn intersect(target: &mut [u64], a: &[u64], b: &[u64]) -> usize {
 }
 
 impl SuspectSearch {
-    /// Prepares the search for suspects of at most `size` values in the tests.
+    /// Makes a search for suspects of at most `size` values in the given tests.
     pub fn new<'a>(parameters: usize, size: usize, tests: impl Iterator<Item = &'a JudgedTest>) -> Self {
         let (failing, passing): (Vec<&JudgedTest>, Vec<&JudgedTest>) = tests.partition(|test| test.failed);
         let mut items = Vec::new();
@@ -99,7 +99,7 @@ impl SuspectSearch {
         Self { size, items, first, of_failure, passing: passing.len() }
     }
 
-    /// Returns the set of all failing tests.
+    /// Returns the set of all failing tests, as bits.
     pub fn failing(&self) -> Vec<u64> {
         let mut all = zeros(self.of_failure.len());
         (0..self.of_failure.len()).for_each(|failure| set(&mut all, failure));
@@ -133,7 +133,7 @@ impl SuspectSearch {
         Suspect { values, failures, suspicion }
     }
 
-    /// Shows the visitor each suspect that at least one of the given failures contains.
+    /// Calls the visitor with each suspect that at least one of the given failing tests contains.
     pub fn visit(&self, failures: &[u64], visitor: &mut impl Visitor) {
         let mut passing = zeros(self.passing);
         (0..self.passing).for_each(|pass| set(&mut passing, pass));

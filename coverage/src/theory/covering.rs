@@ -4,8 +4,8 @@
 //! becomes a covering array over fewer levels. A bound for parameters with equally many levels therefore gives a
 //! bound for any parameters.
 
-/// Returns a lower bound on the number of rows of any covering array of strength `strength` over parameters with
-/// these numbers of levels, in any order. A number beyond `u128` saturates.
+/// Returns a lower bound on the number of rows of every covering array of the given strength for parameters with the
+/// given numbers of levels. The order of the parameters does not matter. A number beyond `u128` saturates.
 ///
 /// The bound is the largest of these:
 /// - the product of the `strength` largest numbers of levels: each of these combinations needs a row of its own;

@@ -9,7 +9,7 @@
 //! All functions take the number of dimensions and the dispersion `epsilon` that must not be exceeded. They return
 //! `None` if the number of points does not fit in `u64`, and panic if `dims` is 0 or `epsilon` is not in `(0, 1)`.
 
-/// Returns a lower bound on the number of points of any set whose dispersion is at most `epsilon`.
+/// Returns a lower bound on the number of points of every set of points whose dispersion is at most `epsilon`.
 ///
 /// Any set of `n` points leaves an empty box of volume `1/(n+1)`. For `d >= 2` it also leaves a box of volume
 /// `5/(4(n+5))` (Dumitrescu, Jiang, On the largest empty axis-parallel box amidst n points, Algorithmica 66, 2013)
@@ -26,10 +26,9 @@ pub fn needed_by_any_set(dims: usize, epsilon: f64) -> Option<u64> {
     whole((slabs.max(plane).max(many) * (1.0 - 1e-12)).ceil().max(0.0))
 }
 
-/// Returns a number of consecutive points of the Halton sequence that is enough for a dispersion of at most
-/// `epsilon`, from any index on. The dispersion of `n` points is at most `2^d p_1 ... p_d / n`, with the first `d`
-/// primes (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23,
-/// 1996).
+/// Returns a number of consecutive points of the Halton sequence that have a dispersion of at most `epsilon`, from any
+/// index on. The dispersion of `n` points is at most `2^d p_1 ... p_d / n`, with the first `d` primes (Rote, Tichy,
+/// Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23, 1996).
 pub fn enough_of_halton(dims: usize, epsilon: f64) -> Option<u64> {
     check(dims, epsilon);
     whole((doubled_primes(dims) / epsilon).ceil())
@@ -43,8 +42,8 @@ pub fn enough_of_hammersley(dims: usize, epsilon: f64) -> Option<u64> {
     whole((doubled_primes(dims - 1) / epsilon).ceil())
 }
 
-/// Returns a power of two, a number of first points of the Sobol sequence that have a dispersion of at most
-/// `epsilon`. The dispersion of a `(t,m,d)`-net in base 2 is at most `2^d 2^(d-1+t) / n`. The quality parameter `t`
+/// Returns a number of first points of the Sobol sequence that have a dispersion of at most `epsilon`. The number is a
+/// power of two. The dispersion of a `(t,m,d)`-net in base 2 is at most `2^d 2^(d-1+t) / n`. The quality parameter `t`
 /// of the sequence in `d` dimensions is at most the sum of the degrees of its primitive polynomials, each less 1
 /// (Sobol, On the distribution of points in a cube and the approximate evaluation of integrals, USSR Comput. Math.
 /// Math. Phys. 7, 1967).

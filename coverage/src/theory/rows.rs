@@ -8,9 +8,9 @@
 use paracosm_space::rules::{Rules, UniformTests};
 use std::collections::BTreeMap;
 
-/// Returns the number of uniformly random rows of `{0,1}^parameters` that Proposition 3.2 of the paper asks for, so
-/// that they are a k-wise covering family with probability at least `1 - delta`. It is `2^k (k ln N - ln delta)`, not
-/// rounded.
+/// Returns the number of random rows of two-level parameters that cover k-wise with probability at least `1 - delta`,
+/// by the paper's Proposition 3.2. The rows are uniformly distributed in `{0,1}^parameters`. The number is `2^k (k ln N
+/// - ln delta)`, not rounded.
 ///
 /// The formula comes from `ln(1 - 2^-k) <= -2^-k` and `C(N,k) 2^k <= N^k`. The second inequality does not hold for
 /// small `N`: at `N = k = 1`, `delta = 0.9` the formula asks for 0.21, and one row cannot hold both values. Use
@@ -20,8 +20,8 @@ pub fn proposition_3_2(parameters: usize, k: usize, delta: f64) -> f64 {
     libm::exp2(k) * (k * libm::log(parameters as f64) - libm::log(delta))
 }
 
-/// Uniformly random rows, drawn from all tests that satisfy the constraints, and the probability that they cover
-/// k-wise.
+/// The theory of random rows, which computes the probability that uniformly random rows cover k-wise. Rows are drawn
+/// from all tests that satisfy the constraints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RandomRows {
     parameters: usize,
@@ -33,8 +33,8 @@ pub struct RandomRows {
 }
 
 impl RandomRows {
-    /// Describes random rows that should contain all valid combinations of levels of `k` parameters. Returns `None`
-    /// if constraints join too many parameters, so that the probabilities cannot be computed.
+    /// Prepares the probabilities that random rows contain the valid combinations of levels of `k` parameters. Returns
+    /// `None` if constraints join too many parameters, so that the probabilities cannot be computed.
     ///
     /// # Panics
     /// `k` is not in 1 to the number of parameters, or a parameter has no level.
@@ -47,8 +47,8 @@ impl RandomRows {
         Some(Self { parameters: levels.len(), k, of_the_paper, combinations })
     }
 
-    /// Returns an upper bound on the probability that at least one valid combination is in none of `rows` rows. It is
-    /// the union bound, or 1 if the union bound is larger:
+    /// Returns an upper bound on the probability that `rows` random rows miss at least one valid combination. It is the
+    /// union bound, or 1 if the union bound is larger:
     ///
     /// ```text
     /// sum over all valid combinations of  (1 - p)^rows,      p = the probability of the combination in one row.
@@ -69,9 +69,9 @@ impl RandomRows {
         self.combinations.iter().map(missed).fold(0.0, sum_above).min(1.0)
     }
 
-    /// Returns the least number of rows for which the union bound guarantees all valid combinations with probability
-    /// at least `1 - delta`, that is, for which [`RandomRows::missed`] is at most `delta`. Returns `u64::MAX` if the
-    /// number does not fit.
+    /// Returns the least number of rows for which [`RandomRows::missed`] is at most `delta`. By the union bound, the
+    /// rows then contain all valid combinations with probability at least `1 - delta`. Returns `u64::MAX` if the number
+    /// does not fit.
     ///
     /// # Panics
     /// `delta` is not in `(0, 1)`.
@@ -96,7 +96,7 @@ impl RandomRows {
         long
     }
 
-    /// Returns the number of rows that are a k-wise covering family with probability at least `1 - delta`.
+    /// Returns the number of random rows that cover k-wise with probability at least `1 - delta`.
     ///
     /// For parameters with two levels each and no constraints it is the number of the paper's [`proposition_3_2`],
     /// which users of the paper expect, although that is more than needed. If the formula asks for too few rows, the

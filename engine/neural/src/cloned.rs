@@ -1,14 +1,14 @@
 //! The networks that come with the software. The recipe of each network names the study that taught it (see the README
 //! beside the weights).
 
-/// A network that was taught to drive in some scenarios.
+/// A network that comes with the software and was trained to drive in the listed scenarios.
 #[derive(Debug, Clone, Copy)]
 pub struct Cloned {
     /// The name of the network, which is also the name of its file.
     pub name: &'static str,
-    /// The scenarios that the network was taught for.
+    /// The names of the scenarios for which the network was trained.
     pub scenarios: &'static [&'static str],
-    /// The contents of the ONNX file.
+    /// The contents of the network's ONNX file.
     pub contents: &'static [u8],
 }
 

@@ -15,7 +15,7 @@ use tract_onnx::pb::{
 const FORMAT: i64 = 8;
 const OPERATIONS: i64 = 13;
 
-/// Returns the contents of the ONNX file of a network. `story` says where the network comes from.
+/// Returns the contents of the ONNX file of a network. `story` describes the origin of the network.
 pub fn onnx(network: &Network, [width, height]: [u32; 2], story: &str) -> Vec<u8> {
     let mut file = File::default();
     file.constant("middle", &[], vec![MIDDLE]);

@@ -20,7 +20,7 @@ use rand_pcg::Pcg64;
 pub struct Lesson {
     /// The number of the run that the lesson is from. Lessons of held-out runs examine the network and do not teach it.
     pub run: usize,
-    /// The image, three bytes a pixel.
+    /// The image that the expert saw, with three bytes a pixel.
     pub rgb: Vec<u8>,
     /// The car's speed in m/s.
     pub speed: f32,
@@ -31,15 +31,15 @@ pub struct Lesson {
 /// The settings of the training of a network.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recipe {
-    /// The size of the images in pixels, across and down.
+    /// The width and the height of the images in pixels.
     pub resolution: [u32; 2],
-    /// The seed of all randomness.
+    /// The seed of all random numbers of the training.
     pub seed: u64,
     /// The number of lessons in a batch.
     pub batch: usize,
-    /// The first and the last step size of Adam. The step size falls evenly between them.
+    /// The first and the last step size of Adam. The step size changes evenly from the first to the last.
     pub rates: [f64; 2],
-    /// The weights of the squared errors of the steering and of the throttle.
+    /// The weights of the squared errors of steering and throttle in the loss.
     pub weights: [f32; 2],
     /// The distance between held-out runs: 5 means that every 5th run is held out. `None` holds out no run.
     pub held_out: Option<usize>,
@@ -66,7 +66,7 @@ pub struct Learner {
 }
 
 impl Learner {
-    /// Makes a network with random weights.
+    /// Makes a learner with a network of random weights.
     ///
     /// # Panics
     /// The images are smaller than 33 x 33, or the recipe holds out every 0th run or has batches of 0 lessons.
@@ -134,8 +134,8 @@ impl Learner {
         (!lessons.is_empty()).then(|| squares.map(|sum| (sum / lessons.len() as f64).sqrt()))
     }
 
-    /// Returns the network as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` says where the
-    /// network comes from.
+    /// Returns the network as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` describes the
+    /// origin of the network.
     pub fn onnx(&self, story: &str) -> Vec<u8> {
         onnx(&self.network.valid(), self.recipe.resolution, story)
     }

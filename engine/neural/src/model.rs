@@ -13,7 +13,7 @@ use tract_onnx::tract_hir::infer::Factoid;
 /// The smallest and the greatest height and width of an image, in pixels.
 const PIXELS: (usize, usize) = (8, 1024);
 
-/// An error in a file that should hold a network that drives.
+/// An error in a file that should contain a network that drives.
 #[derive(Debug, Error)]
 pub enum ModelError {
     /// The file is not in the ONNX format, or has operations that are not known.
@@ -22,10 +22,10 @@ pub enum ModelError {
         /// The error of the ONNX reader.
         source: TractError,
     },
-    /// The inputs or outputs of the network do not fit a driver.
+    /// The inputs or outputs of the network are not the inputs and outputs of a driver.
     #[error("{what} is {found}, expected {expected}")]
     Shape {
-        /// The name of the tensor, in words.
+        /// The name of the wrong tensor, in words.
         what: &'static str,
         /// The type and shape of the tensor in the file.
         found: String,
@@ -34,10 +34,10 @@ pub enum ModelError {
     },
 }
 
-/// An error of a network that was asked for an answer.
+/// An error during the computation of a network's answer.
 #[derive(Debug, Error)]
 pub enum AnswerError {
-    /// The image has another size than the network takes.
+    /// The size of the image differs from the size that the network takes.
     #[error("the image has {found} bytes, expected {expected}: three for each pixel of the network's input")]
     ImageSize {
         /// The number of bytes of the image.
@@ -60,7 +60,7 @@ const IMAGE: &str = "1 x 3 x height x width, float, with height and width from 8
 const SPEED: &str = "1 x 1, float: the speed";
 const ANSWER: &str = "1 x 2, float: steering and throttle";
 
-/// A network that drives. Copies share its weights.
+/// A neural network that drives, read from an ONNX file. Copies share the network's weights.
 #[derive(Debug, Clone)]
 pub struct Model {
     plan: Arc<TypedRunnableModel>,
@@ -73,7 +73,7 @@ impl Model {
     /// Reads a network from the contents of an ONNX file.
     ///
     /// # Errors
-    /// The contents are no ONNX file, or the network has other inputs and outputs than a driver's.
+    /// The contents are no ONNX file, or the network has other inputs and outputs than a driver needs.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
         let unreadable = |source: TractError| ModelError::Unreadable { source };
         let mut model = tract_onnx::onnx().model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
@@ -107,7 +107,7 @@ impl Model {
         Ok(Self { plan, width, height, asks_for_speed: inputs == 2 })
     }
 
-    /// Returns the size in pixels, across and down, of the images that the network takes.
+    /// Returns the width and the height in pixels of the images that the network takes.
     pub fn resolution(&self) -> [u32; 2] {
         [self.width as u32, self.height as u32]
     }

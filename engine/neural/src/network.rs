@@ -11,8 +11,8 @@ use burn::tensor::activation::{leaky_relu, tanh};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// A convolution: the number of its output channels, the size of its kernel, the stride and the padding, in pixels. The
-/// padding with zeros makes half of the paper's image size suffice; the paper pads nothing.
+/// A convolution with its number of output channels, and its kernel's size, stride and padding in pixels. The padding
+/// with zeros makes half of the paper's image size suffice; the paper pads nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct Convolution {
     pub channels: usize,
@@ -33,7 +33,7 @@ pub const CONVOLUTIONS: [Convolution; 5] = [
     convolution(64, 3, 1, 1),
     convolution(64, 3, 1, 0),
 ];
-/// The numbers of outputs of the dense layers: three hidden layers, then steering and throttle.
+/// The numbers of outputs of the three hidden dense layers and of the last layer, which gives steering and throttle.
 pub const DENSE: [usize; 4] = [100, 50, 10, 2];
 /// The number that the network subtracts from every colour value, which lies between 0 and 1.
 pub const MIDDLE: f32 = 0.5;
@@ -54,7 +54,7 @@ pub struct Network {
     pub dense: Vec<Linear>,
 }
 
-/// Returns the number of outputs of the convolutions for an image of this resolution.
+/// Returns the number of outputs of the convolutions for an image of the given resolution.
 fn found([width, height]: [u32; 2]) -> usize {
     let size = |pixels: u32| {
         let after = |size: usize, layer: &Convolution| (size + 2 * layer.padding - layer.kernel) / layer.stride + 1;
@@ -64,8 +64,8 @@ fn found([width, height]: [u32; 2]) -> usize {
 }
 
 impl Network {
-    /// Makes a network for images of this resolution, with random weights (He et al., "Delving Deep into Rectifiers",
-    /// 2015).
+    /// Makes a network for images of the given resolution, with random weights (He et al., "Delving Deep into
+    /// Rectifiers", 2015).
     pub fn new(resolution: [u32; 2], chance: &mut Pcg64, device: &Device) -> Self {
         let mut weights = |count: usize, inputs: usize| -> Vec<f32> {
             let bound = (6.0 / inputs as f32).sqrt();
@@ -100,7 +100,7 @@ impl Network {
         Self { convolutions: convolutions.into(), dense: dense.into() }
     }
 
-    /// Returns steering and throttle, a row for each image.
+    /// Returns the network's steering and throttle, as one row for each image.
     pub fn forward(&self, images: Tensor<4>, speeds: Tensor<2>) -> Tensor<2> {
         let mut seen = images - MIDDLE;
         for layer in &self.convolutions {

@@ -8,14 +8,14 @@ use paracosm_engine::{Briefing, Control, Observation};
 /// The seconds between two images, and between two questions to the driver.
 pub const PERIOD: f64 = 0.1;
 
-/// A driver that does what its model answers.
+/// A driver whose steering and throttle a neural network gives.
 #[derive(Debug, Clone)]
 pub struct Pilot {
     model: Model,
     newest: Option<Image>,
 }
 
-/// Returns the camera that networks look through, with this many pixels across and down.
+/// Returns the description of the camera of drivers that are networks, with the given width and height in pixels.
 pub fn camera(resolution: [u32; 2]) -> CameraSpec {
     CameraSpec {
         resolution,
@@ -29,7 +29,7 @@ pub fn camera(resolution: [u32; 2]) -> CameraSpec {
 }
 
 impl Pilot {
-    /// Makes a driver that asks this model.
+    /// Makes a driver from the neural network that gives the controls.
     pub fn new(model: Model) -> Self {
         Self { model, newest: None }
     }

@@ -16,21 +16,21 @@ const EARTH: f64 = 6371.0 / 8.0;
 /// The daylight of a clear sky, as shares of the daylight under the usual sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Daylight {
-    /// The light of the sun's rays, for red, green and blue.
+    /// The red, green and blue of the sun's rays, as shares of the light at the default elevation of the sun.
     pub sun: [f32; 3],
-    /// The light of the air at the horizon.
+    /// The red, green and blue of the air at the horizon, as shares of the light at the default elevation of the sun.
     pub horizon: [f32; 3],
-    /// The light of the sky above. It dims and keeps its hue, because ozone absorbs the light that would make it grey
-    /// (Hulburt 1953).
+    /// The light of the sky straight above, as a share of the light at the default elevation of the sun. It dims and
+    /// keeps its hue, because ozone absorbs the light that would make it grey (Hulburt 1953).
     pub zenith: f32,
-    /// The light that comes from all around.
+    /// The red, green and blue from all directions, as shares of the light at the default elevation of the sun.
     pub around: [f32; 3],
-    /// The share of the air above that is not in the shadow of the earth, from 0 to 1. It is 1 until sunset.
+    /// The share of the air overhead that is not in the shadow of the earth, from 0 to 1. It is 1 until sunset.
     pub risen: f32,
 }
 
 impl Daylight {
-    /// Returns the daylight with the sun at this elevation, in radians above the horizon.
+    /// Returns the daylight of a clear sky at a height of the sun, in radians above the horizon.
     pub fn of(elevation: f32) -> Self {
         let (air, usual) = (air_mass(elevation), air_mass(USUAL));
         let below = f64::from(-elevation).max(0.0);
@@ -51,15 +51,16 @@ impl Daylight {
     }
 }
 
-/// Returns the air mass that the sun's rays pass, 1 from the zenith (Kasten and Young, Revised optical air mass tables
-/// and approximation formula, Applied Optics 28, 1989). The formula ends at the horizon; below it, the value at the
-/// horizon is used.
+/// Returns the air mass that the sun's rays pass, as a multiple of the air mass from the zenith (Kasten and Young,
+/// Revised optical air mass tables and approximation formula, Applied Optics 28, 1989). The formula ends at the
+/// horizon; below it, the value at the horizon is used.
 fn air_mass(elevation: f32) -> f64 {
     let up = f64::from(elevation).max(0.0);
     1.0 / (libm::sin(up) + 0.50572 * libm::pow(up.to_degrees() + 6.07995, -1.6364))
 }
 
-/// Returns the mean share of rays that is left over a depth. It is the mean of exp(-x) for x from 0 to `depth`.
+/// Returns the mean share of the light rays that are left between the optical depths 0 and `depth`. It is the mean of
+/// exp(-x) for x from 0 to `depth`.
 fn column(depth: f64) -> f64 {
     -libm::expm1(-depth) / depth
 }

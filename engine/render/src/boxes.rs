@@ -1,36 +1,35 @@
-//! Boxes around things: on the image, from their pixels, and in space, from their meshes.
+//! Boxes around objects: on the image, from their pixels, and in space, from their meshes.
 
 use crate::frame::Extent;
 use crate::{Camera, Frame, Instance, Scene};
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use std::collections::BTreeMap;
 
-/// The box of a thing on the image, with its class and its occlusion.
+/// The box around the visible pixels of an object in an image, with the object's class and occlusion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Box2 {
-    /// The pixels of the thing that are visible.
+    /// The number and the bounds of the visible pixels of the object.
     pub visible: Extent,
-    /// The class that most of the pixels have; `None` if the frame has no classes.
+    /// The most frequent semantic class among the visible pixels of the object; `None` if the frame has no classes.
     pub semantic: Option<u8>,
-    /// The share of the thing that other things hide, from 0 to 1, measured in pixels; `None` if the frame does not
-    /// hold the pixels that the thing would have alone.
+    /// The hidden share of the object's pixels, from 0 to 1; `None` if [`Frame::alone`] is `None`.
     pub occlusion: Option<f64>,
 }
 
-/// The box of a thing in space.
+/// The three-dimensional box around an object, in the camera's coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Box3 {
-    /// The id of the thing.
+    /// The id of the object in the scene.
     pub id: u16,
     /// The transformation from the box's coordinates, whose origin is the middle of the box, to the camera's
     /// coordinates.
     pub pose: Isometry3<f64>,
-    /// The length of the box along each of its own axes, in metres.
+    /// The lengths of the box in metres, along its own x, y and z axes.
     pub size: Vector3<f64>,
 }
 
-/// Returns the boxes of all things with an id that have a pixel in the frame, in the order of their ids; `None` if the
-/// frame has no instances.
+/// Returns a box for each object that has an id and is visible in the frame, sorted by id; `None` if the frame has no
+/// image of ids.
 pub fn boxes(frame: &Frame) -> Option<Vec<Box2>> {
     let instance = frame.instance.as_ref()?;
     let mut extents = BTreeMap::<u16, (Extent, [u32; 256])>::new();
@@ -59,9 +58,9 @@ fn most_frequent(classes: &[u32; 256]) -> u8 {
     (0..=255).rev().max_by_key(|class| classes[usize::from(*class)]).unwrap_or_default()
 }
 
-/// Returns the boxes of all things of the scene that have an id, in the order of their ids, as seen by a camera on a
-/// `carrier` with this pose. A thing of several instances has one box around all of them, which is turned like the
-/// first instance.
+/// Returns a three-dimensional box for each object of the scene that has an id, sorted by id, in the coordinates of a
+/// camera on a vehicle with the pose `carrier`. An object of several instances has one box around all of them, which is
+/// turned like the first instance.
 pub fn boxes_in_space(scene: &Scene, camera: &Camera, carrier: &Isometry3<f64>) -> Vec<Box3> {
     let mut things = BTreeMap::<u16, Vec<&Instance>>::new();
     for instance in scene.instances.iter().filter(|instance| instance.id != 0) {
@@ -84,7 +83,7 @@ const EMPTY: (Point3<f64>, Point3<f64>) = (
     Point3::new(-f64::INFINITY, -f64::INFINITY, -f64::INFINITY),
 );
 
-/// Returns the corners of an instance's mesh, in the world.
+/// Returns the positions in the world of all corners of an instance's mesh.
 fn corners_of(instance: &Instance) -> impl Iterator<Item = Point3<f64>> + use<'_> {
     let pose: Isometry3<f64> = instance.pose.cast();
     let scale = Vector3::from(instance.scale).cast::<f64>();
@@ -96,8 +95,8 @@ fn corners_of(instance: &Instance) -> impl Iterator<Item = Point3<f64>> + use<'_
 }
 
 impl Box3 {
-    /// Returns the eight corners in the camera's coordinates. The lowest bit of an index is 1 for a front corner, the
-    /// second bit for a left corner, the third bit for an upper corner.
+    /// Returns the eight corners of the box, in the camera's coordinates. The lowest bit of an index is 1 for a front
+    /// corner, the second bit for a left corner, the third bit for an upper corner.
     pub fn corners(&self) -> [Point3<f64>; 8] {
         std::array::from_fn(|index| {
             let side = |axis: usize| if index >> axis & 1 == 1 { 0.5 } else { -0.5 };
@@ -105,7 +104,8 @@ impl Box3 {
         })
     }
 
-    /// Returns the places of the corners on the image; `None` for a corner that is not in front of the camera.
+    /// Returns the pixel coordinates of the box's eight corners; `None` for a corner that is not in front of the
+    /// camera.
     pub fn projected(&self, camera: &Camera) -> [Option<Point2<f64>>; 8] {
         self.corners().map(|corner| camera.project(&corner))
     }

@@ -4,8 +4,9 @@ use crate::CameraError;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
 use paracosm_engine::sensor::CameraSpec;
 
-/// A pinhole camera and its mount. Its own axes are x forward, y to the left, z up. Pixels are counted from the upper
-/// left corner of the image to the right and down; the middle of the first pixel is at (0.5, 0.5).
+/// A pinhole camera with its mounting place and direction on a vehicle. The camera's own axes are x forward, y to the
+/// left, z up. Pixels are counted from the upper left corner of the image to the right and down; the middle of the
+/// first pixel is at (0.5, 0.5).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     width: u32,
@@ -16,11 +17,11 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The least distance along the camera's axis at which things are drawn, in metres.
+    /// The least distance at which the camera sees objects, in metres along the camera's axis.
     pub const NEAR: f64 = 0.1;
 
-    /// Makes a camera at the origin of its carrier that looks forward, with a resolution in pixels, and the focal
-    /// length and the width of the sensor in millimetres.
+    /// Makes a camera at the origin of its vehicle that looks forward, with the image size in pixels, and the focal
+    /// length and the sensor width in millimetres.
     ///
     /// # Errors
     /// There are no pixels, or a length is not finite and positive.
@@ -36,7 +37,7 @@ impl Camera {
         Ok(Self { width, height, focal_length, sensor_width, mount: Isometry3::identity() })
     }
 
-    /// Makes the camera of a description, mounted at the described place on its carrier.
+    /// Makes a camera from its description, mounted at the described place on its vehicle.
     ///
     /// # Errors
     /// There are no pixels, a length is not finite and positive, or a number of the mount is not finite.
@@ -47,8 +48,8 @@ impl Camera {
         camera.mounted(Point3::from(spec.position), yaw, pitch, roll)
     }
 
-    /// Returns the same camera, mounted elsewhere on its carrier. The mount is at a place in metres, turned by yaw (to
-    /// the left), then pitch (downwards), then roll (to the right) in radians, as in ISO 8855.
+    /// Returns the camera with another mounting place and direction on its vehicle. The mount is at a place in metres,
+    /// turned by yaw (to the left), then pitch (downwards), then roll (to the right) in radians, as in ISO 8855.
     ///
     /// # Errors
     /// A number is not finite.
@@ -70,29 +71,30 @@ impl Camera {
         self.height
     }
 
-    /// Returns the transformation from the camera's coordinates to those of its carrier.
+    /// Returns the transformation from the camera's coordinates to the coordinates of the vehicle that carries the
+    /// camera.
     pub fn mount(&self) -> &Isometry3<f64> {
         &self.mount
     }
 
-    /// Returns the focal length in pixels, which are square.
+    /// Returns the focal length in pixels, which is the same along rows and columns.
     pub fn focal_pixels(&self) -> f64 {
         self.focal_length * f64::from(self.width) / self.sensor_width
     }
 
-    /// Returns the angle between the left and the right edge of the image, in radians.
+    /// Returns the horizontal field of view, in radians.
     pub fn field_of_view(&self) -> f64 {
         2.0 * libm::atan(self.sensor_width / (2.0 * self.focal_length))
     }
 
-    /// Returns the direction in which a place on the image looks, in the camera's coordinates; its x is 1.
+    /// Returns the direction of the ray through a point of the image, in the camera's coordinates with x = 1.
     pub fn ray(&self, pixel: Point2<f64>) -> Vector3<f64> {
         let middle = self.middle();
         let focal = self.focal_pixels();
         Vector3::new(1.0, (middle.x - pixel.x) / focal, (middle.y - pixel.y) / focal)
     }
 
-    /// Returns the place on the image of a point in the camera's coordinates; `None` if the point is nearer than
+    /// Returns the pixel coordinates of a point in the camera's coordinates; `None` if the point is nearer than
     /// [`Self::NEAR`] or behind the camera. The place may be outside the image.
     pub fn project(&self, point: &Point3<f64>) -> Option<Point2<f64>> {
         let middle = self.middle();
@@ -100,7 +102,7 @@ impl Camera {
         (point.x >= Self::NEAR).then(|| Point2::new(middle.x - point.y * scale, middle.y - point.z * scale))
     }
 
-    /// Returns the camera's own pose in the world, given the pose of its carrier.
+    /// Returns the pose of the camera in the world, given the pose of the vehicle that carries the camera.
     pub fn pose(&self, carrier: &Isometry3<f64>) -> Isometry3<f64> {
         carrier * self.mount
     }

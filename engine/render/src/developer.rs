@@ -8,28 +8,28 @@ use thiserror::Error;
 const PIXELS: usize = 1 << 22;
 const IMAGES: usize = 64;
 
-/// Returns how many images of `pixels` pixels each are drawn at once.
+/// Returns the number of images of `pixels` pixels each that a [`Developer`] draws in one batch.
 pub fn at_once(pixels: usize) -> usize {
     (PIXELS / pixels.max(1)).clamp(1, IMAGES)
 }
 
-/// A moment that was drawn.
+/// The drawn images of one moment, with the boxes of the objects.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rendering {
-    /// The images that were asked for; the colours are those that the camera gives.
+    /// The wanted images; the colours include the effects of the camera's lens and sensor.
     pub frame: Frame,
-    /// The boxes of all things of the scene with an id, in the camera's coordinates, if the images of things alone were
-    /// wanted.
+    /// The three-dimensional boxes of all objects with an id, in the camera's coordinates; empty if
+    /// [`WantedImages::alone`] is not set.
     pub boxes: Vec<Box3>,
 }
 
-/// The reason why a moment was not drawn.
+/// The reason why an image was not drawn.
 #[derive(Debug, Clone, Error)]
 pub enum Undrawn {
-    /// The camera was inside a thing with which the car had collided, so that nothing was visible.
+    /// The camera was inside an object with which the car had collided, so that nothing was visible.
     #[error("the camera was inside a thing (id {0}), so nothing was visible")]
     Inside(u16),
-    /// The view cannot be drawn.
+    /// The scene or the camera is not valid or too large for the graphics adapter.
     #[error(transparent)]
     View(ViewError),
     /// The graphics device failed.
@@ -37,16 +37,16 @@ pub enum Undrawn {
     Device(#[from] RenderError),
 }
 
-/// Draws scenes and develops them to the images that cameras give.
+/// A renderer of camera images, including the effects of lenses and sensors.
 #[derive(Debug)]
 pub struct Developer {
     renderer: Renderer,
-    /// Makes a new renderer if the device is lost.
+    /// The function that makes a new renderer if the graphics device is lost.
     open: fn() -> Result<Renderer, RenderError>,
 }
 
 impl Developer {
-    /// Makes a developer with the best adapter of this machine.
+    /// Makes a developer with the best graphics adapter of this machine.
     ///
     /// # Errors
     /// There is no adapter, or it cannot be opened.
@@ -54,12 +54,12 @@ impl Developer {
         Ok(Self { renderer: Renderer::new()?, open: Renderer::new })
     }
 
-    /// Returns the adapter that the developer draws with.
+    /// Returns the graphics adapter that the developer draws with.
     pub fn adapter(&self) -> &Adapter {
         self.renderer.adapter()
     }
 
-    /// Checks that images of a camera are small enough for the adapter, whatever the scene.
+    /// Checks that the graphics adapter can draw images of the camera's size.
     ///
     /// # Errors
     /// The images are too large.
@@ -67,7 +67,7 @@ impl Developer {
         self.renderer.check_size(camera, wanted)
     }
 
-    /// Draws all exposures on all cores, in their order.
+    /// Draws a list of exposures on all processor cores, and returns the results in the same order.
     pub fn draw(&mut self, exposures: &[Exposure<'_>], wanted: WantedImages) -> Vec<Result<Rendering, Undrawn>> {
         let sights: Vec<Sight> = exposures.par_iter().map(|exposure| exposure.sight(wanted)).collect();
         let frames = self.render(&sights.iter().collect::<Vec<_>>());
@@ -78,7 +78,7 @@ impl Developer {
         all.map(picture).collect()
     }
 
-    /// Draws the scenes, before any effect of a lens.
+    /// Draws the scenes without the effects of lenses and sensors, and returns the frames in the same order.
     pub fn render(&mut self, sights: &[&Sight]) -> Vec<Result<Frame, Undrawn>> {
         let mut drawn: Vec<Option<Result<Frame, Undrawn>>> = sights.iter().map(|_| None).collect();
         let mut left: Vec<usize> = (0..sights.len()).collect();
@@ -96,8 +96,8 @@ impl Developer {
         drawn.into_iter().map(|frame| frame.expect("each was drawn or could not be")).collect()
     }
 
-    /// Draws views with the same outputs. If the device fails, each view is drawn alone, so that only the views at
-    /// fault fail.
+    /// Draws views of which the same images are wanted. If the device fails, each view is drawn alone, so that only the
+    /// views at fault fail.
     fn render_alike(&mut self, views: &[View<'_>], wanted: WantedImages) -> Vec<Result<Frame, Undrawn>> {
         match self.renderer.render(views, wanted) {
             Ok(frames) => frames.into_iter().map(|frame| frame.map_err(undrawn)).collect(),
@@ -115,7 +115,7 @@ impl Developer {
         frames?.remove(0).map_err(undrawn)
     }
 
-    /// Loses the device, for tests of the code that draws with it; `open` makes the next renderer.
+    /// Ends the graphics device for tests of the handling of a lost device; `open` makes the next renderer.
     #[doc(hidden)]
     pub fn lose(&mut self, open: fn() -> Result<Renderer, RenderError>) {
         self.renderer.lose();
@@ -130,7 +130,7 @@ fn undrawn(error: ViewError) -> Undrawn {
     }
 }
 
-/// Divides images into portions that are drawn at once, by the number of pixels of each image.
+/// Divides images into batches, by the number of pixels of each image.
 fn portions(all: &[usize], pixels: impl Fn(usize) -> usize) -> Vec<&[usize]> {
     let mut portions = Vec::new();
     let mut left = all;

@@ -4,10 +4,10 @@ use nalgebra::{Isometry3, Point3};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// The error of the graphics interface that caused one of our errors.
+/// The error of the graphics interface that caused an error of this crate.
 pub type GraphicsCause = Arc<dyn std::error::Error + Send + Sync>;
 
-/// The reason why nothing can be drawn.
+/// The reason why the renderer cannot draw any image.
 #[derive(Debug, Clone, Error)]
 pub enum RenderError {
     /// The machine has no graphics adapter.
@@ -16,23 +16,23 @@ pub enum RenderError {
          mesa-vulkan-drivers draws on the processor (apt install mesa-vulkan-drivers)"
     )]
     NoAdapter(GraphicsCause),
-    /// There is an adapter, but it cannot be opened.
+    /// The machine has a graphics adapter, but the renderer cannot open it.
     #[error("the graphics adapter {adapter} could not be opened: {source}")]
     NotOpened {
-        /// The name of the adapter.
+        /// The name of the graphics adapter.
         adapter: String,
-        /// The error that the adapter returned.
+        /// The error that the graphics adapter returned.
         source: GraphicsCause,
     },
-    /// The adapter was taken away, or its driver gave up. A new renderer may work.
+    /// The graphics adapter was removed, or its driver failed. A new renderer may work.
     #[error("the graphics device was lost: {reason:?}, {message}; make a new renderer")]
     Lost {
-        /// The reason that the graphics interface gives for the loss.
+        /// The reason for the loss, as the graphics interface states it.
         reason: LossReason,
-        /// The message of the driver.
+        /// The message of the graphics driver.
         message: String,
     },
-    /// The adapter refused a request, most often a request for memory.
+    /// The graphics adapter refused a request, most often a request for memory.
     #[error("the graphics device failed: {0}")]
     Failed(GraphicsCause),
 }
@@ -40,91 +40,92 @@ pub enum RenderError {
 /// The reason why a graphics device was lost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LossReason {
-    /// The driver does not give a reason.
+    /// The graphics driver does not give a reason.
     Unknown,
-    /// The device was told to end.
+    /// The program itself ended the graphics device.
     Destroyed,
 }
 
-/// The reason why one view cannot be drawn. Other views of the same call can be drawn.
+/// The reason why one view of a scene cannot be drawn. Other views of the same call can be drawn.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ViewError {
-    /// The image is larger than the largest image of the adapter.
+    /// The image is wider or higher than the graphics adapter allows.
     #[error("the image is {width} x {height} pixels, expected at most {limit} each way on this graphics adapter")]
     TooLarge {
         /// The width of the image in pixels.
         width: u32,
         /// The height of the image in pixels.
         height: u32,
-        /// The most pixels each way that the adapter takes.
+        /// The greatest width and the greatest height that the adapter allows, in pixels.
         limit: u32,
     },
-    /// The scene has more triangles in one mesh, or more things at once, than the adapter takes.
+    /// The scene or the image needs a larger buffer than the graphics adapter allows.
     #[error("{what} takes {bytes} bytes, expected at most {limit} on this graphics adapter")]
     TooMuch {
-        /// The object that takes the bytes.
+        /// The name of the buffer that is too large.
         what: &'static str,
-        /// The number of bytes that the object takes.
+        /// The needed size of the buffer, in bytes.
         bytes: u64,
-        /// The greatest number of bytes that the adapter takes.
+        /// The greatest size of a buffer that the adapter allows, in bytes.
         limit: u64,
     },
-    /// The pose of the camera has a number that is not finite.
+    /// The pose of the camera or the place of the head lamps has a number that is not finite.
     #[error("the pose of the camera has a number that is not finite: {pose}, head lamps {head_lamps:?}")]
     Pose {
         /// The pose of the vehicle that carries the camera.
         pose: Isometry3<f64>,
-        /// The head lamps of that vehicle.
+        /// The point midway between the head lamps, in the coordinates of the vehicle that carries the camera; `None`
+        /// without head lamps.
         head_lamps: Option<Point3<f64>>,
     },
-    /// A thing of the scene has a flaw.
+    /// An object of the scene has a number that is not valid.
     #[error("instance {index} of the scene (id {id}) has a {flaw}")]
     Instance {
-        /// The index of the instance in the scene.
+        /// The index of the object's instance in the scene.
         index: usize,
-        /// The id of the thing.
+        /// The id of the object in the scene; 0 for an object without an id.
         id: u16,
-        /// The flaw of the instance.
+        /// The flaw of the object, with the value that is not valid.
         flaw: InstanceFlaw,
     },
-    /// The light or the fog is out of range.
+    /// A number that describes the light or the fog is out of its range.
     #[error("the air has {what} of {found}, expected {expected}")]
     Air {
-        /// The quantity that is out of range.
+        /// The name of the quantity that is out of range.
         what: &'static str,
-        /// The value of the quantity.
+        /// The value of the quantity that is out of range.
         found: f32,
-        /// The expected range.
+        /// The expected range of the quantity.
         expected: &'static str,
     },
-    /// The camera is inside a thing, from where nothing is visible.
+    /// The camera is inside an object of the scene, so that nothing else is visible.
     #[error(
         "the camera is inside instance {index} of the scene (id {id}); mount it outside, or leave that id out of the view"
     )]
     Inside {
-        /// The index of the instance in the scene.
+        /// The index of the object's instance in the scene.
         index: usize,
-        /// The id of the thing.
+        /// The id of the object in the scene; 0 for an object without an id.
         id: u16,
     },
 }
 
-/// The flaw of a thing in a scene.
+/// The reason why an object of a scene is not valid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InstanceFlaw {
-    /// The pose has a number that is not finite.
+    /// The pose of the object has a number that is not finite.
     #[error("pose of {0}, expected finite numbers")]
     Pose(Isometry3<f32>),
-    /// The scale has a number that is not finite or not above 0.
+    /// The scale of the object has a number that is not finite or not above 0.
     #[error("scale of {0:?}, expected finite numbers above 0")]
     Scale([f32; 3]),
-    /// The paint has a number outside of 0 to 1.
+    /// The colour of the object has a number below 0 or above 1.
     #[error("paint of {0:?}, expected numbers from 0 to 1")]
     Paint([f32; 3]),
-    /// The mesh has a corner with a number that is not finite.
+    /// A corner of the object's mesh has a number that is not finite.
     #[error("mesh whose corner {index} is at {position:?} with texture coordinates {uv:?}, expected finite numbers")]
     Corner {
-        /// The index of the corner.
+        /// The index of the corner in the mesh.
         index: usize,
         /// The position of the corner in metres.
         position: [f32; 3],
@@ -136,27 +137,27 @@ pub enum InstanceFlaw {
 /// The reason why a camera cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CameraError {
-    /// The image has no pixels.
+    /// The width or the height of the image is 0.
     #[error("a resolution of {0} x {1} pixels, expected at least 1 x 1")]
     Resolution(u32, u32),
-    /// A length of the camera is not finite and positive.
+    /// The focal length or the sensor width is not finite and above 0.
     #[error("{what} of {found} mm, expected a finite number above 0")]
     Length {
-        /// The name of the length.
+        /// The name of the length, which is the focal length or the sensor width.
         what: &'static str,
-        /// The length that was found, in millimetres.
+        /// The given focal length or sensor width, in millimetres.
         found: f64,
     },
-    /// The mount has a number that is not finite.
+    /// The place or an angle of the mount has a number that is not finite.
     #[error("a mount with a number that is not finite: ({}, {}, {}), yaw {yaw}, pitch {pitch}, roll {roll}", place[0], place[1], place[2])]
     Mount {
-        /// The place of the mount, in metres ahead, to the left and up.
+        /// The place of the camera on its vehicle, in metres ahead, to the left and up.
         place: [f64; 3],
-        /// The yaw, in radians to the left.
+        /// The yaw angle of the camera, in radians to the left.
         yaw: f64,
-        /// The pitch, in radians downwards.
+        /// The pitch angle of the camera, in radians downwards.
         pitch: f64,
-        /// The roll, in radians to the right.
+        /// The roll angle of the camera, in radians to the right.
         roll: f64,
     },
 }

@@ -10,37 +10,37 @@ const OWN: u16 = 1;
 /// The height of the head lamps above the ground, in metres.
 const LAMPS: f64 = 0.6;
 
-/// A moment of a run that a camera is to draw.
+/// A moment of a run with the camera that is to draw an image of the moment.
 #[derive(Clone, Copy)]
 pub struct Exposure<'a> {
-    /// The roads and everything that stands beside them.
+    /// The roads with the scenery, in the form in which they are drawn.
     pub stage: &'a Stage,
-    /// The bodies that are shown as models of the user, by their indices.
+    /// The users' own models of bodies, by the indices of the bodies in the run.
     pub cast: &'a Cast,
-    /// The states of all bodies at this moment, and the weather.
+    /// The states of all bodies at the moment, and the weather.
     pub moment: &'a Moment,
-    /// The camera.
+    /// The camera that takes the image, with its lens.
     pub optics: &'a Optics,
-    /// The number of this image among the images of the camera.
+    /// The number of the image among the images of the camera.
     pub number: u64,
 }
 
-/// A scene in front of a camera, ready to be drawn.
+/// A scene with a camera, ready to be drawn.
 #[derive(Debug)]
 pub struct Sight {
     scene: Scene,
     camera: Camera,
     pose: Isometry3<f64>,
     head_lamps: Point3<f64>,
-    /// The id of the ego vehicle if the camera is inside it. The vehicle is then not drawn, because the camera would
-    /// see its inner sides.
+    /// The id of the ego vehicle if the camera is inside the ego vehicle. The vehicle is then not drawn, because the
+    /// camera would see its inner sides.
     without: Option<u16>,
     /// The outputs that the renderer has to draw.
     pub(crate) wanted: WantedImages,
 }
 
 impl Exposure<'_> {
-    /// Returns the scene to draw for the outputs in `wanted`. Colours include shadows.
+    /// Returns the scene and the camera from which the renderer draws the `wanted` images. Colours include shadows.
     pub fn sight(&self, wanted: WantedImages) -> Sight {
         let plain = self.optics.is_plain() && self.moment.weather.rain <= 0.0;
         let Moment { bodies, weather, .. } = self.moment;
@@ -82,7 +82,7 @@ impl Exposure<'_> {
         along(place.x, half.x) && along(place.y, half.y) && place.z <= body.height + Camera::NEAR
     }
 
-    /// Returns the drawn frame with the colours that the camera gives, after rain, lens and sensor.
+    /// Returns the drawn frame with the effects of rain, lens and sensor on its colours.
     pub fn through_lens(&self, mut frame: Frame) -> Frame {
         if frame.linear.is_some() {
             self.rain().fall(&mut frame, &mut self.optics.chance("rain", self.number));
@@ -94,7 +94,7 @@ impl Exposure<'_> {
 }
 
 impl Sight {
-    /// Returns the scene in the form that the renderer takes.
+    /// Returns a view of the scene for [`Renderer::render`](crate::Renderer::render).
     pub fn view(&self) -> View<'_> {
         View {
             without: self.without,
@@ -103,12 +103,12 @@ impl Sight {
         }
     }
 
-    /// Returns the number of pixels of an image.
+    /// Returns the number of pixels of an image of the camera.
     pub fn pixels(&self) -> usize {
         self.camera.width() as usize * self.camera.height() as usize
     }
 
-    /// Returns the boxes of the things in the scene, or nothing if the images of things alone are not wanted.
+    /// Returns the three-dimensional boxes of the objects in the scene; empty if [`WantedImages::alone`] is not set.
     pub fn boxes(&self) -> Vec<Box3> {
         if !self.wanted.alone {
             return Vec::new();

@@ -3,37 +3,36 @@
 use crate::{Camera, Semantic};
 use nalgebra::Point2;
 
-/// The images of one view. All images are stored in rows from the top, with pixels from the left.
+/// The images that the renderer draws of one view. All images are stored in rows from the top, with pixels from the
+/// left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// The camera that took the images.
     pub camera: Camera,
-    /// Red, green and blue of each pixel, in sRGB.
+    /// The red, green and blue of each pixel in sRGB; `None` if the colours are not wanted.
     pub rgb: Option<Vec<u8>>,
-    /// Red, green and blue of each pixel in linear light; a white surface in full sun is about 1.
+    /// The red, green and blue of each pixel in linear light; a white surface in full sun has about 1.
     pub linear: Option<Vec<f32>>,
-    /// The radial depth in metres from the pinhole to the point that the middle of the pixel sees; infinite for the
-    /// sky.
+    /// The distance in metres from the pinhole to the visible point at the middle of each pixel; infinite for the sky.
     pub depth: Option<Vec<f32>>,
-    /// The number of the [`Semantic`] class of each pixel.
+    /// The number of the [`Semantic`] class of each pixel; `None` if the classes are not wanted.
     pub semantic: Option<Vec<u8>>,
-    /// The id of the thing at each pixel ([`crate::Instance::id`]); 0 for no particular thing.
+    /// The id of the object at each pixel ([`Instance::id`](crate::Instance::id)); 0 for an object without an id.
     pub instance: Option<Vec<u16>>,
-    /// The pixels that each thing would have if it were alone, in the order of the ids, without the id 0 and without
-    /// things that are outside the image.
+    /// The number and the bounds of the pixels that each object would have without the objects in front, sorted by id.
     pub alone: Option<Vec<Extent>>,
 }
 
-/// The number and the bounds of a thing's pixels.
+/// The number and the bounds of an object's pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extent {
-    /// The id of the thing.
+    /// The id of the object that the pixels show.
     pub id: u16,
-    /// The number of pixels.
+    /// The number of pixels that show the object.
     pub pixels: u32,
-    /// The least column and the least row.
+    /// The least column and the least row of the object's pixels.
     pub min: [u32; 2],
-    /// The greatest column and the greatest row.
+    /// The greatest column and the greatest row of the object's pixels.
     pub max: [u32; 2],
 }
 
@@ -48,7 +47,7 @@ impl Extent {
         self.max = [self.max[0].max(at[0]), self.max[1].max(at[1])];
     }
 
-    /// Adds other pixels of the same thing.
+    /// Adds other pixels of the same object.
     pub(crate) fn join(&mut self, other: &Self) {
         self.pixels += other.pixels;
         for axis in 0..2 {
@@ -69,8 +68,7 @@ impl Frame {
         self.camera.height()
     }
 
-    /// Returns the planar depth in metres along the camera's axis to the point that the middle of the pixel sees, if
-    /// the frame has depth.
+    /// Returns the depth of each pixel in metres along the camera's axis; `None` if the frame has no depth.
     pub fn planar_depth(&self) -> Option<Vec<f32>> {
         let depth = self.depth.as_ref()?;
         let forward = |(index, radial): (usize, &f32)| {
@@ -81,7 +79,7 @@ impl Frame {
         Some(depth.iter().enumerate().map(forward).collect())
     }
 
-    /// Returns the classes in CARLA's colours, red, green and blue of each pixel, if the frame has classes.
+    /// Returns the red, green and blue of each pixel's class in CARLA's colours; `None` if the frame has no classes.
     pub fn semantic_colours(&self) -> Option<Vec<u8>> {
         Some(self.semantic.as_ref()?.iter().flat_map(|class| Semantic::colour_of(*class)).collect())
     }

@@ -21,22 +21,22 @@ const NIGHT: Rgb = [0.010, 0.011, 0.014];
 /// The light that surfaces receive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Light {
-    /// The light of the sun onto a surface that faces the sun.
+    /// The light of the sun on a surface that faces the sun.
     pub sun: Rgb,
-    /// The light from all around onto a surface that faces up.
+    /// The light of the sky on a surface that faces up.
     pub sky: Rgb,
-    /// The light from all around onto a surface that faces down.
+    /// The light from the surroundings on a surface that faces down.
     pub ground: Rgb,
-    /// The light that is visible straight up.
+    /// The colour of the sky straight above.
     pub zenith: Rgb,
-    /// The brightness of lamps, from 0 to 1.
+    /// The brightness of head lamps and street lamps, from 0 to 1.
     pub lamps: f32,
 }
 
 impl Atmosphere {
-    /// Returns the colour of the horizon, and of everything that fog hides, in linear light. Fog turns the light `l` of
-    /// a point at `d` metres into `l t + colour (1 - t)` with `t = exp(-extinction d)` (Koschmieder). The colour is
-    /// pale and warm under a low sun, and goes dark after sunset.
+    /// Returns the colour in linear light of the horizon and of dense fog. Fog turns the light `l` of a point at `d`
+    /// metres into `l t + colour (1 - t)` with `t = exp(-extinction d)` (Koschmieder). The colour is pale and warm
+    /// under a low sun, and goes dark after sunset.
     pub fn colour(&self) -> [f32; 3] {
         dimmed(times(HAZE, Daylight::of(self.sun_elevation).horizon), self.light, 0.5)
     }
@@ -83,7 +83,7 @@ fn times(colour: Rgb, shares: [f32; 3]) -> Rgb {
     std::array::from_fn(|part| colour[part] * shares[part])
 }
 
-/// Mixes the colour by day with the share `night` of [`NIGHT`], by the brightness of the light.
+/// Returns a colour by day multiplied by the brightness of the light, plus the share `night` of [`NIGHT`].
 fn dimmed(day: Rgb, light: f32, night: f32) -> Rgb {
     std::array::from_fn(|colour| day[colour] * light + NIGHT[colour] * night)
 }

@@ -69,17 +69,17 @@ const NAMES: [&str; 29] = [
 ];
 
 impl Semantic {
-    /// The names of all classes, in the order of their numbers.
+    /// Returns the names of all semantic classes, in the order of their numbers.
     pub fn names() -> &'static [&'static str] {
         &NAMES
     }
 
-    /// The colour in which CARLA draws the class, as red, green and blue.
+    /// Returns the red, green and blue of the class in CARLA's images.
     pub fn colour(self) -> [u8; 3] {
         COLOURS[self as usize]
     }
 
-    /// The colour of the class with this number; black for a number that no class has.
+    /// Returns the red, green and blue of the class with a given number; black if no class has the number.
     pub fn colour_of(number: u8) -> [u8; 3] {
         COLOURS.get(usize::from(number)).copied().unwrap_or_default()
     }

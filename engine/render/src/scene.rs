@@ -12,48 +12,50 @@ use nalgebra::Isometry3;
 use paracosm_engine::{Weather, sensor};
 use std::sync::Arc;
 
-/// Everything that is visible at one moment.
+/// The visible objects at one moment, with the light and the fog.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The things in the scene.
+    /// The meshes of the objects, with their places in the scene.
     pub instances: Vec<Instance>,
-    /// The light and the fog.
+    /// The light and the fog of the scene.
     pub air: Atmosphere,
 }
 
-/// A mesh with its place in a scene.
+/// A mesh with its place, its size and its colour in a scene.
 #[derive(Debug, Clone)]
 pub struct Instance {
-    /// The shape of the thing, shared by all things that look alike.
+    /// The mesh of the object, which several instances may share.
     pub mesh: Arc<Mesh>,
-    /// The transformation from the mesh's coordinates to the world's.
+    /// The transformation from the mesh's coordinates to the coordinates of the world.
     pub pose: Isometry3<f32>,
-    /// The factors by which the thing is larger than the mesh, along the mesh's axes.
+    /// The factors by which the object is larger than its mesh, along the mesh's x, y and z axes.
     pub scale: [f32; 3],
-    /// The colour of the painted surfaces, red, green and blue in linear light, from 0 to 1.
+    /// The red, green and blue of the painted surfaces, in linear light from 0 to 1.
     pub paint: [f32; 3],
-    /// The id of the thing that this instance is part of. It is 0 for no particular thing, otherwise one more than the
-    /// index of the body among the bodies of the run.
+    /// The id of the object to which the instance belongs. The id is 0 for no particular object, otherwise one more
+    /// than the index of the body among the bodies of the run.
     pub id: u16,
 }
 
 /// The light and the fog of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Atmosphere {
-    /// The brightness of the light, from 0 (night) to 1 (broad daylight).
+    /// The brightness of the daylight, from 0 (night) to 1 (broad daylight).
     pub light: f32,
-    /// The height of the sun, in radians above the horizon. The lower the sun, the dimmer and warmer is the light;
+    /// The elevation of the sun, in radians above the horizon. The lower the sun, the dimmer and warmer is the light;
     /// below the horizon there is dusk. Shadows on level ground fade as the sun comes near the horizon: at 3 degrees
     /// the sun sends a twentieth of its light onto level ground, which adds less than a tenth to the light of the sky.
     pub sun_elevation: f32,
-    /// The direction of the sun, in radians counter-clockwise from x.
+    /// The direction of the sun on the ground plane, in radians counter-clockwise from the x axis.
     pub sun_azimuth: f32,
-    /// The extinction of the fog in 1/m, 0 if there is no fog. It is 3.912 / visibility (Koschmieder, 2 % contrast).
+    /// The extinction coefficient of the fog in 1/m; 0 without fog. It is 3.912 / visibility (Koschmieder, 2 %
+    /// contrast).
     pub extinction: f32,
 }
 
 impl Atmosphere {
-    /// Returns the air of a weather. The fog is the fog that the other sensors see through ([`sensor::Air::of`]).
+    /// Returns the light and the fog of a weather. The fog is the fog that the other sensors see through
+    /// ([`sensor::Air::of`]).
     pub fn of(weather: &Weather) -> Self {
         Self {
             light: weather.light as f32,
@@ -65,7 +67,7 @@ impl Atmosphere {
 }
 
 impl Default for Atmosphere {
-    /// Returns broad daylight from the left and behind, without fog.
+    /// Returns broad daylight without fog, with the sun behind and to the left.
     fn default() -> Self {
         Self { light: 1.0, sun_elevation: 0.9, sun_azimuth: 2.3, extinction: 0.0 }
     }

@@ -7,67 +7,69 @@ use paracosm_engine::sensor::{CORE_CAMERA_SETTINGS, CameraSetting, CameraSpec, C
 use paracosm_space::{Record, did_you_mean, nearest};
 use thiserror::Error;
 
-/// The key of the resolution. It is not a single number and has no row in the table.
+/// The key of the resolution in a file of cameras. The resolution is not a single number and has no row in the table.
 pub const RESOLUTION: &str = "resolution";
 
 /// The most pixels each way, so that a typing error does not ask for more memory than there is.
 const MOST_PIXELS: u32 = 8192;
 
-/// Returns the table of all settings that cameras have.
+/// Returns the table of all settings of a camera and its lens.
 pub fn camera_settings() -> CameraSettings {
     CameraSettings::with(EFFECTS)
 }
 
-/// A table of the settings of cameras.
+/// A table of the settings of a camera and its lens, with their ranges and defaults.
 #[derive(Debug, Clone, Copy)]
 pub struct CameraSettings {
     effects: &'static [&'static LensEffect],
 }
 
-/// The error that a camera cannot be made, with the camera's name and the flaw in its description.
+/// The error for a camera whose description is not valid, with the name of the camera.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("camera `{camera}`: {flaw}")]
 pub struct NoCamera {
-    /// The name of the camera.
+    /// The name of the camera with the flaw.
     pub camera: String,
-    /// The flaw in the camera's description.
+    /// The flaw in the description of the camera.
     pub flaw: CameraFlaw,
 }
 
-/// The reason why a description is not the description of a camera.
+/// The reason why the description of a camera is not valid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CameraFlaw {
-    /// The image has too few or too many pixels.
+    /// The width or the height of the image has too few or too many pixels.
     #[error("`{RESOLUTION}` is {found:?}, expected 1 to {MOST_PIXELS} pixels each way")]
     Resolution {
-        /// The resolution that was found.
+        /// The given width and height of the image, in pixels.
         found: [u32; 2],
     },
-    /// A number, or a number of a list, is out of range.
+    /// The value of a setting is out of the setting's range.
     #[error("`{}` is {}, expected {}", settings[0].key, listed(found), ranges(settings))]
     OutOfRange {
-        /// The settings of the key.
+        /// The settings that belong to the key with the wrong value.
         settings: Vec<CameraSetting>,
-        /// The values of the settings.
+        /// The given values of the settings that belong to the key.
         found: Vec<f64>,
     },
-    /// The key belongs to no setting.
-    #[error("a camera has no key `{key}`{}; its keys are {}", did_you_mean(nearest), known.join(", "))]
+    /// The description has a key that is not a camera setting.
+    #[error("a {part} has no key `{key}`{}; its keys are {}", did_you_mean(nearest), known.join(", "))]
     UnknownKey {
-        /// The unknown key.
+        /// The part of the description that has the key: `camera` or `lens`.
+        part: &'static str,
+        /// The unknown key in the description.
         key: String,
-        /// The known key that was perhaps meant.
+        /// The most similar known key, if any key is similar.
         nearest: Option<&'static str>,
-        /// All known keys.
+        /// All known keys of a camera description.
         known: Vec<&'static str>,
     },
-    /// The renderer refuses the camera.
+    /// The renderer cannot make a pinhole camera from the description.
     #[error(transparent)]
     Refused(#[from] CameraError),
 }
 
 impl CameraFlaw {
-    /// Returns the key in the file whose value is wrong.
+    /// Returns the key in the camera description that is wrong; `None` if the flaw has no key.
     pub fn key(&self) -> Option<&str> {
         match self {
             Self::Resolution { .. } => Some(RESOLUTION),
@@ -78,45 +80,46 @@ impl CameraFlaw {
     }
 }
 
+/// Makes the flaw of a key that a part of a camera's description does not have.
+fn unknown(part: &'static str, key: &str, known: Vec<&'static str>) -> CameraFlaw {
+    CameraFlaw::UnknownKey { part, key: key.to_owned(), nearest: nearest(key, known.iter().copied()), known }
+}
+
 impl CameraSettings {
-    /// Makes the table for lenses with these effects, in the order in which light passes them.
+    /// Makes a table of the settings of a camera whose lens has the given effects.
     pub const fn with(effects: &'static [&'static LensEffect]) -> Self {
         Self { effects }
     }
 
-    /// Returns the effects of the lens.
+    /// Returns the effects of the lens and the sensor, in the order in which light passes them.
     pub fn effects(self) -> &'static [&'static LensEffect] {
         self.effects
     }
 
-    /// Returns all settings, in the order in which they stand in files. The settings of one key are adjacent.
+    /// Returns all settings in the order of their keys in camera files. The settings of one key are adjacent.
     pub fn iter(self) -> impl Iterator<Item = CameraSetting> {
         let of_lens = self.effects.iter().flat_map(|effect| effect.settings);
         CORE_CAMERA_SETTINGS.iter().chain(of_lens).copied()
     }
 
-    /// Returns the keys of a file, in their order. [`RESOLUTION`] comes first, then the keys of all settings.
+    /// Returns the keys of a camera description, in their order in camera files. [`RESOLUTION`] comes first, then the
+    /// keys of all settings.
     pub fn keys(self) -> Vec<&'static str> {
         let mut keys: Vec<_> = std::iter::once(RESOLUTION).chain(self.iter().map(|setting| setting.key)).collect();
         keys.dedup();
         keys
     }
 
-    /// Returns the settings of a key. A key whose value is a list has several.
+    /// Returns all settings that a key of a camera description sets. A key whose value is a list has several.
     ///
     /// # Errors
     /// There is no such key.
     pub fn of_key(self, key: &str) -> Result<Vec<CameraSetting>, CameraFlaw> {
         let settings: Vec<_> = self.iter().filter(|setting| setting.key == key).collect();
-        if settings.is_empty() { Err(self.unknown(key)) } else { Ok(settings) }
+        if settings.is_empty() { Err(unknown("camera", key, self.keys())) } else { Ok(settings) }
     }
 
-    fn unknown(self, key: &str) -> CameraFlaw {
-        let known = self.keys();
-        CameraFlaw::UnknownKey { key: key.to_owned(), nearest: nearest(key, known.iter().copied()), known }
-    }
-
-    /// Checks that the description is that of a camera.
+    /// Checks that all settings of a camera description exist and are in their ranges.
     ///
     /// # Errors
     /// A number is out of its range, or the lens has a setting that does not exist.
@@ -131,13 +134,16 @@ impl CameraSettings {
         }
         let of_lens = |name: &str| self.iter().any(|setting| setting.is_of_lens() && setting.name == name);
         match camera.lens.iter().find(|(name, _)| !of_lens(name)) {
-            Some((unknown, _)) => Err(self.unknown(unknown)),
+            Some((key, _)) => {
+                let of_lens = self.iter().filter(CameraSetting::is_of_lens);
+                Err(unknown("lens", key, of_lens.map(|setting| setting.name).collect()))
+            }
             None => Ok(()),
         }
     }
 
-    /// Gives each camera all settings of its lens, in the order of the table. Settings that a camera does not mention
-    /// get their defaults. Two sets of cameras that take the same images are then equal, and are written alike.
+    /// Adds the missing settings of the lens to each camera, with their defaults. Settings that a camera does not
+    /// mention get their defaults. Two sets of cameras that take the same images are then equal, and are written alike.
     pub fn complete(self, cameras: &mut Cameras) {
         for camera in cameras.all.values_mut() {
             let said = std::mem::replace(&mut camera.lens, Record::EMPTY);
@@ -149,7 +155,7 @@ impl CameraSettings {
     }
 }
 
-/// Formats numbers as a file has them, as a single number or a list.
+/// Formats the values of a key as a single number or as a list.
 fn listed(found: &[f64]) -> String {
     match found {
         [alone] => alone.to_string(),

@@ -87,7 +87,7 @@ fn what_is_wrong_with_a_thing_or_the_air_is_said() {
     vertices[5].position[1] = f32::NAN;
     let torn = thing(&Arc::new(Mesh::new(vertices, mesh.indices().to_vec())), [9.0, 0.0, 0.0], 0.0, 7);
     let found = message(torn, air);
-    assert!(found.starts_with("instance 1 of the scene (id 7) has a mesh of corner 5 at ["), "{found}");
+    assert!(found.starts_with("instance 1 of the scene (id 7) has a mesh whose corner 5 is at ["), "{found}");
     assert_eq!(message(sound.clone(), Atmosphere { light: 1.5, ..air }), "the air has a light of 1.5, expected 0 to 1");
     assert_eq!(
         message(sound.clone(), Atmosphere { extinction: -0.1, ..air }),

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// The beginning of every address of a driver.
 const SCHEME: &str = "grpc://";
 
-/// The network address at which a driver listens: `grpc://HOST:PORT`.
+/// The network address at which a driver listens, in the form `grpc://HOST:PORT`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Address {
     host: String,
@@ -29,7 +29,7 @@ impl Address {
         text.contains("://")
     }
 
-    /// Returns `HOST:PORT`.
+    /// Returns the host and the port of the address as `HOST:PORT`.
     pub fn authority(&self) -> String {
         format!("{}:{}", self.host, self.port)
     }

@@ -1,4 +1,4 @@
-//! Drivers in their own process, over gRPC: the protocol of `proto/paracosm/driver/v1/driver.proto`, from both ends.
+//! Client and server for drivers in their own process, by the gRPC protocol of `proto/paracosm/driver/v1/driver.proto`.
 //!
 //! A [`Session`] is a [`Driver`](paracosm_engine::driver::Driver) like any other, but a server gives its answers. The
 //! feature `serve` adds such a server, for drivers written in Rust. Drivers in other languages can use the protocol as
@@ -34,7 +34,7 @@ pub use serve::{SessionOptions, serve};
 pub use session::{OpenError, Session};
 pub use terms::Terms;
 
-/// The version of the protocol.
+/// The version of the protocol that this crate speaks.
 const PROTOCOL: u32 = 1;
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ type Make = dyn Fn(&SessionOptions) -> Result<Box<dyn Driver>, Fault> + Send + S
 
 /// Serves drivers to every client, one driver for each session, until the process ends.
 ///
-/// The drivers are told where the other bodies truly are, and may have cameras. A driver with a rig is refused when its
+/// The drivers get the true states of the other bodies, and may have cameras. A driver with a rig is refused when its
 /// session begins, because the readings of a rig stay in the process that simulates.
 ///
 /// ```no_run

@@ -28,13 +28,13 @@ const LONGEST_ANSWER: usize = 1 << 24;
 /// An error at the beginning of a session.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OpenError {
-    /// No process listens at the address.
+    /// No process listens at the given address.
     #[error("no process listens at this address; start the driver first")]
     Unreachable,
     /// The name of the host cannot be resolved to an address.
     #[error("the name of the host is not known; check the address")]
     UnknownHost,
-    /// The process that listens is no driver.
+    /// The process at the given address is not a driver.
     #[error(
         "the process at this address is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC"
     )]
@@ -47,12 +47,12 @@ pub enum OpenError {
         /// The version of the protocol that the driver speaks.
         found: u32,
     },
-    /// The driver refuses, does not answer, or has a period or sensors that are not possible.
+    /// The driver refuses the session, does not answer, or asks for an impossible period or impossible sensors.
     #[error(transparent)]
     Unusable(#[from] Fault),
 }
 
-/// A driver in another process, which a server answers for as long as the connection lasts.
+/// A driver in another process, which answers as long as the connection lasts.
 ///
 /// Dropping the session ends it.
 pub struct Session {
@@ -73,10 +73,10 @@ struct Watch {
 }
 
 impl Session {
-    /// Begins a session with the server at this address. The session stops waiting once `stop` is set.
+    /// Begins a session with the driver at the given address. The session stops waiting once `stop` is set.
     ///
     /// # Errors
-    /// No process listens at the address, another kind of server does, or the driver refuses these terms.
+    /// No process listens at the address, the process is no driver, or the driver refuses the terms.
     pub fn open(address: &Address, terms: &Terms, stop: Arc<AtomicBool>) -> Result<Self, OpenError> {
         let runtime = Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|error| {

@@ -4,7 +4,7 @@ use crate::geometry::Pose;
 use crate::object::{Body, Class, Geometric};
 use crate::scenario::{Place, Scenario};
 
-/// A thing that stands still: a house, a tree, a sign, or a parked car. It is not placed yet.
+/// An object that stands still, such as a house, a tree, a sign, or a parked car. It is not placed yet.
 #[derive(Debug, Clone)]
 pub struct Fixture {
     name: String,
@@ -15,27 +15,27 @@ pub struct Fixture {
 struct Still(Pose);
 
 impl Fixture {
-    /// Makes a body that stands at `at`. Messages call it by its `name`.
+    /// Makes an object with a given body that stands at the pose `at`. Messages call it `name`.
     pub fn new(name: &str, body: Body, at: Pose) -> Self {
         Self { name: name.to_owned(), body, at }
     }
 
-    /// Makes a house of two storeys, 10 m by 8 m, that faces along the pose.
+    /// Makes a house of two storeys, 10 m by 8 m, that faces in the direction of the pose.
     pub fn house(at: Pose) -> Self {
         Self::new("house", Body::block(Class::Building, 10.0, 8.0, 7.0), at)
     }
 
-    /// Makes a tree. Only its trunk is in the way.
+    /// Makes a tree that stands at a pose. Only its trunk is in the way.
     pub fn tree(at: Pose) -> Self {
         Self::new("tree", Body::disc(Class::Tree, 0.3, 6.0), at)
     }
 
-    /// Makes a traffic sign on its post.
+    /// Makes a traffic sign on a post that stands at a pose.
     pub fn sign(at: Pose) -> Self {
         Self::new("sign", Body::disc(Class::Sign, 0.05, 2.5), at)
     }
 
-    /// Makes a parked car without a driver.
+    /// Makes a parked car without a driver that stands at a pose.
     pub fn parked_car(at: Pose) -> Self {
         Self::new("parked-car", Body::car(), at)
     }

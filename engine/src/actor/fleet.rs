@@ -20,8 +20,8 @@ pub struct EnvironmentCars {
     seed: u64,
 }
 
-/// Placed environment cars: their outputs and their inputs. Cars are counted from 0, in the order in which they were
-/// given.
+/// The handle of placed environment cars, with their outputs and their inputs. Cars are counted from 0, in the order in
+/// which they were given.
 #[derive(Debug, Clone)]
 pub struct Fleet {
     name: String,
@@ -61,13 +61,13 @@ struct Driving {
 }
 
 impl EnvironmentCars {
-    /// Puts these cars on these roads.
+    /// Puts the given cars on the roads of a scenario.
     pub fn on(streets: &Streets, cars: Vec<TrafficCar>) -> Self {
         Self { streets: streets.clone(), cars, most: usize::MAX, seed: 1 }
     }
 
-    /// Puts `count` cars at random places: [`TrafficCar::scattered`]. If there is not enough room, there are fewer:
-    /// [`Fleet::count`].
+    /// Puts `count` cars at random places on the roads by [`TrafficCar::scattered`], or fewer cars if the room is too
+    /// small. [`Fleet::count`] gives the number.
     pub fn scattered(streets: &Streets, count: usize, seed: u64) -> Self {
         let cars = streets.network().map(|network| TrafficCar::scattered(network, usize::MAX, seed));
         Self { seed, most: count, ..Self::on(streets, cars.unwrap_or_default()) }
@@ -133,34 +133,34 @@ fn body(car: &CarState) -> Body {
 
 /// If a program asks for a car that does not exist, the mistake is reported when the world is built.
 impl Fleet {
-    /// Returns the number of cars. It is smaller than the number asked for if there was not enough room.
+    /// Returns the number of placed cars. It is smaller than the number asked for if there was not enough room.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Returns the position of a car's middle. A car that has left the network keeps its last position.
+    /// Returns a stream of the position of a car's middle. A car that has left the network keeps its last position.
     pub fn position(&self, car: usize) -> Stream<Vector2<f64>> {
         self.show(car, "position", Shown::Position)
     }
 
-    /// Returns the speed of a car in m/s. A car that has left the network keeps its last speed.
+    /// Returns a stream of the speed of a car in m/s. A car that has left the network keeps its last speed.
     pub fn speed(&self, car: usize) -> Stream<f64> {
         self.show(car, "speed", Shown::Speed)
     }
 
-    /// Gives a car this speed in m/s. The car deviates from it only to avoid a collision with a body ahead. At ticks at
-    /// which the stream is absent, the car drives by its model.
+    /// Sets the speed of a car in m/s. The car deviates from this speed only to avoid a collision with a body ahead. At
+    /// ticks at which the stream is absent, the car drives by its model.
     pub fn drive(&self, car: usize, speed: impl Into<Stream<f64>>) {
         self.order(car, "speed", &speed.into(), Order::Speed);
     }
 
-    /// Sets the speed in m/s at which a car drives if nothing hinders it.
+    /// Sets the speed in m/s at which a car drives on a free road.
     pub fn wish(&self, car: usize, speed: impl Into<Stream<f64>>) {
         self.order(car, "desired_speed", &speed.into(), Order::Wish);
     }
 
-    /// Makes a car change to the neighbouring lane on this side within `seconds` seconds when the event occurs, even if
-    /// other cars are there. Without such a lane it does nothing. A time that is not a finite number above 0 is
+    /// Makes a car change to the next lane on a given side within `seconds` seconds when an event occurs, even if other
+    /// cars are there. Without such a lane the car keeps its lane. A time that is not a finite number above 0 is
     /// reported as a mistake when the world is built.
     pub fn change_lane(&self, car: usize, side: Side, seconds: f64, event: &Stream<bool>) {
         if seconds > 0.0 && seconds.is_finite() {

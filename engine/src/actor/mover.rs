@@ -22,7 +22,7 @@ pub struct Mover {
     offset: Stream<f64>,
 }
 
-/// A placed object that moves along a path: its outputs and its inputs.
+/// The handle of a placed object that moves along a path, with its outputs and its inputs.
 #[derive(Debug, Clone)]
 pub struct Actor {
     speed_input: Input<f64>,
@@ -57,7 +57,7 @@ struct Shown {
 }
 
 impl Mover {
-    /// Makes a body on a path. Traces and requirements refer to it by its name.
+    /// Makes an object with a given body that moves along a path. Traces and requirements refer to it by its name.
     pub fn new(name: &str, body: Body, path: Path) -> Self {
         let (speed, offset) = (Stream::absent(), Stream::constant(0.0));
         Self { name: name.to_owned(), body, path, start: 0.0, speed, offset }
@@ -89,7 +89,7 @@ impl Mover {
         self
     }
 
-    /// Sets the body of the object, instead of the usual one.
+    /// Sets the body of the object, instead of the usual body.
     pub fn body(mut self, body: Body) -> Self {
         self.body = body;
         self
@@ -101,14 +101,14 @@ impl Mover {
         self
     }
 
-    /// Sets the speed along the path in m/s, which is not negative. The object stands at ticks at which the stream is
-    /// absent, and at the end of the path.
+    /// Sets the speed of the object along the path in m/s, which is not negative. The object stands at ticks at which
+    /// the stream is absent, and at the end of the path.
     pub fn speed(mut self, speed: impl Into<Stream<f64>>) -> Self {
         self.speed = speed.into();
         self
     }
 
-    /// Sets the distance to the left of the path in metres, negative to the right; at first it is 0. For lane changes.
+    /// Sets the distance to the left of the path in metres for lane changes; negative to the right, 0 by default.
     pub fn offset(mut self, offset: impl Into<Stream<f64>>) -> Self {
         self.offset = offset.into();
         self
@@ -161,37 +161,37 @@ impl Place for Mover {
 }
 
 impl Actor {
-    /// Binds the speed to another stream: [`Mover::speed`].
+    /// Binds the speed of the object to another stream, with the rules of [`Mover::speed`].
     pub fn drive(&self, speed: impl Into<Stream<f64>>) {
         self.speed_input.bind(speed);
     }
 
-    /// Binds the offset to another stream: [`Mover::offset`].
+    /// Binds the distance to the left of the path to another stream, with the rules of [`Mover::offset`].
     pub fn shift(&self, offset: impl Into<Stream<f64>>) {
         self.offset_input.bind(offset);
     }
 
-    /// Returns the position of the object's middle.
+    /// Returns a stream of the position of the object's middle.
     pub fn position(&self) -> Stream<Vector2<f64>> {
         self.position.stream()
     }
 
-    /// Returns the speed of the object, in m/s.
+    /// Returns a stream of the speed of the object, in m/s.
     pub fn speed(&self) -> Stream<f64> {
         self.speed.stream()
     }
 
-    /// Returns the distance that the object has travelled along the path, in metres.
+    /// Returns a stream of the distance that the object has travelled along the path, in metres.
     pub fn travelled(&self) -> Stream<f64> {
         self.travelled.stream()
     }
 
-    /// Returns the distance to the end of the path, in metres.
+    /// Returns a stream of the distance from the object to the end of its path, in metres.
     pub fn remaining(&self) -> Stream<f64> {
         self.remaining.stream()
     }
 
-    /// Returns `true` at ticks at which the object stands at the end of its path.
+    /// Returns a stream that is true at the ticks at which the object stands at the end of its path.
     pub fn arrived(&self) -> Stream<bool> {
         self.remaining().at_most(0.0)
     }

@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// A person on foot. The person is not placed yet.
+/// A person on foot who is not placed in a world yet.
 #[derive(Debug, Clone)]
 pub struct Pedestrian {
     name: String,
@@ -17,7 +17,7 @@ pub struct Pedestrian {
     start: Pose,
 }
 
-/// A placed pedestrian: its outputs and its input.
+/// The handle of a placed pedestrian, with its outputs and its input.
 #[derive(Debug, Clone)]
 pub struct Walker {
     /// The target of the walk, as soon as the program has set one.
@@ -27,7 +27,7 @@ pub struct Walker {
     remaining: Output<f64>,
 }
 
-/// The walk of a pedestrian, as the speed that its input is bound to. The methods change its beginning and end.
+/// The walk of a pedestrian, which can begin and end by events. It consists of the speed that the input is bound to.
 #[derive(Debug)]
 pub struct Walk(Input<f64>);
 
@@ -92,38 +92,38 @@ impl Place for Pedestrian {
 }
 
 impl Walker {
-    /// Lets the pedestrian walk straight to `target` at this speed in m/s, from the first tick on, and stop there. The
-    /// pedestrian stands at ticks at which the speed is absent.
+    /// Lets the pedestrian walk straight to `target` at a given speed in m/s from the first tick on, and stop at
+    /// `target`. The pedestrian stands at ticks at which the speed is absent.
     pub fn walk(&self, target: Pose, speed: impl Into<Stream<f64>>) -> Walk {
         self.target.set(Some(target.position));
         self.speed.bind(speed);
         Walk(self.speed.clone())
     }
 
-    /// Returns the position of the pedestrian.
+    /// Returns a stream of the position of the pedestrian.
     pub fn position(&self) -> Stream<Vector2<f64>> {
         self.position.stream()
     }
 
-    /// Returns the distance that the pedestrian still has to walk, in metres.
+    /// Returns a stream of the distance that the pedestrian still has to walk, in metres.
     pub fn remaining(&self) -> Stream<f64> {
         self.remaining.stream()
     }
 
-    /// Returns `true` at ticks at which the pedestrian stands at the target of the walk.
+    /// Returns a stream that is true at the ticks at which the pedestrian stands at the target of the walk.
     pub fn arrived(&self) -> Stream<bool> {
         self.remaining().at_most(0.0)
     }
 }
 
 impl Walk {
-    /// Begins the walk at the tick of the event: [`Stream::skip_until`].
+    /// Lets the walk begin at the tick of an event, by [`Stream::skip_until`].
     pub fn skip_until<E: Datum>(self, event: &Stream<E>) -> Self {
         self.0.rebind(|speed| speed.skip_until(event));
         self
     }
 
-    /// Ends the walk at the tick of the event: [`Stream::take_until`].
+    /// Lets the walk end at the tick of an event, by [`Stream::take_until`].
     pub fn take_until<E: Datum>(self, event: &Stream<E>) -> Self {
         self.0.rebind(|speed| speed.take_until(event));
         self

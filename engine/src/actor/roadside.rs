@@ -26,7 +26,7 @@ const FROM_BODIES: f64 = 1.5;
 /// The distance in metres between two points of a path that is kept free.
 const STEP: f64 = 0.5;
 
-/// Scenery beside the roads. It is not placed yet. Place it last, so that it keeps clear of everything else.
+/// Scenery beside the roads, such as trees, to be placed. Place it last, so that it keeps clear of everything else.
 ///
 /// Scenery exists for sensors, and for a car that runs into it. Drivers, traffic, clearances and other signals take no
 /// account of it: as long as no car leaves the road, traces are the same as without scenery.
@@ -105,7 +105,7 @@ fn painted(chance: &mut Chance) -> Colour {
 }
 
 impl Roadside {
-    /// Makes scenery with this share of filled places, from 0 (no place) to 1 (every place).
+    /// Makes scenery that fills a share of the places beside the roads, from 0 (no place) to 1 (every place).
     pub fn new(fullness: f64) -> Self {
         Self { fullness }
     }

@@ -17,7 +17,7 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
 const COMFORT: f64 = 2.0;
 /// The strongest lateral acceleration in m/s² in bends.
 const SIDEWAYS: f64 = 2.0;
-/// The seconds between two questions: 20 Hz, a usual rate of driver assistance.
+/// The seconds between two questions to the driver. 20 Hz is a usual rate of driver assistance.
 pub(super) const PERIOD: f64 = 0.05;
 /// The acceleration per m/s of missing speed, in 1/s.
 const GAIN: f64 = 1.0;
@@ -26,7 +26,7 @@ const LOOK_AHEAD: (f64, f64, f64) = (0.6, 5.0, 20.0);
 /// The share of the wheels' full turn below which the wheels stay straight.
 const STEADY: f64 = 1e-9;
 
-/// A controller of speed and way.
+/// A controller that keeps the car at its set speed and on its way.
 #[derive(Debug, Default)]
 pub(super) struct Cruise {
     set_speed: f64,
@@ -38,7 +38,7 @@ pub(super) struct Cruise {
 }
 
 impl Cruise {
-    /// Returns the acceleration in m/s² that brings the car to its set speed, and slows it for the bends ahead.
+    /// Returns the acceleration in m/s² that brings the car to its set speed and slows the car for bends.
     pub fn acceleration(&self, observation: &Observation) -> f64 {
         let speed = observation.speed;
         let keep = self.keeping(speed);
@@ -63,7 +63,7 @@ impl Cruise {
         (acceleration / self.max_acceleration).clamp(-1.0, 1.0)
     }
 
-    /// Returns the control that asks the car for an acceleration in m/s² and steers it along its way.
+    /// Returns the control for an acceleration in m/s² that also steers the car along its way.
     pub fn control(&self, acceleration: f64, observation: &Observation) -> Control {
         let way = observation.way.at(Self::looks_ahead(observation.speed));
         Control { throttle: self.throttle(acceleration), steering: self.steering(way.position) }
@@ -75,8 +75,8 @@ impl Cruise {
         (seconds * speed).clamp(least, most)
     }
 
-    /// Steers by pure pursuit (Coulter 1992): returns the steering for the arc on which the rear axle reaches a point
-    /// ahead, as seen from the car's middle.
+    /// Returns the steering by pure pursuit (Coulter 1992), for the arc on which the rear axle reaches a point ahead.
+    /// The point is as seen from the car's middle.
     pub fn steering(&self, target: Vector2<f64>) -> f64 {
         let (x, y) = (target.x + self.rear_axle, target.y);
         let angle = libm::atan2(2.0 * self.wheelbase * y, x * x + y * y);

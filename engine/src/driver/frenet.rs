@@ -32,7 +32,7 @@ struct Foot {
     point: Point,
 }
 
-/// The coordinates along a way and across it.
+/// The coordinate system along and across the way of the car.
 #[derive(Debug, Clone)]
 pub(super) struct Frenet {
     offset: f64,
@@ -41,7 +41,7 @@ pub(super) struct Frenet {
 }
 
 impl Frenet {
-    /// Returns the coordinates of the way that the car is on.
+    /// Makes the coordinate system of the way in an observation.
     pub fn of(observation: &Observation) -> Self {
         let Way { offset, heading, ahead } = observation.way;
         let (sin, cos) = libm::sincos(heading);
@@ -66,8 +66,8 @@ impl Frenet {
         Self { offset, points, straight }
     }
 
-    /// Returns the body as the car would see it if the way were straight and the car pointed along it. The body was
-    /// seen `age` seconds ago; its position assumes straight motion since then, the result motion along the way.
+    /// Returns the body as the car would see it if the way were straight and the car pointed along the way. The body
+    /// was seen `age` seconds ago; its position assumes straight motion since then, the result motion along the way.
     pub fn straightened(&self, body: &Other, age: f64) -> Other {
         let turned = |tangent: Vector2<f64>, v: &Vector2<f64>| Vector2::new(tangent.dot(v), tangent.perp(v));
         let here = if self.straight { self.points[0].tangent } else { self.foot(body.position).point.tangent };

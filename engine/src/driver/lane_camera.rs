@@ -49,7 +49,7 @@ const AROUND: f64 = 3.0;
 /// The deceleration in m/s² if the driver sees no road.
 const BRAKES: f64 = 3.0;
 
-/// A driver that sees by a camera.
+/// A driver that sees the road by a camera.
 #[derive(Debug)]
 struct LaneCamera {
     camera: CameraSpec,
@@ -105,7 +105,7 @@ impl LaneCamera {
         }
     }
 
-    /// Returns the lane's middle at this many metres ahead: the mean of the points that were seen near there.
+    /// Returns the middle of the lane `metres` metres ahead, as the mean of the points that were seen near there.
     fn target(&self, metres: f64) -> Option<Vector2<f64>> {
         let there = || self.lane.iter().filter(|point| (point.x - metres).abs() <= AROUND);
         let count = there().count();
@@ -127,14 +127,14 @@ impl<'a> Row<'a> {
         Self { pixels, down: (f64::from(number) + 0.5 - 0.5 * f64::from(image.height)) / focal(image.width) }
     }
 
-    /// Returns the distance in metres from the camera ahead to the ground that the row shows, if it shows any.
+    /// Returns the distance ahead in metres to the ground that the row shows; `None` if the row shows no ground.
     fn distance(&self) -> Option<f64> {
         let (sin, cos) = libm::sincos(PITCH.to_radians());
         let falls = sin + self.down * cos;
         (falls > 0.0).then(|| HEIGHT * (cos - self.down * sin) / falls)
     }
 
-    /// Returns the depth of that ground in metres, measured along the camera's axis.
+    /// Returns the depth in metres, along the camera's axis, of the ground that the row shows.
     fn depth(&self) -> Option<f64> {
         let (sin, cos) = libm::sincos(PITCH.to_radians());
         Some(self.distance()? * cos + HEIGHT * sin)
@@ -156,8 +156,8 @@ impl<'a> Row<'a> {
         (from..to).map(|column| self.brightness(column)).sum::<f64>() / (to - from) as f64
     }
 
-    /// Returns how far in metres to the left of straight ahead the road's edge is: the first pixel of at least the
-    /// brightness `least` to the right of `from`, if `from` (metres to the left, too) is in the image and not bright.
+    /// Returns the offset of the road's edge in metres to the left: the first pixel of at least the brightness `least`
+    /// to the right of `from`. `None` if `from` (metres to the left, too) is outside the image or bright.
     fn edge(&self, from: f64, least: f64) -> Option<f64> {
         let (focal, half) = (focal(self.width() as u32), 0.5 * self.width() as f64);
         let depth = self.depth()?;

@@ -1,7 +1,8 @@
 //! Drivers: the systems under test that come with the engine.
 //!
-//! The engine asks a driver for a control at the driver's own period. A driver is told nothing but its briefing and its
-//! observations. Every driver has named settings with documented values, which a study can change.
+//! The engine asks a driver for a control at the driver's own period. A driver gets nothing but its briefing, its
+//! observations and the readings of its sensors. Every driver has named settings with documented values, which a study
+//! can change.
 
 mod aeb;
 mod cruise;
@@ -33,7 +34,7 @@ pub trait Driver: Send {
         0.0
     }
 
-    /// Forgets everything, because a new run begins.
+    /// Resets the driver, because a new run begins. The driver forgets all earlier runs.
     ///
     /// # Errors
     /// The driver cannot drive such a car.
@@ -49,7 +50,7 @@ pub trait Driver: Send {
         Ok(())
     }
 
-    /// Returns the control until the next question.
+    /// Returns the control of the car until the next question.
     ///
     /// # Errors
     /// The driver cannot go on: it has died, or does not answer.
@@ -59,13 +60,13 @@ pub trait Driver: Send {
 /// The sensors of a driver.
 #[derive(Debug, Default)]
 pub struct Equipment {
-    /// The sensors other than cameras.
+    /// The sensors of the driver other than cameras.
     pub rig: Rig,
-    /// The cameras. Their images come in the order of their names.
+    /// The cameras of the driver. Their images come in the order of the cameras' names.
     pub cameras: Cameras,
 }
 
-/// The reason why a driver cannot go on. It ends the test with an error that gives the reason.
+/// The reason why a driver cannot go on. The fault ends the test with an error that gives the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct Fault {
@@ -75,18 +76,18 @@ pub struct Fault {
     pub message: String,
 }
 
-/// The kinds of faults that drivers have.
+/// The kind of a driver's fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FaultKind {
-    /// The driver reports the fault itself.
+    /// The driver itself reports a fault.
     Stated,
-    /// The driver asks for sensors that are not possible, or for cameras that nothing renders.
+    /// The driver asks for impossible sensors, or for cameras in a run that renders no images.
     Equipment,
-    /// The driver's answer makes no sense.
+    /// The driver's answer is of the wrong kind or has impossible values.
     Answer,
     /// The driver does not answer in time.
     TimedOut,
-    /// The driver's process or the connection to it is gone.
+    /// The driver's process or the connection to the process is gone.
     Lost,
     /// The campaign was interrupted and no longer waits for the driver.
     Interrupted,
@@ -104,7 +105,7 @@ impl Fault {
     }
 }
 
-/// A number of a driver that a study can set.
+/// The description of a driver's setting, which is a number that a study can change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// The name of the setting.
@@ -115,7 +116,7 @@ pub struct Setting {
     pub unit: &'static str,
     /// The least and the greatest value of the setting.
     pub range: (f64, f64),
-    /// True if the setting counts something, so that only whole numbers make sense.
+    /// True if the setting takes only whole numbers, because it counts something.
     pub whole: bool,
     /// The meaning of the setting, in words.
     pub about: &'static str,
@@ -152,7 +153,7 @@ impl Settings {
     }
 }
 
-/// The description of a driver that comes with the engine: its name, its settings, and the function that makes it.
+/// The description of a driver that comes with the engine, with the function that makes the driver.
 #[derive(Debug)]
 pub struct Descriptor {
     /// The name by which a study chooses the driver.
@@ -161,7 +162,7 @@ pub struct Descriptor {
     pub about: &'static str,
     /// The settings of the driver.
     pub settings: &'static [Setting],
-    /// The function that makes a driver with these settings.
+    /// The function that makes the driver from the values of its settings.
     pub make: fn(&Settings) -> Box<dyn Driver>,
 }
 
@@ -186,7 +187,8 @@ pub enum DriverError {
         /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// The given value is not in the range of the setting, or is not a whole number although the setting needs one.
+    /// The given value is not in the range of the setting, or is not a whole number although the setting takes only
+    /// whole numbers.
     #[error(
         "the setting `{name}` of driver `{driver}` is {value}, expected a {}number from {} to {}",
         if *whole { "whole " } else { "" }, range.0, range.1
@@ -196,7 +198,7 @@ pub enum DriverError {
         driver: &'static str,
         /// The name of the setting.
         name: &'static str,
-        /// The value that was asked for.
+        /// The value that the user gave.
         value: f64,
         /// The least and the greatest value of the setting.
         range: (f64, f64),
@@ -205,7 +207,7 @@ pub enum DriverError {
     },
 }
 
-/// The drivers that come with the engine, in the order in which they are listed.
+/// The descriptions of all drivers that come with the engine, in the order of lists.
 pub const ALL: &[&Descriptor] = &[
     &aeb::DESCRIPTOR,
     &cruise::DESCRIPTOR,
@@ -230,10 +232,10 @@ pub fn find(name: &str) -> Result<&'static Descriptor, DriverError> {
 }
 
 impl Descriptor {
-    /// Returns the values of all settings: the defaults, except where `changes` gives another value.
+    /// Returns the values of all settings of the driver, which are the defaults unless `changes` gives another value.
     ///
     /// # Errors
-    /// A change names no setting, or gives it a value out of its range.
+    /// A change names an unknown setting, or its value is out of the setting's range.
     pub fn settings(&self, changes: &[(String, f64)]) -> Result<Settings, DriverError> {
         let mut settings = Settings(self.settings.iter().map(|setting| (setting.name, setting.default)).collect());
         for (name, value) in changes {

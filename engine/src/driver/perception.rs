@@ -16,18 +16,18 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;
 
-/// The accuracy and the limits of the sensor.
+/// The accuracy and the limits of a modelled sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sensor {
     /// The greatest distance at which the sensor sees, in metres.
     pub range: f64,
-    /// The opening angle in radians.
+    /// The opening angle of the sensor in radians.
     pub field_of_view: f64,
-    /// The standard deviation of each coordinate of a position, in metres.
+    /// The standard deviation of each coordinate of a detected position, in metres.
     pub noise: f64,
     /// The delay in seconds until the driver knows of a detection.
     pub latency: f64,
-    /// The greatest number of detections that a track is fitted to.
+    /// The greatest number of detections from which a track is estimated.
     pub samples: usize,
     /// The seconds between two frames.
     pub period: f64,
@@ -40,12 +40,12 @@ const OUT_OF_SIGHT: f64 = 0.5;
 /// The fewest detections that give a usable velocity.
 const FEWEST: usize = 3;
 
-/// A body as the driver believes it to be now, if it has gone straight on since it was seen.
+/// The driver's estimate of a body's present state, if the body has gone straight on since its detections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Track {
-    /// The body with its estimated position and velocity.
+    /// The body with estimated position and velocity.
     pub body: Other,
-    /// The mean age of the detections, in seconds.
+    /// The mean age in seconds of the detections behind the estimate.
     pub age: f64,
 }
 
@@ -56,7 +56,7 @@ struct Detection {
     position: Vector2<f64>,
 }
 
-/// The memory of the sensor.
+/// A modelled sensor with its memory of detections.
 #[derive(Debug)]
 pub(super) struct Perception {
     sensor: Sensor,
@@ -70,12 +70,13 @@ impl Perception {
         Self { sensor, random: Pcg64::seed_from_u64(sensor.seed), seen: Vec::new() }
     }
 
-    /// Forgets everything, including the state of the noise: every run of a test sees the same noise.
+    /// Forgets all detections and restarts the noise, so that every run of a test sees the same noise.
     pub fn reset(&mut self) {
         *self = Self::new(self.sensor);
     }
 
-    /// Takes a frame. `front` is the distance in metres from the car's middle to the sensor at its front.
+    /// Takes a frame of an observation. `front` is the distance in metres from the car's middle to the sensor at its
+    /// front.
     pub fn see(&mut self, observation: &Observation, front: f64) {
         let bodies = observation.others.iter().map(|body| body.id + 1).max().unwrap_or(0);
         self.seen.resize_with(bodies.max(self.seen.len()), VecDeque::new);
@@ -120,8 +121,8 @@ impl Perception {
     }
 }
 
-/// Returns `true` if something large stands between the middle of a body and the car's front, which is `front` metres
-/// from the car's middle.
+/// Returns `true` if a large body stands between the middle of a body and the car's front, which is `front` metres from
+/// the car's middle.
 pub(super) fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
     let sensor = Vector2::new(front, 0.0);
     let large = |other: &&Other| hides(other.class);

@@ -140,7 +140,7 @@ fn unknown_drivers_and_settings_are_named_with_the_nearest() {
     let aeb = find("aeb").unwrap();
     let set = |name: &str, value| message(aeb.settings(&[(name.to_owned(), value)]).unwrap_err());
     assert_eq!(set("tcc", 1.0), "driver `aeb` has no setting `tcc` (did you mean `ttc`?)");
-    assert_eq!(set("ttc", -1.0), "driver `aeb`: setting `ttc` is -1, expected a number from 0 to 10");
+    assert_eq!(set("ttc", -1.0), "the setting `ttc` of driver `aeb` is -1, expected a number from 0 to 10");
     assert!(set("ttc", f64::NAN).contains("NaN"));
 }
 

@@ -3,13 +3,13 @@
 /// The length and width of a road user, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
-    /// The length from bumper to bumper.
+    /// The length of the road user from bumper to bumper, in metres.
     pub length: f64,
-    /// The width from side to side.
+    /// The width of the road user from side to side, in metres.
     pub width: f64,
 }
 
-/// The motion of another road user, relative to the start of the ego vehicle: its front bumper in the middle of its
+/// The motion of another road user, relative to the front bumper of the ego vehicle at the start, in the middle of the
 /// lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
@@ -21,7 +21,7 @@ pub struct Course {
     pub deceleration: f64,
     /// The lateral position of the road user's middle at the beginning, in metres, positive to the left.
     pub lateral: f64,
-    /// The lateral position to which the road user moves and where it stays, in metres.
+    /// The lateral position to which the road user moves and at which it stays, in metres, positive to the left.
     pub target: f64,
     /// The lateral speed in m/s at which the road user moves to `target`.
     pub lateral_speed: f64,
@@ -34,15 +34,15 @@ pub struct Course {
 /// The state of a road user on its course at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// The position of the rear, in metres along the lane.
+    /// The position of the road user's rear, in metres along the lane.
     pub rear: f64,
-    /// The speed along the lane, in m/s.
+    /// The speed of the road user along the lane, in m/s.
     pub speed: f64,
-    /// The acceleration along the lane, in m/s².
+    /// The acceleration of the road user along the lane, in m/s².
     pub acceleration: f64,
-    /// The distance from the middle of the lane in metres, not below 0.
+    /// The distance of the road user from the middle of the lane in metres, not below 0.
     pub lateral: f64,
-    /// The speed towards the middle of the lane, in m/s.
+    /// The speed of the road user towards the middle of the lane, in m/s.
     pub approach: f64,
     /// `true` if the road user neither brakes nor moves sideways from now on.
     pub settled: bool,

@@ -4,23 +4,23 @@ use super::course::{Course, Place, Size};
 use super::situation::Situation;
 use super::{BrakingModel, DT};
 
-/// An encounter of the ego vehicle, in the middle of its lane, with other road users.
+/// An encounter of the ego vehicle with other road users, with the ego vehicle in the middle of its lane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Encounter {
     /// The speed of the ego vehicle in m/s until it brakes.
     pub speed: f64,
     /// The length and width of the ego vehicle.
     pub size: Size,
-    /// The courses of the other road users.
+    /// The motions of the other road users, as courses.
     pub others: Vec<Course>,
-    /// The time in seconds after which the encounter is over.
+    /// The duration of the encounter in seconds.
     pub duration: f64,
 }
 
-/// The result of an encounter.
+/// The result of an encounter of the ego vehicle with other road users.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ended {
-    /// The collision that ended the encounter, if there was one.
+    /// The collision that ended the encounter; `None` if the encounter ended without a collision.
     pub collision: Option<Collision>,
     /// The smallest time to collision in seconds with a road user in the ego vehicle's path. It is infinite if there
     /// was no such road user, and 0 at a collision with the ego vehicle's front.
@@ -33,18 +33,18 @@ pub struct Ended {
 /// A collision of the ego vehicle with another road user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collision {
-    /// The time in seconds since the beginning. Between two steps, it assumes constant speeds.
+    /// The time of the collision in seconds since the beginning, computed with constant speeds between two steps.
     pub time: f64,
-    /// The difference of the two speeds along the lane, in m/s.
+    /// The difference of the speeds of both road users along the lane, in m/s.
     pub speed: f64,
-    /// The side of the ego vehicle that was hit.
+    /// The side of the ego vehicle that was hit in the collision.
     pub face: Impact,
 }
 
 /// The side of the ego vehicle that was hit in a collision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Impact {
-    /// The ego vehicle ran into the other road user, or they overlapped from the beginning.
+    /// The ego vehicle ran into the other road user, or both overlapped from the beginning.
     Front,
     /// The other road user moved into the side of the ego vehicle.
     Side,
@@ -91,8 +91,8 @@ impl Apart {
 }
 
 impl Encounter {
-    /// Returns the result of the encounter with this driver. A copy of the driver watches each of the other road users.
-    /// The car brakes as hard as the copy that asks for most, and never accelerates again.
+    /// Returns the result of the encounter with a given driver in the ego vehicle. A copy of the driver watches each of
+    /// the other road users. The car brakes as hard as the copy that asks for most, and never accelerates again.
     pub fn run<M: BrakingModel>(&self, driver: &M) -> Ended {
         let mut models = vec![driver.clone(); self.others.len()];
         let mut before: Vec<Option<Apart>> = vec![None; self.others.len()];

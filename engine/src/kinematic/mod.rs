@@ -29,17 +29,17 @@ pub use encounter::{Collision, Encounter, Ended, Impact};
 pub use regulation::{CutIn, CutOut, LANE_WIDTH, LeaderBrakes};
 pub use situation::Situation;
 
-/// The time step in seconds: the models of UN R157 run at 10 Hz.
+/// The duration of a time step in seconds. The models of UN R157 run at 10 Hz.
 pub const DT: f64 = 0.1;
 
-/// A model of how a driver decides to brake for one other road user. It may have memory, for example how long a risk
-/// has lasted; each encounter uses a fresh copy for each of the other road users.
+/// A model of a driver who brakes because of another road user. It may have memory, for example the duration of a risk;
+/// each encounter uses a fresh copy for each of the other road users.
 pub trait BrakingModel: Clone + Send {
     /// Returns the deceleration for the next `dt` seconds in m/s², not below 0; 0 if the model sees no reason to brake.
     fn brake(&mut self, situation: &Situation, dt: f64) -> f64;
 }
 
-/// A model that never brakes. It shows what happens if the driver does nothing.
+/// A model of a driver who never brakes. It shows the result without a reaction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Unbraked;
 

@@ -8,7 +8,7 @@ use super::course::{Course, Size};
 use super::encounter::Encounter;
 use crate::vehicle::Vehicle;
 
-/// The width of a lane in metres.
+/// The width of a lane in the encounters, in metres.
 pub const LANE_WIDTH: f64 = 3.5;
 
 /// The distance in metres that a car's middle may be off the middle of its lane while the car keeps the lane.
@@ -21,7 +21,7 @@ const CAR: Size = Size { length: Vehicle::BMW_320I.length, width: Vehicle::BMW_3
 
 const KM_H: f64 = 1.0 / 3.6;
 
-/// A car in the next lane cuts in: it moves into the lane of the ego vehicle and drives on at constant speed.
+/// An encounter in which a car cuts in from the next lane in front of the ego vehicle and drives on at constant speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutIn {
     /// The speed of the ego vehicle, in m/s.
@@ -35,8 +35,8 @@ pub struct CutIn {
 }
 
 impl CutIn {
-    /// Returns the cut-in of four numbers in [0, 1], each scaled to its range: speed, relative speed (0 for the
-    /// greatest difference), gap, lateral speed. `None` if the other car would have to drive backwards.
+    /// Makes a cut-in from four numbers in [0, 1], which are scaled to the ranges of speed, relative speed (0 for the
+    /// greatest difference), gap and lateral speed. `None` if the other car would have to drive backwards.
     pub fn from_unit(point: [f64; 4]) -> Option<Self> {
         let within = |x: f64, low: f64, high: f64| low + x * (high - low);
         let speed = within(point[0], 20.0, 60.0) * KM_H;
@@ -46,7 +46,7 @@ impl CutIn {
         (other_speed >= 0.0).then_some(Self { speed, other_speed, gap, lateral_speed })
     }
 
-    /// Returns the encounter, which begins when the other car begins to move over from the left.
+    /// Returns the encounter of this cut-in, which begins when the other car begins to move over from the left.
     pub fn encounter(&self) -> Encounter {
         let other = Course {
             lateral: LANE_WIDTH,
@@ -58,7 +58,7 @@ impl CutIn {
     }
 }
 
-/// The car ahead leaves the lane (it cuts out), and a car that stands in the lane appears.
+/// An encounter in which the car ahead leaves the lane (it cuts out) and uncovers a car that stands in the lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutOut {
     /// The speed of the ego vehicle and of the car ahead, in m/s.
@@ -72,8 +72,8 @@ pub struct CutOut {
 }
 
 impl CutOut {
-    /// Returns the encounter, which begins when the car ahead begins to move over. The standing car is visible as soon
-    /// as the car ahead has left the zone in which cars wander.
+    /// Returns the encounter of this cut-out, which begins when the car ahead begins to move over. The standing car is
+    /// visible as soon as the car ahead has left the zone in which cars wander.
     ///
     /// # Panics
     /// The lateral speed is not positive.
@@ -88,7 +88,7 @@ impl CutOut {
     }
 }
 
-/// The car ahead brakes to standstill.
+/// An encounter in which the car ahead brakes to standstill.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeaderBrakes {
     /// The speed of the ego vehicle and of the car ahead at the beginning, in m/s.
@@ -100,7 +100,7 @@ pub struct LeaderBrakes {
 }
 
 impl LeaderBrakes {
-    /// Returns the encounter, which begins when the car ahead begins to brake.
+    /// Returns the encounter with the braking car, which begins when the car ahead begins to brake.
     pub fn encounter(&self) -> Encounter {
         encounter(self.speed, vec![Course { deceleration: self.deceleration, ..ahead(self.gap, self.speed) }])
     }

@@ -15,18 +15,18 @@ pub enum Class {
     Bicycle,
     /// A person on foot.
     Pedestrian,
-    /// A house.
+    /// A house or another building.
     Building,
     /// A tree.
     Tree,
     /// A sign or a lamp post.
     Sign,
-    /// Any other object.
+    /// An object of any other class.
     Prop,
 }
 
 impl Class {
-    /// All classes.
+    /// All classes of bodies.
     pub const ALL: [Self; 8] =
         [Self::Car, Self::Truck, Self::Bicycle, Self::Pedestrian, Self::Building, Self::Tree, Self::Sign, Self::Prop];
 
@@ -63,22 +63,22 @@ impl fmt::Display for Class {
 /// The area of the ground that a body covers. Lengths are in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outline {
-    /// A rectangle around the body's position, with its length along the heading.
+    /// A rectangle around the body's position, with the length along the body's heading.
     Rectangle {
-        /// The length along the heading.
+        /// The length of the rectangle along the heading, in metres.
         length: f64,
-        /// The width across the heading.
+        /// The width of the rectangle across the heading, in metres.
         width: f64,
     },
     /// A disc around the body's position.
     Disc {
-        /// The radius of the disc.
+        /// The radius of the disc, in metres.
         radius: f64,
     },
 }
 
 impl Outline {
-    /// Returns half of the length and half of the width, in metres.
+    /// Returns half of the length and half of the width of the outline, in metres.
     pub fn half_extent(&self) -> Vector2<f64> {
         match *self {
             Outline::Rectangle { length, width } => 0.5 * Vector2::new(length, width),
@@ -86,7 +86,7 @@ impl Outline {
         }
     }
 
-    /// Returns half the sides in metres of the rectangle along the axes around a body with this outline and heading.
+    /// Returns half the sides in metres of the smallest rectangle along the axes around the outline at a heading.
     pub fn enclosing(&self, heading: f64) -> Vector2<f64> {
         let half = self.half_extent();
         match self {
@@ -108,10 +108,10 @@ impl Outline {
     }
 }
 
-/// A colour in sRGB: red, green and blue.
+/// A colour in sRGB, as red, green and blue from 0 to 255.
 pub type Colour = [u8; 3];
 
-/// A body, with its class, the room that it takes, and its colour.
+/// A body in the world, with its class, its outline, its height and its colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// The class of the body.
@@ -125,47 +125,47 @@ pub struct Body {
 }
 
 impl Body {
-    /// Makes a body with a rectangular outline: length, width and height in metres. Its colour is that of its class.
+    /// Makes a body with a rectangular outline of a length, width and height in metres, in the colour of its class.
     pub fn block(class: Class, length: f64, width: f64, height: f64) -> Self {
         Self { class, outline: Outline::Rectangle { length, width }, height, colour: class.usual_colour() }
     }
 
-    /// Makes a body with a round outline: radius and height in metres. Its colour is that of its class.
+    /// Makes a body with a round outline of a radius and height in metres, in the colour of its class.
     pub fn disc(class: Class, radius: f64, height: f64) -> Self {
         Self { class, outline: Outline::Disc { radius }, height, colour: class.usual_colour() }
     }
 
-    /// Makes a person of average build. The Euro NCAP adult dummy is 0.5 m wide and 1.8 m tall.
+    /// Makes the body of a person of average build. The Euro NCAP adult dummy is 0.5 m wide and 1.8 m tall.
     pub fn adult() -> Self {
         Self::disc(Class::Pedestrian, 0.25, 1.8)
     }
 
-    /// Makes a child. The Euro NCAP child dummy is 0.3 m wide and 1.15 m tall.
+    /// Makes the body of a child. The Euro NCAP child dummy is 0.3 m wide and 1.15 m tall.
     pub fn child() -> Self {
         Self::disc(Class::Pedestrian, 0.15, 1.15)
     }
 
-    /// Makes a passenger car of middle size.
+    /// Makes the body of a passenger car of middle size.
     pub fn car() -> Self {
         Self::block(Class::Car, 4.5, 1.8, 1.45)
     }
 
-    /// Makes a lorry.
+    /// Makes the body of a lorry.
     pub fn truck() -> Self {
         Self::block(Class::Truck, 10.0, 2.5, 3.5)
     }
 
-    /// Makes a bicycle with its rider.
+    /// Makes the body of a bicycle with its rider.
     pub fn bicycle() -> Self {
         Self::block(Class::Bicycle, 1.8, 0.6, 1.75)
     }
 
-    /// Makes a bicycle without a rider. Sensors distinguish it from a bicycle with a rider by its height.
+    /// Makes the body of a bicycle without a rider. Sensors recognise it by its lower height.
     pub fn parked_bicycle() -> Self {
         Self::block(Class::Bicycle, 1.8, 0.6, 1.05)
     }
 
-    /// Returns the same body in this colour.
+    /// Returns the same body in another colour.
     pub fn coloured(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
@@ -181,11 +181,11 @@ impl Body {
 /// The state of a body at the beginning of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyState {
-    /// The body itself.
+    /// The class, the outline, the height and the colour of the body.
     pub body: Body,
-    /// The position of the body's middle, and its heading.
+    /// The position of the body's middle, and the body's heading.
     pub pose: Pose,
-    /// The velocity over the ground during the last tick, in m/s.
+    /// The velocity of the body over the ground during the last tick, in m/s.
     pub velocity: Vector2<f64>,
     /// The height of the body's lowest point above the ground, in metres; 0 for a body that is not physical.
     pub altitude: f64,

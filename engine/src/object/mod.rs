@@ -76,7 +76,7 @@ use crate::road::Path;
 use nalgebra::Vector2;
 use thiserror::Error;
 
-/// The reason why an object cannot use an input.
+/// The reason why an object cannot use the value of an input.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InputError {
     /// The stream of an input is absent.
@@ -96,20 +96,20 @@ pub enum InputError {
     OutOfRange {
         /// The name of the input, as `object.input`.
         input: String,
-        /// The value that was found.
+        /// The value that is out of range.
         value: f64,
-        /// The values that are allowed, in words.
+        /// The values that the input allows, in words.
         expected: &'static str,
     },
 }
 
-/// The behaviour of an object whose poses are under its own control.
+/// The behaviour of an object that controls its own poses.
 pub trait Geometric: 'static {
     /// Writes the poses of the object's bodies, in the order of declaration; `None` for a body that has left the world.
     fn poses(&self, poses: &mut [Option<Pose>]);
 
     /// Writes the velocities of the object's bodies at the beginning of the run, in m/s over the ground, in the order
-    /// of their declaration. By default they are at rest. The inputs are those of the first tick.
+    /// of declaration. By default they are at rest. The inputs are those of the first tick.
     ///
     /// # Errors
     /// The same as of [`Geometric::step`].
@@ -118,12 +118,12 @@ pub trait Geometric: 'static {
         Ok(())
     }
 
-    /// Shows the object's outputs at the beginning of a tick. An output that is not shown is absent.
+    /// Shows the object's outputs at the beginning of a tick. An output without a value is absent.
     fn show(&self, outputs: &mut Outputs<'_>) {
         let _ = outputs;
     }
 
-    /// Returns the path that the object intends to take from its present place, if it has decided. Pictures show it.
+    /// Returns the intended path of the object from its present place; `None` without a plan. Pictures show the path.
     fn plan(&self) -> Option<Path> {
         None
     }
@@ -138,14 +138,14 @@ pub trait Geometric: 'static {
     }
 }
 
-/// The behaviour of an object that the physics moves: a body with a mass, gravity, and friction on the ground.
+/// The behaviour of an object that the physics moves as a body with a mass, gravity, and friction on the ground.
 pub trait Physical: 'static {
-    /// Shows the object's outputs. `body` is the state of its body at the beginning of the tick.
+    /// Shows the object's outputs at the beginning of a tick. `body` is the state of the object's body at this time.
     fn show(&self, body: &BodyState, outputs: &mut Outputs<'_>) {
         let _ = (body, outputs);
     }
 
-    /// Reads the inputs and returns the force on the middle of the body during the tick, in N and in ground axes.
+    /// Reads the object's inputs and returns the force on the body's middle during the tick, in N and in ground axes.
     ///
     /// # Errors
     /// The same as of [`Geometric::step`].

@@ -23,7 +23,7 @@ struct Bound {
     node: Rc<Node>,
 }
 
-/// An input of an object. It reads the stream that it was bound to last. An input is a handle and cheap to clone.
+/// An input of an object, which reads the stream that it was bound to last. An input is a handle and cheap to clone.
 pub struct Input<T> {
     index: usize,
     name: Rc<str>,
@@ -31,7 +31,7 @@ pub struct Input<T> {
     carries: PhantomData<T>,
 }
 
-/// An output of an object. The values that the object shows by it form a stream.
+/// An output of an object, whose values form a stream.
 pub struct Output<T> {
     at: usize,
     name: Rc<str>,
@@ -52,12 +52,12 @@ impl Wiring {
         Output { at, name: name.into(), carries: PhantomData }
     }
 
-    /// Returns the name of every input and the node that it reads, in the order of their declaration.
+    /// Returns the name of every input and the node that the input reads, in the order of declaration.
     pub fn readers(&self) -> Vec<(String, Rc<Node>)> {
         self.inputs.borrow().iter().map(|bound| (bound.name.to_string(), bound.node.clone())).collect()
     }
 
-    /// Returns the slots of the inputs in a graph that has been laid out.
+    /// Returns the slots that the inputs read in a graph that has been laid out.
     pub fn slots(&self, graph: &Graph) -> Vec<Slot> {
         self.inputs.borrow().iter().map(|bound| graph.slot(&bound.node)).collect()
     }
@@ -69,12 +69,12 @@ impl Wiring {
 }
 
 impl<T: Datum> Input<T> {
-    /// Binds the input to a stream, which replaces the present one.
+    /// Binds the input to a stream, which replaces the present stream.
     pub fn bind(&self, stream: impl Into<Stream<T>>) {
         self.rebind(|_| stream.into());
     }
 
-    /// Binds the input to the stream that `change` makes of its present stream.
+    /// Binds the input to the stream that `change` makes of the present stream.
     pub fn rebind(&self, change: impl FnOnce(Stream<T>) -> Stream<T>) {
         let present = Stream::of(self.wiring.inputs.borrow()[self.index].node.clone());
         let changed = change(present);
@@ -83,7 +83,7 @@ impl<T: Datum> Input<T> {
 }
 
 impl<T: Datum> Output<T> {
-    /// Returns the stream of the values that the object shows.
+    /// Returns the stream of the output's values.
     pub fn stream(&self) -> Stream<T> {
         Stream::output(self.source(), self.name.to_string())
     }
@@ -117,20 +117,20 @@ impl<T> fmt::Debug for Output<T> {
     }
 }
 
-/// The place where objects show their outputs.
+/// The storage in which objects show the values of their outputs at a tick.
 #[derive(Debug)]
 pub struct Outputs<'a> {
     pub(crate) samples: &'a mut [DatumSample],
 }
 
 impl Outputs<'_> {
-    /// Shows a value by an output for this tick.
+    /// Sets the value of an output for this tick.
     pub fn set<T: Datum>(&mut self, output: &Output<T>, value: T) {
         value.put(&mut self.samples[output.at..]);
     }
 }
 
-/// The inputs and surroundings that an object reads when it moves on by a tick.
+/// The inputs and the surroundings of an object during a tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Tick<'a> {
     pub(crate) dt: f64,
@@ -154,7 +154,7 @@ impl Tick<'_> {
         self.friction
     }
 
-    /// Returns the value of an input; `None` if its stream is absent.
+    /// Returns the value of an input; `None` if the input's stream is absent.
     pub fn get<T: Datum>(&self, input: &Input<T>) -> Option<T> {
         self.graph.value(self.inputs[input.index])
     }
@@ -169,7 +169,7 @@ impl Tick<'_> {
         if number.is_nan() { Err(InputError::NotANumber { input: name() }) } else { Ok(number) }
     }
 
-    /// Returns the speed that an input reads; 0 if its stream is absent.
+    /// Returns the speed that an input reads; 0 if the input's stream is absent.
     ///
     /// # Errors
     /// The speed is not a finite number from 0 on; the error names the input.
@@ -182,8 +182,8 @@ impl Tick<'_> {
         }
     }
 
-    /// Returns all bodies in the world except the object's own, as they stand at the beginning of the tick: the ego
-    /// vehicle first, then the others in the order in which they were placed.
+    /// Returns all bodies in the world except the object's own bodies, as they stand at the beginning of the tick. The
+    /// ego vehicle is first. The other bodies follow in the order in which they were placed.
     pub fn others(&self) -> impl Iterator<Item = &BodyState> {
         let Range { start, end } = self.own.0..self.own.1;
         self.bodies[..start].iter().chain(&self.bodies[end..]).filter(|body| body.present)

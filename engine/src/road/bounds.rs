@@ -5,29 +5,29 @@
 use nalgebra::Vector2;
 use std::ops::Range;
 
-/// A box with sides along the axes.
+/// A rectangle in the ground plane with sides along the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// The corner with the smallest coordinates.
+    /// The corner of the box with the smallest coordinates.
     pub min: Vector2<f64>,
-    /// The corner with the largest coordinates.
+    /// The corner of the box with the largest coordinates.
     pub max: Vector2<f64>,
 }
 
 impl Bounds {
-    /// Returns the box that contains no point. It is the start for [`Bounds::include`] and [`Bounds::union`].
+    /// Returns an empty box, which contains no point. It is the start for [`Bounds::include`] and [`Bounds::union`].
     pub fn empty() -> Self {
         Self { min: Vector2::repeat(f64::INFINITY), max: Vector2::repeat(f64::NEG_INFINITY) }
     }
 
-    /// Returns the smallest box that contains all of the points; empty without points.
+    /// Returns the smallest box that contains all given points; an empty box without points.
     pub fn around(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
         let mut bounds = Self::empty();
         points.into_iter().for_each(|point| bounds.include(point));
         bounds
     }
 
-    /// Extends the box so that it contains the point.
+    /// Extends the box so that it contains a given point.
     pub fn include(&mut self, point: Vector2<f64>) {
         self.min = self.min.inf(&point);
         self.max = self.max.sup(&point);
@@ -78,9 +78,9 @@ struct Node {
 
 #[derive(Debug)]
 enum Below {
-    /// A leaf with the items in this range.
+    /// A leaf of the tree, with a range of items.
     Leaf(Range<usize>),
-    /// An inner node. Its children are the next node and the node with this index.
+    /// An inner node of the tree. The children are the next node and the node with this index.
     Second(usize),
 }
 
@@ -115,8 +115,8 @@ impl Tree {
         self.split(boxes, range.start + middle..range.end);
     }
 
-    /// Returns the item with the smallest distance to a point, and the smallest index among equals. `distance_squared`
-    /// gives the squared distance of an item, never less than that of its box, or `None` for an item to leave out.
+    /// Returns the first item with the smallest distance to a point. `distance_squared` gives the squared distance of
+    /// an item, never less than that of its box, or `None` for an item to leave out.
     pub fn nearest(&self, point: Vector2<f64>, distance_squared: impl Fn(u32) -> Option<f64>) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
         let mut open = Vec::with_capacity(64);
@@ -150,14 +150,14 @@ impl Tree {
         best.map(|(_, item)| item)
     }
 
-    /// Returns all items whose boxes meet `target`, and some items whose boxes are only near it.
+    /// Returns all items whose boxes meet `target`, and some items whose boxes are only near `target`.
     pub fn near(&self, target: &Bounds) -> Vec<u32> {
         let mut found = Vec::new();
         self.visit_near(target, &mut Vec::new(), |item| found.push(item));
         found
     }
 
-    /// Visits the same items as [`Tree::near`]. It allocates nothing if `open` has been used before.
+    /// Calls `visit` for every item that [`Tree::near`] returns. It allocates nothing if `open` has been used before.
     pub fn visit_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(u32)) {
         open.clear();
         open.extend((!self.nodes.is_empty()).then_some(0));

@@ -13,8 +13,8 @@ const SOUTH: usize = 1;
 const WEST: usize = 2;
 const NORTH: usize = 3;
 
-/// Returns a city of `rows` times `columns` junctions with streets of `block` metres between them. It has
-/// cross-intersections, T-intersections along the edges and bends in the corners, so that no street has a dead end.
+/// Makes a city with a grid of `rows` times `columns` junctions and streets of `block` metres between the junctions. It
+/// has cross-intersections, T-intersections along the edges and bends in the corners, so that no street has a dead end.
 ///
 /// The junction in row 3 and column 4, counted from 0 in the north-west, is called `junction 3,4`; the streets that
 /// begin there are `street 3,4 east` and `street 3,4 south`. The middle of `junction 0,0` is the origin.

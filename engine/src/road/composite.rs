@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Road elements that are connected to one another. A composite is itself a road element.
+/// A group of connected road elements. A composite is itself a road element.
 ///
 /// The first element is the root: the positions of all others follow from it, directly or through other elements. A
 /// point is named `element.point`. For the points of the root, `point` is enough.
@@ -63,20 +63,20 @@ impl<S: Into<ElementShape>> From<Element<S>> for Composite {
 }
 
 impl<S: Into<ElementShape>> Element<S> {
-    /// Joins `child_point` of another element or composite to `point` of this element: [`Composite::connect`].
+    /// Joins `child_point` of another element or composite to `point` of this element by [`Composite::connect`].
     pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Composite {
         Composite::from(self).connect(point, child, child_point)
     }
 
-    /// Puts the origin of the element at this pose: [`Composite::at`].
+    /// Puts the origin of the element at a pose, as [`Composite::at`] does.
     pub fn at(self, pose: Pose) -> Composite {
         Composite::from(self).at(pose)
     }
 }
 
 impl Composite {
-    /// Joins `child_point` of another element or composite to `point` of this composite, which gives all elements of
-    /// the child their places. Elements of the child that have no name of their own are numbered again.
+    /// Joins the point `child_point` of another element or composite to the point `point` of this composite. This gives
+    /// all elements of the child their places. Elements of the child that have no name of their own are numbered again.
     pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Self {
         let child = child.into();
         self.unless_mistaken(|all| {
@@ -95,8 +95,8 @@ impl Composite {
         })
     }
 
-    /// Joins two points of this composite, which closes a loop. The points must meet to 1 cm and 0.1 degrees. No
-    /// element is moved, so that the lanes at the two points meet only as exactly as the points do.
+    /// Closes a loop by a connection between two points of this composite. The points must meet to 1 cm and 0.1
+    /// degrees. No element is moved, so that the lanes at the two points meet only as exactly as the points do.
     pub fn close(self, a: &str, b: &str) -> Self {
         self.unless_mistaken(|all| {
             let (a, b) = (all.resolve(a)?, all.resolve(b)?);
@@ -111,7 +111,7 @@ impl Composite {
         })
     }
 
-    /// Puts the origin of the root at this pose and moves all other elements with the root.
+    /// Puts the origin of the first element at a pose, and moves all other elements with the first element.
     pub fn at(self, pose: Pose) -> Self {
         self.unless_mistaken(|all| {
             let Pose { position, heading } = pose;
@@ -128,7 +128,7 @@ impl Composite {
         })
     }
 
-    /// Returns the names of the points that are not connected to another point.
+    /// Returns the names of all points of the composite that are not connected to another point.
     pub fn free_points(&self) -> Vec<String> {
         let ends = |(part, of): (usize, &Part)| (0..of.ports.len()).map(move |port| End { part, port });
         let ends = self.parts.iter().enumerate().flat_map(ends);

@@ -5,7 +5,7 @@ use crate::geometry::{Pose, wrapped};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A line or a circular arc of a certain length, with a direction.
+/// A straight line or a circular arc, with a length and a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curve {
     start: Pose,
@@ -21,17 +21,17 @@ fn left_of(vector: Vector2<f64>) -> Vector2<f64> {
 }
 
 impl Curve {
-    /// Makes a curve of `length` metres from `start` on. `curvature` is in 1/m: positive to the left, 0 for a line.
+    /// Makes a curve of `length` metres from a pose `start`. `curvature` in 1/m is positive to the left, 0 for a line.
     pub fn new(start: Pose, curvature: f64, length: f64) -> Self {
         Self { start, forward: start.forward(), curvature, length }
     }
 
-    /// Returns the length in metres.
+    /// Returns the length of the curve in metres.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Returns the curvature in 1/m, positive for a bend to the left.
+    /// Returns the curvature of the curve in 1/m; positive for a bend to the left, 0 for a straight line.
     pub fn curvature(&self) -> f64 {
         self.curvature
     }
@@ -55,27 +55,27 @@ impl Curve {
         self.start.position + self.forward * ahead + left * aside
     }
 
-    /// Returns the heading `s` metres along the curve, in (-π, π].
+    /// Returns the heading of the curve in radians, `s` metres along the curve, in (-π, π].
     pub fn heading(&self, s: f64) -> f64 {
         wrapped(self.start.heading + self.curvature * s)
     }
 
-    /// Returns position and heading `s` metres along the curve.
+    /// Returns the position and the heading of the curve, `s` metres along the curve.
     pub fn at(&self, s: f64) -> Pose {
         Pose { position: self.point(s), heading: self.heading(s) }
     }
 
-    /// Returns position and heading at the start of the curve.
+    /// Returns the position and the heading at the start of the curve.
     pub fn start(&self) -> Pose {
         self.at(0.0)
     }
 
-    /// Returns position and heading at the end of the curve.
+    /// Returns the position and the heading at the end of the curve.
     pub fn end(&self) -> Pose {
         self.at(self.length)
     }
 
-    /// Returns how many metres along the curve its nearest point to `point` lies.
+    /// Returns the distance in metres along the curve to the curve's point that is nearest to `point`.
     pub fn nearest(&self, point: Vector2<f64>) -> f64 {
         let from_start = point - self.start.position;
         if self.curvature == 0.0 {

@@ -18,15 +18,15 @@ const ISLAND: f64 = 10.0;
 /// The cross-section of a road: lanes for both directions around the centre line, and a sidewalk on either side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Profile {
-    /// The number of lanes of both directions together.
+    /// The number of lanes of the road, in both directions together.
     pub lanes: i32,
     pub lane_width: f64,
-    /// The width of a sidewalk; 0 if the road has no sidewalks.
+    /// The width of a sidewalk in metres; 0 if the road has no sidewalks.
     pub sidewalk: f64,
 }
 
 impl Profile {
-    /// Returns the number of lanes of one direction.
+    /// Returns the number of lanes in each direction of the road.
     pub fn each_way(&self) -> i32 {
         self.lanes / 2
     }
@@ -47,7 +47,7 @@ impl Profile {
     }
 }
 
-/// A road element of the shape `S` that is not connected yet.
+/// A road element of the shape `S` that is not connected to other elements yet.
 ///
 /// By default, an element has two lanes of 3.5 m, one for each direction, and sidewalks of 2 m.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,13 +87,13 @@ pub struct Ring {
     pub(super) entry: f64,
 }
 
-/// The shape of any road element. It is public only because [`Element`] refers to it; other crates cannot name it.
+/// The shape of a road element. It is public only because [`Element`] refers to it; other crates cannot name it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ElementShape {
     Segment(Segment),
-    /// An intersection with three arms, with the radius of its kerbs.
+    /// An intersection with three arms, with the radius of its kerbs in metres.
     Tee(f64),
-    /// An intersection with four arms, with the radius of its kerbs.
+    /// An intersection with four arms, with the radius of its kerbs in metres.
     Cross(f64),
     Ring(Ring),
 }
@@ -122,10 +122,10 @@ impl From<Ring> for ElementShape {
     }
 }
 
-/// A straight or curved road from its point `one` to its point `two`. Its lanes 1, 2, ... lead in this direction.
+/// A straight or curved road from the point `one` to the point `two`. Its lanes 1, 2, ... lead in this direction.
 pub type RoadSegment = Element<Segment>;
 
-/// A road that ends at another road. Its arms lead east (`one`), south (`two`) and west (`three`), clockwise.
+/// An intersection where a road ends at another road. The arms lead east (`one`), south (`two`) and west (`three`).
 pub type TIntersection = Element<Tee>;
 
 /// An intersection of two roads with arms east (`one`), south (`two`), west (`three`) and north (`four`), clockwise.
@@ -155,7 +155,7 @@ impl<S> Element<S> {
         Self { name: None, profile, shape }
     }
 
-    /// Sets the number of lanes of both directions together, which has to be even.
+    /// Sets the number of lanes in both directions together, which has to be even.
     pub fn lanes(mut self, lanes: i32) -> Self {
         self.profile.lanes = lanes;
         self
@@ -182,13 +182,13 @@ impl<S> Element<S> {
 }
 
 impl RoadSegment {
-    /// Makes a straight road of this length in metres, from the origin along x.
+    /// Makes a straight road of `length` metres, which begins at the origin and leads along x.
     pub fn new(length: f64) -> Self {
         Self::of(Segment { length, curvature: 0.0, zebras: Vec::new() })
     }
 
-    /// Makes a road along an arc. `radius` is the radius of its centre line in metres; `angle` is the angle in radians
-    /// by which the road turns, positive to the left.
+    /// Makes a road along a circular arc. `radius` is the radius of its centre line in metres; `angle` is the angle in
+    /// radians by which the road turns, positive to the left.
     pub fn arc(radius: f64, angle: f64) -> Self {
         let length = radius * angle.abs();
         Self::of(Segment { length, curvature: angle.signum() / radius, zebras: Vec::new() })
@@ -247,20 +247,20 @@ impl Roundabout {
         self.shape.reach(&self.profile)
     }
 
-    /// Makes a roundabout with four arms, an island of 10 m radius, and as many lanes as lead into the roundabout from
-    /// an arm.
+    /// Makes a roundabout with four arms and an island of 10 m radius. The number of lanes around the island equals the
+    /// number of lanes from an arm into the roundabout.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {
         Self::of(Ring { arms: 4, island: ISLAND, entry: ENTRY })
     }
 
-    /// Sets the number of arms, from 3 to 8.
+    /// Sets the number of arms of the roundabout, from 3 to 8.
     pub fn arms(mut self, arms: i32) -> Self {
         self.shape.arms = arms;
         self
     }
 
-    /// Sets the radius of the island, in metres.
+    /// Sets the radius of the roundabout's island, in metres.
     pub fn island(mut self, radius: f64) -> Self {
         self.shape.island = radius;
         self

@@ -8,59 +8,59 @@ pub(super) const GAP: f64 = 0.01;
 /// The largest angle in degrees at which a loop counts as closed.
 pub(super) const ANGLE: f64 = 0.1;
 
-/// The reason why a road network cannot be built, or why it cannot answer a question.
+/// The reason why a road network cannot be built, or why a query of a road network has no result.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum RoadError {
-    /// The description of an element is not valid, or the element is of the wrong kind.
+    /// The description of a road element is not valid, or an operation needs a road element of another kind.
     #[error("`{element}` {problem}")]
     Element {
-        /// The name of the element.
+        /// The name of the road element with the mistake.
         element: String,
-        /// The mistake, with the values that were expected.
+        /// The description of the mistake, with the values that were expected.
         problem: String,
     },
-    /// Two elements have the same name.
+    /// Two road elements have the same name.
     #[error("two road elements are called `{name}`: give each element a name of its own")]
     NameTaken {
-        /// The name of the elements.
+        /// The name that both road elements have.
         name: String,
     },
-    /// No element has this name.
+    /// No road element has the given name.
     #[error("no road element is called `{name}`{}", did_you_mean(.nearest))]
     UnknownElement {
-        /// The name that was looked for.
+        /// The unknown name, which does not belong to any road element.
         name: String,
-        /// A similar name that exists, if there is one.
+        /// The most similar name of a road element; `None` if no name is similar.
         nearest: Option<String>,
     },
-    /// The element does not have this point.
+    /// A road element has no point with the given name.
     #[error("`{element}` has no point `{point}`{}; its points are {}", did_you_mean(.nearest), points.join(", "))]
     UnknownPoint {
-        /// The name of the element.
+        /// The name of the road element without the point.
         element: String,
-        /// The name of the point.
+        /// The name of the unknown point.
         point: String,
-        /// A similar name of a point that exists, if there is one.
+        /// The most similar name of a point of the element; `None` if no name is similar.
         nearest: Option<&'static str>,
-        /// The points that the element has.
+        /// The names of the points that the element has.
         points: Vec<&'static str>,
     },
-    /// A point is already connected to another point.
+    /// A point of a road element is already connected to another point.
     #[error("`{point}` cannot be connected to `{to}`: it is connected to `{taken_by}` already")]
     PointTaken {
-        /// The point that is already connected.
+        /// The name of the point that is already connected.
         point: String,
-        /// The point that it is connected to.
+        /// The name of the point to which `point` is already connected.
         taken_by: String,
-        /// The point that it should have been connected to.
+        /// The name of the point to which `point` should have been connected.
         to: String,
     },
     /// Two points cannot be connected because their roads have different numbers of lanes.
     #[error("`{a}` with {} lanes cannot be connected to `{b}` with {} lanes, expected equal numbers", lanes.0, lanes.1)]
     DifferentLanes {
-        /// The first point.
+        /// The name of the first point of the connection.
         a: String,
-        /// The second point.
+        /// The name of the second point of the connection.
         b: String,
         /// The numbers of lanes at the first and the second point.
         lanes: (i32, i32),
@@ -68,9 +68,9 @@ pub enum RoadError {
     /// Two points cannot be connected because the lanes of their roads have different widths.
     #[error("`{a}` with lanes of {} m cannot be connected to `{b}` with lanes of {} m", widths.0, widths.1)]
     DifferentWidths {
-        /// The first point.
+        /// The name of the first point of the connection.
         a: String,
-        /// The second point.
+        /// The name of the second point of the connection.
         b: String,
         /// The widths of the lanes at the first and the second point, in metres.
         widths: (f64, f64),
@@ -83,33 +83,33 @@ pub enum RoadError {
         ANGLE
     )]
     OpenLoop {
-        /// The first point.
+        /// The name of the first point that should close the loop.
         a: String,
-        /// The second point.
+        /// The name of the second point that should close the loop.
         b: String,
-        /// The distance between the points, in metres.
+        /// The distance between the two points, in metres.
         gap: f64,
-        /// The angle between the headings, in degrees.
+        /// The angle in degrees by which the directions of the points deviate from opposite directions.
         angle: f64,
     },
-    /// Two elements cover the same ground.
+    /// Two road elements cover the same ground.
     #[error("the road elements `{a}` and `{b}` overlap at ({:.1}, {:.1})", at.0, at.1)]
     Overlap {
-        /// The first element.
+        /// The name of the first road element.
         a: String,
-        /// The second element.
+        /// The name of the second road element.
         b: String,
-        /// A point on both elements, in metres.
+        /// The coordinates of a point on both elements, in metres.
         at: (f64, f64),
     },
-    /// The element does not have this lane.
+    /// A road element has no lane with the given number.
     #[error("`{element}` has no lane {lane}{}; it has {has}", from_to(.between))]
     UnknownLane {
-        /// The name of the element.
+        /// The name of the road element without the lane.
         element: String,
-        /// The number of the lane.
+        /// The number of the unknown lane.
         lane: i32,
-        /// The points where the lane should have begun and ended, if the lane was asked for by its points.
+        /// The names of the points from and to which the lane should lead; `None` if the caller gave no points.
         between: Option<(String, String)>,
         /// The lanes that the element has, in words.
         has: String,
@@ -117,19 +117,19 @@ pub enum RoadError {
     /// A place lies beyond the ends of a road.
     #[error("there is no place {at} m along `{element}`, which is {length} m long")]
     Beyond {
-        /// The name of the element.
+        /// The name of the road element that is too short.
         element: String,
-        /// The place, in metres along the element.
+        /// The place that does not exist, in metres along the road element.
         at: f64,
-        /// The length of the element, in metres.
+        /// The length of the road element, in metres.
         length: f64,
     },
-    /// There is no connection between two places without a lane change.
+    /// No path without a lane change leads from one place to another place.
     #[error("no path leads from {from} to {to} without a lane change")]
     NoWay {
-        /// The place where the path should have begun.
+        /// The place at which the path should begin, in words.
         from: String,
-        /// The place where the path should have ended.
+        /// The place at which the path should end, in words.
         to: String,
     },
 }

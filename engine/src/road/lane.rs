@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 
-/// The identifier of a lane: its index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
+/// The identifier of a lane, which is the lane's index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LaneId(pub(super) u32);
 
@@ -17,35 +17,35 @@ impl LaneId {
     }
 }
 
-/// The kind of a lane: the part of the road network that it belongs to.
+/// The kind of a lane, by the part of the road network to which the lane belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LaneKind {
     /// A lane along a straight or curved road.
     Road,
-    /// A lane straight on over an intersection.
+    /// A lane that leads straight on over an intersection.
     Straight,
-    /// A lane to the left at an intersection.
+    /// A lane that turns left at an intersection.
     Left,
-    /// A lane to the right at an intersection.
+    /// A lane that turns right at an intersection.
     Right,
-    /// A lane from an arm into a roundabout.
+    /// A lane that leads from an arm into a roundabout.
     Entry,
-    /// A lane out of a roundabout into an arm.
+    /// A lane that leads out of a roundabout into an arm.
     Exit,
     /// A lane around a roundabout, from an entry to the next exit.
     Ring,
-    /// A lane around a roundabout, past an arm: from the exit to the entry of the arm.
+    /// A lane around a roundabout past an arm, from the exit to the entry of the arm.
     RingAtArm,
 }
 
-/// A conflict of two lanes of an intersection: the lanes cross or join, so that cars on them can touch.
+/// A conflict between two lanes that cross or join in an intersection, so that cars on the lanes can touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaneConflict {
-    /// The other lane.
+    /// The lane with which this lane is in conflict.
     pub with: LaneId,
-    /// The place in metres along this lane from which on the other lane is too close.
+    /// The beginning of the stretch of this lane that is too close to the other lane, in metres along this lane.
     pub from: f64,
-    /// The place in metres along this lane up to which the other lane is too close.
+    /// The end of the stretch of this lane that is too close to the other lane, in metres along this lane.
     pub to: f64,
     /// `true` if a car on this lane lets cars on the other lane go first. At a T a car from the stem gives way, at a
     /// roundabout a car that enters, or leaves from an inner lane. Elsewhere a car that turns left gives way to cars
@@ -54,23 +54,23 @@ pub struct LaneConflict {
     pub gives_way: bool,
 }
 
-/// A lane, which is the path of a car in the direction of its traffic.
+/// A lane of a road or an intersection, as a path in the direction of its traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
     /// The index of the lane's element in [`RoadNetwork::elements`](super::RoadNetwork::elements).
     pub element: usize,
-    /// The kind of the lane.
+    /// The kind of the lane, for example a lane that turns left at an intersection.
     pub kind: LaneKind,
-    /// The number of the lane: on a road 1, 2, ... from the centre line to the right, and -1, -2, ... for the opposite
-    /// direction; in an intersection that of the lanes that it joins; in a roundabout 1, 2, ... from the inside.
+    /// The number of the lane among the parallel lanes. On a road, lanes 1, 2, ... lie right of the centre line, lanes
+    /// -1, -2, ... left; in an intersection, it is the number of the joined lanes; in a roundabout, 1 is innermost.
     pub number: i32,
-    /// The middle of the lane.
+    /// The curve along the middle of the lane.
     pub curve: Curve,
     /// The width of the lane in metres.
     pub width: f64,
-    /// The next lane to the left in the same direction, if cars may change to it.
+    /// The next lane to the left in the same direction; `None` if cars may not change to the left.
     pub left: Option<LaneId>,
-    /// The next lane to the right in the same direction, if cars may change to it.
+    /// The next lane to the right in the same direction; `None` if cars may not change to the right.
     pub right: Option<LaneId>,
     /// The lanes that begin at the end of this lane.
     pub successors: Vec<LaneId>,
@@ -86,7 +86,7 @@ impl Lane {
         self.curve.length()
     }
 
-    /// Returns the neighbouring lanes of the same direction.
+    /// Returns the next lane to the left and the next lane to the right, if cars may change to these lanes.
     pub fn beside(&self) -> impl Iterator<Item = LaneId> {
         self.left.into_iter().chain(self.right)
     }

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// A road network. [`Composite::build`] makes a network, which never changes afterwards. Traffic keeps to the right.
+/// A network of connected roads, made by [`Composite::build`] and constant afterwards. Traffic keeps to the right.
 #[derive(Debug)]
 pub struct RoadNetwork {
     elements: Vec<Placed>,
@@ -40,7 +40,7 @@ struct Placed {
     first: usize,
 }
 
-/// A zebra crossing.
+/// A zebra crossing over a road.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crossing {
     /// The index of the crossing's road in [`RoadNetwork::elements`].
@@ -54,7 +54,7 @@ pub struct Crossing {
 }
 
 impl<S: Into<ElementShape>> Element<S> {
-    /// Builds the network of this element alone, as [`Composite::build`] does.
+    /// Builds the road network of this single element, as [`Composite::build`] does for a composite.
     ///
     /// # Errors
     /// The description of the element is not valid.
@@ -64,7 +64,7 @@ impl<S: Into<ElementShape>> Element<S> {
 }
 
 impl Composite {
-    /// Builds the network of all elements.
+    /// Builds the road network of all elements of the composite.
     ///
     /// # Errors
     /// A connection was not valid (the first such mistake is reported), or two elements overlap.
@@ -127,12 +127,12 @@ impl RoadNetwork {
         Ok(Self { elements, names, lanes, crossings, tree: Tree::new(&boxes), bounds })
     }
 
-    /// Returns the names of the elements.
+    /// Returns the names of all road elements of the network.
     pub fn elements(&self) -> impl ExactSizeIterator<Item = &str> {
         self.elements.iter().map(|placed| &*placed.name)
     }
 
-    /// Returns all lanes.
+    /// Returns all lanes of the network.
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
@@ -142,7 +142,7 @@ impl RoadNetwork {
         (0..self.lanes.len()).map(LaneId::new)
     }
 
-    /// Returns the lane with this identifier.
+    /// Returns the lane with the given identifier.
     ///
     /// # Panics
     /// The lane belongs to another network, which has more lanes.
@@ -150,8 +150,8 @@ impl RoadNetwork {
         &self.lanes[id.index()]
     }
 
-    /// Returns the lane with this number of a road: 1, 2, ... to the right of the centre line, and -1, -2, ... for the
-    /// opposite direction.
+    /// Returns the identifier of the lane with a given number on a road. The numbers are 1, 2, ... to the right of the
+    /// centre line, and -1, -2, ... for the opposite direction.
     ///
     /// # Errors
     /// The network has no such element, or the element has no such lane.
@@ -168,8 +168,8 @@ impl RoadNetwork {
         })
     }
 
-    /// Returns the lane from one point of an element to another point, over an intersection or along a road. `number`
-    /// is the number of the lanes that the returned lane joins, counted from the centre line.
+    /// Returns the identifier of the lane from one point of an element to another point of the element, over an
+    /// intersection or along a road. `number` is the number of the joined lanes, counted from the centre line.
     ///
     /// # Errors
     /// The network has no such element, the element has no such point, or no such lane leads from `from` to `to`.
@@ -193,7 +193,7 @@ impl RoadNetwork {
         Ok(LaneId::new(placed.first + index))
     }
 
-    /// Returns the middle of a lane, `at` metres along its road, facing the direction of the lane's traffic.
+    /// Returns the pose on the middle of a lane, `at` metres along the road, in the direction of the lane's traffic.
     ///
     /// # Errors
     /// The network has no such element, the element has no such lane, or the road is shorter than `at`.
@@ -203,7 +203,7 @@ impl RoadNetwork {
         Ok(lane_pose(&centre, profile, lane, at))
     }
 
-    /// Returns the place on the centre line of a road, `at` metres along it, facing the road's direction.
+    /// Returns the pose on the centre line of a road, `at` metres along the road, in the road's direction.
     ///
     /// # Errors
     /// The network has no such road, or the road is shorter than `at`.
@@ -211,7 +211,7 @@ impl RoadNetwork {
         Ok(self.road(road, at)?.0.at(at))
     }
 
-    /// Returns the middle of a sidewalk, `at` metres along its road, facing the road.
+    /// Returns the pose on the middle of a sidewalk, `at` metres along the road, that faces the road.
     ///
     /// # Errors
     /// The network has no such road, or the road is shorter than `at`.
@@ -220,17 +220,17 @@ impl RoadNetwork {
         Ok(sidewalk_pose(&centre, profile, side, at))
     }
 
-    /// Returns all zebra crossings.
+    /// Returns all zebra crossings of the network.
     pub fn crossings(&self) -> &[Crossing] {
         &self.crossings
     }
 
-    /// Returns the smallest box that contains the middles of all lanes.
+    /// Returns the smallest box that contains the middle lines of all lanes.
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// Returns all strips to draw, sorted so that a strip comes after the strips that it covers.
+    /// Returns the visible surfaces of the network as strips; each strip comes after the strips that it covers.
     pub fn strips(&self) -> Vec<Strip> {
         let of =
             |placed: &Placed| placed.layout.strips.iter().map(|strip| strip.moved(&placed.pose)).collect::<Vec<_>>();

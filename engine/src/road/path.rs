@@ -8,7 +8,7 @@ use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// A sequence of curves, cheap to clone.
+/// A path as a sequence of connected curves, cheap to clone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// The curves, each with the place where it begins, in metres along the path.
@@ -19,7 +19,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// Makes the path along these curves. Each curve has to begin where the previous curve ends.
+    /// Makes the path along the given curves. Each curve has to begin where the previous curve ends.
     ///
     /// # Panics
     /// There are no curves.
@@ -56,7 +56,7 @@ impl Path {
         range.map(move |index| lanes.as_ref().expect("it is of lanes")[index])
     }
 
-    /// Makes the straight path from one place to another. If both places are equal, the path faces along x.
+    /// Makes the straight path from one place to another place. If both places are equal, the path faces along x.
     pub fn straight(from: Vector2<f64>, to: Vector2<f64>) -> Self {
         let way = to - from;
         let start = Pose { position: from, heading: libm::atan2(way.y, way.x) };
@@ -73,8 +73,8 @@ impl Path {
         self.pieces.iter().map(|(_, curve)| curve)
     }
 
-    /// Returns the piece between two distances along the path; `from` is not greater than `to`. The piece ends where
-    /// the path ends.
+    /// Returns the piece of the path from `from` to `to` metres along the path; `from` is not greater than `to`. The
+    /// piece ends where the path ends.
     pub fn piece(&self, from: f64, to: f64) -> Self {
         let [from, to] = [from, to].map(|s| s.max(0.0).min(self.length));
         // If the piece is only a point, it belongs to the curve that begins at the point, or to the last curve.
@@ -107,15 +107,15 @@ impl Path {
         Pose { position: curve.beside(at, offset) + ahead, heading: curve.heading(at) }
     }
 
-    /// Returns the curvature `s` metres along the path, in 1/m, positive to the left; 0 beyond the ends of the path.
+    /// Returns the curvature of the path at the place `s`, in 1/m, positive to the left; 0 beyond the ends of the path.
     pub fn curvature(&self, s: f64) -> f64 {
         let inside = (0.0..=self.length).contains(&s);
         if inside { self.pieces[self.index(s)].1.curvature() } else { 0.0 }
     }
 
-    /// Returns how many metres along the path its nearest point to `position` lies. Only the curve at `s` and its two
-    /// neighbours are searched: a path may cross itself, and an object on it must not jump from one branch to the
-    /// other. Before its start and beyond its end the path continues straight.
+    /// Returns the distance in metres along the path to the path's point that is nearest to `position`. Only the curve
+    /// at `s` and its two neighbours are searched: a path may cross itself, and an object on it must not jump from one
+    /// branch to the other. Before its start and beyond its end the path continues straight.
     pub fn nearest(&self, position: Vector2<f64>, s: f64) -> f64 {
         let here = self.index(s);
         let mut best = (f64::INFINITY, s);
@@ -153,7 +153,7 @@ impl Path {
 }
 
 impl RoadNetwork {
-    /// Returns the path along the middles of lanes. Each lane has to be a successor of the previous lane.
+    /// Returns the path along the middles of the given lanes. Each lane has to be a successor of the previous lane.
     ///
     /// # Panics
     /// `lanes` is empty, or a lane belongs to another network, which has more lanes.
@@ -161,8 +161,8 @@ impl RoadNetwork {
         Path::new(lanes.iter().map(|lane| self.lane(*lane).curve)).on(lanes.iter().copied())
     }
 
-    /// Returns the path along a route, from its start to its end. `None` if the route changes lanes: a lane change
-    /// takes time, and the driver decides how long.
+    /// Returns the path along a route, from the start to the end of the route. `None` if the route changes lanes: a
+    /// lane change takes time, and the driver decides how long.
     pub fn path_along(&self, route: &Route) -> Option<Path> {
         let last = route.lanes.len() - 1;
         let piece = |(i, lane): (usize, &LaneId)| {

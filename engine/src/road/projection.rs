@@ -12,18 +12,18 @@ use nalgebra::Vector2;
 pub struct LanePosition {
     /// The lane to which the position is relative.
     pub lane: LaneId,
-    /// The place of the lane's nearest point, in metres along the lane.
+    /// The place of the lane's point nearest to the position, in metres along the lane.
     pub s: f64,
-    /// The distance across the lane from its nearest point to the position, in metres, positive to the left.
+    /// The distance from the lane's nearest point to the position across the lane, in metres, positive to the left.
     pub offset: f64,
-    /// The heading of the lane at its nearest point, in (-π, π].
+    /// The heading of the lane at the point that is nearest to the position, in (-π, π].
     pub heading: f64,
-    /// The distance to the nearest point in metres. It exceeds the offset if the position is beyond an end of the lane.
+    /// The distance in metres from the lane to the position. Beyond an end of the lane, it exceeds the offset.
     pub distance: f64,
 }
 
 impl LanePosition {
-    /// Returns the place of the lane's nearest point.
+    /// Returns the place on the lane that is nearest to the position.
     pub fn place(&self) -> RoutePosition {
         RoutePosition { lane: self.lane, s: self.s }
     }
@@ -51,7 +51,7 @@ impl RoadNetwork {
         Some(self.project_onto(LaneId(lane), pose.position))
     }
 
-    /// Returns a position relative to this lane.
+    /// Returns a position relative to a given lane.
     ///
     /// # Panics
     /// The lane belongs to another network, which has more lanes.

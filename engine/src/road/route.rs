@@ -11,16 +11,16 @@ use std::collections::BinaryHeap;
 /// A place on a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoutePosition {
-    /// The lane.
+    /// The lane that contains the place.
     pub lane: LaneId,
-    /// The distance along the lane in metres.
+    /// The distance in metres along the lane from the start of the lane to the place.
     pub s: f64,
 }
 
-/// A route over lanes from one place to another.
+/// A route over lanes from one place to another place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Route {
-    /// The lanes in order. Each is a successor of the previous lane, or a neighbour of it that the route changes to.
+    /// The lanes of the route in order. Each is a successor of the previous lane, or a neighbour after a lane change.
     pub lanes: Vec<LaneId>,
     /// The start of the route, in metres along the first lane.
     pub start: f64,
@@ -28,7 +28,7 @@ pub struct Route {
     pub end: f64,
     /// The length of the route in metres, without its lane changes.
     pub length: f64,
-    /// The number of lane changes.
+    /// The number of lane changes on the route.
     pub changes: usize,
 }
 
@@ -116,7 +116,7 @@ impl RoadNetwork {
         None
     }
 
-    /// Returns the rest of a route after `metres` metres, or its end if the route is shorter.
+    /// Returns the rest of a route after `metres` metres, or the end of the route if the route is shorter.
     ///
     /// # Panics
     /// The route has no lanes, or they belong to another network, which has more lanes.

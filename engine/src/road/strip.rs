@@ -5,7 +5,7 @@ use super::curve::Curve;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 
-/// The surface of a strip, in the order of drawing: later surfaces cover earlier ones.
+/// The surface of a strip of road, in the order of drawing, so that later surfaces cover earlier surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Surface {
     /// A sidewalk for pedestrians.
@@ -16,32 +16,32 @@ pub enum Surface {
     Island,
     /// The kerb beside a carriageway.
     Kerb,
-    /// The line between the two directions.
+    /// The line between the two directions of traffic.
     CentreLine,
-    /// A line between two lanes of one direction.
+    /// A line between two lanes of the same direction.
     LaneLine,
     /// The line at the edge of a road without sidewalks.
     EdgeLine,
-    /// The line where cars stop before a crossing of equal roads.
+    /// The line where cars stop before an intersection of roads of equal rank.
     StopLine,
-    /// The line where cars give way: at the stem of a T-intersection and at the entries of a roundabout.
+    /// The line where cars give way, at the stem of a T-intersection and at the entries of a roundabout.
     GiveWayLine,
     /// A stripe of a zebra crossing.
     Zebra,
 }
 
-/// The ground between two curves that run parallel to `curve`, `right` and `left` metres to its left.
+/// A strip of ground between two parallels of `curve`, which lie `right` and `left` metres to the left of `curve`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strip {
-    /// The surface of the strip.
+    /// The surface of the strip, for example a sidewalk.
     pub surface: Surface,
-    /// The curve that it follows.
+    /// The curve that the strip follows.
     pub curve: Curve,
-    /// The right side of the strip, in metres to the left of the curve; negative to the right.
+    /// The offset of the right side of the strip, in metres to the left of the curve; negative to the right.
     pub right: f64,
-    /// The left side of the strip, in metres to the left of the curve; greater than `right`.
+    /// The offset of the left side of the strip, in metres to the left of the curve; greater than `right`.
     pub left: f64,
-    /// The lengths of dash and gap along the curve in metres, for a broken line.
+    /// The lengths of a dash and of a gap along the curve, in metres; `None` for an unbroken strip.
     pub dash: Option<(f64, f64)>,
 }
 
@@ -58,12 +58,12 @@ impl Strip {
         Self { curve: self.curve.moved(frame), ..*self }
     }
 
-    /// Returns the middle of the strip, for example the path of a pedestrian on a sidewalk.
+    /// Returns the curve along the middle of the strip, for example the path of a pedestrian on a sidewalk.
     pub fn middle(&self) -> Curve {
         self.curve.offset(0.5 * (self.right + self.left))
     }
 
-    /// Returns the unbroken strips: the dashes, or the strip itself. The dashes leave half a gap at each end.
+    /// Returns the dashes of a broken strip, with half a gap at each end, or an unbroken strip itself.
     pub fn solid_parts(&self) -> Vec<Strip> {
         let Some((dash, gap)) = self.dash else { return vec![*self] };
         let count = (self.curve.length() / (dash + gap)) as usize;
@@ -75,7 +75,7 @@ impl Strip {
         (0..count).map(part).collect()
     }
 
-    /// Returns the right and the left side as polylines with equal numbers of points, exact to `tolerance` metres.
+    /// Returns the right and left side of the strip as polylines of equally many points, exact to `tolerance` metres.
     pub fn sides(&self, tolerance: f64) -> (Vec<Vector2<f64>>, Vec<Vector2<f64>>) {
         let pieces = self.curve.pieces(self.right, tolerance).max(self.curve.pieces(self.left, tolerance));
         let side = |offset: f64| {
@@ -85,7 +85,7 @@ impl Strip {
         (side(self.right), side(self.left))
     }
 
-    /// Returns the outline as a counter-clockwise polygon, exact to `tolerance` metres.
+    /// Returns the outline of the strip as a counter-clockwise polygon, exact to `tolerance` metres.
     pub fn outline(&self, tolerance: f64) -> Vec<Vector2<f64>> {
         let (mut right, left) = self.sides(tolerance);
         right.extend(left.iter().rev());

@@ -14,7 +14,7 @@ use crate::test::Test;
 use crate::vehicle::VehicleModel;
 
 impl Run {
-    /// Makes the run of a test, in a car that this model moves, and seats the driver.
+    /// Makes the run of a test with the given vehicle model, and seats the driver in the car.
     ///
     /// # Errors
     /// Returns the outcome of the test if the world cannot be built or the driver cannot drive such a car.
@@ -35,8 +35,8 @@ impl Run {
         }
     }
 
-    /// Seats a driver: the car gets the driver's equipment and latency, and the driver is told that a new run begins.
-    /// If the driver has no rig, a rig that the run was given before stays.
+    /// Seats a driver in the car. The car gets the driver's equipment and latency, and the driver is reset. If the
+    /// driver has no rig, a rig that the run was given before stays.
     ///
     /// # Errors
     /// The driver cannot drive such a car, or has a camera with impossible settings.
@@ -52,8 +52,9 @@ impl Run {
         driver.reset(&self.briefing())
     }
 
-    /// Lets the driver answer what [`Run::advance`] needed. The images are those of all moments that have arrived from
-    /// the run's [`eyes`](Run::eyes), in their order, without those from inside a body, which show nothing.
+    /// Asks the driver for the control that [`Run::advance`] needs, and supplies the control. `images` are the images
+    /// of all moments that have arrived from the run's [`eyes`](Run::eyes), in order, without images from inside a
+    /// body.
     ///
     /// # Errors
     /// The driver cannot go on.
@@ -64,13 +65,13 @@ impl Run {
         Ok(())
     }
 
-    /// Runs to the end with this driver, which is told that a new run begins.
+    /// Seats the driver and simulates the run to its end.
     pub fn drive(&mut self, driver: &mut dyn Driver) -> Outcome {
         self.watch(driver, |_| ())
     }
 
-    /// Runs to the end with this driver, and calls `see` whenever the driver is asked, and at the end. Nothing renders
-    /// images, so a driver with cameras cannot drive.
+    /// Seats the driver, simulates the run to its end, and calls `see` at each question to the driver and at the end.
+    /// No images are rendered, so a driver with cameras cannot drive.
     pub fn watch(&mut self, driver: &mut dyn Driver, see: impl FnMut(&Self)) -> Outcome {
         match self.seat(driver) {
             Ok(()) => self.finish(driver, see),
@@ -95,14 +96,14 @@ impl Run {
         }
     }
 
-    /// Ends the run because its driver cannot go on.
+    /// Ends the run because of a fault of the driver, and returns the outcome.
     pub fn broken_by(&mut self, fault: Fault) -> Outcome {
         self.over = true;
         Outcome::broken(Breakdown::Driver { fault, time: self.time() })
     }
 }
 
-/// Runs a test to its end with a driver, in a car that this model moves. An impossible world is an outcome, too.
+/// Simulates a test to its end with the given vehicle model and driver. An impossible world is an outcome, too.
 pub fn simulate<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,
@@ -112,7 +113,7 @@ pub fn simulate<'a>(
     watch(program, test, model, driver, |_| ())
 }
 
-/// Does the same as [`simulate`], and calls `see` whenever the driver is asked, and at the end: [`Run::watch`].
+/// Simulates a test like [`simulate`], and calls `see` at each question to the driver and at the end: [`Run::watch`].
 pub fn watch<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,

@@ -10,7 +10,7 @@ const STANDING: f64 = 0.1;
 /// The deceleration in m/s² above which the car brakes at a contact. Rolling resistance and noise make less.
 const BRAKING: f64 = 0.5;
 
-/// Returns the measurements of a run as it ends.
+/// Returns the measurements of a run at the end of the run.
 pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
     let car = scene.ego.dynamics.state();
     let contact = scene.contact.map(|touching| {

@@ -1,6 +1,6 @@
 //! One simulated run, as a state machine that alternates with the system under test.
 //!
-//! A run knows no driver, thread or socket: it says what it needs and is supplied. At each tick
+//! A run knows no driver, thread or socket: it asks its caller for each control. At each tick
 //!
 //! 1. every stream is evaluated on the world as it stands, and the trace records it;
 //! 2. the run ends if the car touches something or the time is up;
@@ -37,18 +37,18 @@ use std::sync::Arc;
 pub struct Setup {
     /// The seconds between two questions to the driver.
     pub period: f64,
-    /// The tick in seconds; `None` for the program's own tick.
+    /// The duration of a tick in seconds; `None` for the tick of the program.
     pub dt: Option<f64>,
     /// The model that moves the ego vehicle.
     pub model: VehicleModel,
 }
 
-/// The next need of a run.
+/// The reason for which a run has stopped: it needs a control, or it is over.
 #[derive(Debug)]
 pub enum Step<'a> {
-    /// The run needs a control for this observation: [`Run::supply`] it, or let a driver [`Run::answer`]; then advance.
+    /// The run needs a control: [`Run::supply`] it or let a driver [`Run::answer`] the observation; then advance.
     Need(&'a Observation),
-    /// The run is over, with this outcome.
+    /// The run is over and has the given outcome.
     Done(Box<Outcome>),
 }
 
@@ -68,7 +68,7 @@ enum Column {
     Stream(Slot),
 }
 
-/// One test in progress.
+/// The simulation of one test.
 pub struct Run {
     dt: f64,
     ticks: usize,
@@ -159,7 +159,7 @@ impl Run {
         })
     }
 
-    /// Returns the facts that a driver of this run is told beforehand.
+    /// Returns the facts that the driver gets before the run begins.
     pub fn briefing(&self) -> Briefing {
         self.scene.ego.briefing()
     }
@@ -169,7 +169,7 @@ impl Run {
         self.trace.signals()
     }
 
-    /// Goes on until the driver is needed or the run is over.
+    /// Simulates until the run needs a control or is over.
     ///
     /// # Panics
     /// The run was over already.
@@ -204,7 +204,7 @@ impl Run {
         }
     }
 
-    /// Answers what [`Run::advance`] needed with a control.
+    /// Supplies the control that [`Run::advance`] needs.
     pub fn supply(&mut self, control: Control) {
         self.told = control;
         self.answers.push_back((self.tick + self.latency, control));
@@ -212,33 +212,33 @@ impl Run {
         self.sensing.clear();
     }
 
-    /// Returns the last control that the car was given, whether or not it has taken effect yet.
+    /// Returns the last supplied control, which may not have taken effect yet.
     pub fn control(&self) -> Control {
         self.told
     }
 
-    /// Returns all bodies where they are now: the ego vehicle first, then the others in the order in which they were
-    /// placed, and last those on the [`Roadside`](crate::Roadside).
+    /// Returns the present states of all bodies. The ego vehicle is the first body, then come the other bodies in the
+    /// order of placement, and last the bodies on the [`Roadside`](crate::Roadside).
     pub fn bodies(&self) -> &[BodyState] {
         &self.scene.bodies
     }
 
-    /// Returns the planned ways of objects from where they are, each with the index of the object's body.
+    /// Returns the planned ways of objects from their present places, each with the index of the object's body.
     pub fn plans(&self) -> Vec<(usize, Path)> {
         self.scene.plans()
     }
 
-    /// Returns the index of the body that the ego vehicle touches.
+    /// Returns the index of the body that the ego vehicle touches; `None` without a contact.
     pub fn touched(&self) -> Option<usize> {
         self.scene.contact.map(|contact| contact.body)
     }
 
-    /// Returns the road network.
+    /// Returns the road network of the world.
     pub fn network(&self) -> &Arc<RoadNetwork> {
         &self.scene.network
     }
 
-    /// Returns light, fog, rain and the sun at this tick.
+    /// Returns the weather at the present tick.
     pub fn weather(&self) -> Weather {
         self.scene.weather(&self.graph)
     }
@@ -344,7 +344,7 @@ fn as_number(sample: DatumSample) -> f64 {
 }
 
 impl Setup {
-    /// Makes the setup for a driver that is asked every `period` seconds: the program's tick, the model `single-track`.
+    /// Makes a setup with a question every `period` seconds, the program's tick and the vehicle model `single-track`.
     pub fn asking_every(period: f64) -> Self {
         Self { period, dt: None, model: VehicleModel::default() }
     }

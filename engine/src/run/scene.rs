@@ -29,7 +29,7 @@ pub(super) struct Scene {
     pub ego: Ego,
     pub network: Arc<RoadNetwork>,
     objects: Vec<Object>,
-    /// The bodies: first the car's, then those of the objects, and then the scenery.
+    /// The states of the bodies of the car, of the objects and of the scenery, in this order.
     pub bodies: Vec<BodyState>,
     /// The number of bodies that are no scenery. Only sensors and the physics know of the scenery.
     told: usize,
@@ -42,7 +42,7 @@ pub(super) struct Scene {
     /// Light, fog, rain and the sun, as far as the program defines them.
     weather: Vec<(WeatherPart, Slot)>,
     world: World,
-    /// The contact of the car with another body.
+    /// The contact of the car with another body; `None` without a contact.
     pub contact: Option<Touching>,
     /// The value of `car.clearance` at this tick.
     clearance: f64,
@@ -55,7 +55,7 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Makes the scene of a program that has been built and laid out, with a car that this model moves.
+    /// Makes the scene of a program that has been built and laid out, with the given vehicle model.
     pub fn new(mut scenario: Scenario, graph: &Graph, model: VehicleModel) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
         let weather = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
@@ -94,8 +94,8 @@ impl Scene {
         }
     }
 
-    /// Asks all objects for their velocities at the start of the run, from their inputs at the first tick. `graph` is a
-    /// copy of the run's graph that is used for nothing else.
+    /// Sets the velocities of all objects at the start of the run, from the objects' inputs at the first tick. `graph`
+    /// is a copy of the run's graph that is used for nothing else.
     pub fn begin(&mut self, (mut graph, friction): (Graph, Slot), clock: Clock) -> Result<(), Upset> {
         self.show();
         graph.tick(clock, &self.outputs);
@@ -127,12 +127,12 @@ impl Scene {
         Ok(())
     }
 
-    /// Returns the bodies that are no scenery.
+    /// Returns the states of all bodies except the scenery.
     pub fn told(&self) -> &[BodyState] {
         &self.bodies[..self.told]
     }
 
-    /// Returns two bodies that overlap, if there are any: such a world cannot begin.
+    /// Returns the error for two bodies that overlap; `None` if no bodies overlap.
     pub fn overlapping(&self) -> Option<Invalid> {
         let (a, b) = overlapping(&self.bodies)?;
         Some(Invalid::Overlap { first: self.name(a).to_owned(), second: self.name(b).to_owned() })
@@ -144,7 +144,7 @@ impl Scene {
         object.map_or("car", |object| &object.name)
     }
 
-    /// Shows the outputs of all objects as they stand.
+    /// Sets the outputs of all objects from their present states.
     pub fn show(&mut self) {
         self.outputs.fill(DatumSample::Absent);
         let mut outputs = Outputs { samples: &mut self.outputs };
@@ -157,7 +157,7 @@ impl Scene {
         }
     }
 
-    /// Moves everything on by a tick of `dt` seconds, by the streams as they have been evaluated.
+    /// Moves all bodies on by a tick of `dt` seconds, with the evaluated streams as inputs.
     ///
     /// Inputs are checked before they are used: a minimum or maximum would hide a NaN, and a road whose friction is no
     /// number would limit nothing.
@@ -211,7 +211,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Returns the weather at this tick: the program's streams, and defaults where a stream is absent or out of range.
+    /// Returns the weather at this tick, with the default for each stream that is absent or out of range.
     pub fn weather(&self, graph: &Graph) -> Weather {
         let mut weather = Weather::default();
         for (part, slot) in &self.weather {

@@ -14,7 +14,7 @@ pub(super) struct Sensing {
 }
 
 impl Sensing {
-    /// Makes an empty set of sensors, in a test with this key.
+    /// Makes an empty set of sensors for the test with the given key.
     pub fn in_test(key: u64) -> Self {
         Self { test: key, ..Self::default() }
     }
@@ -23,14 +23,14 @@ impl Sensing {
         [&mut self.rig, self.eyes.rig(), self.film.rig()]
     }
 
-    /// Forgets what has arrived, so that only later arrivals are new.
+    /// Drops all arrived readings and moments, so that only later arrivals are new.
     pub fn clear(&mut self) {
         self.rigs().into_iter().for_each(Rig::clear);
     }
 }
 
 impl Run {
-    /// Gives the ego vehicle these sensors, which begin anew. From now on they see every tick.
+    /// Gives the ego vehicle the sensors of a rig, and resets the sensors. From now on they see every tick.
     pub fn equip(&mut self, rig: Rig) {
         self.sensing.rig = rig;
         self.sensing.rig.reset();
@@ -41,13 +41,14 @@ impl Run {
         self.sensing.eyes = eyes.in_test(self.sensing.test);
     }
 
-    /// Films the run with these cameras, which the driver knows nothing of. Their noise and their lost images depend on
-    /// the test.
+    /// Films the run with the given cameras, whose images the driver does not get. Their noise and their lost images
+    /// depend on the test.
     pub fn film(&mut self, film: Shutters) {
         self.sensing.film = film.in_test(self.sensing.test);
     }
 
-    /// Returns the sensors of the ego vehicle, with the readings that have arrived since its driver was last asked.
+    /// Returns the sensors of the ego vehicle, with the readings that have arrived since the last question to the
+    /// driver.
     pub fn rig(&self) -> &Rig {
         &self.sensing.rig
     }
@@ -57,7 +58,7 @@ impl Run {
         &self.sensing.eyes
     }
 
-    /// Returns the cameras that film the run.
+    /// Returns the cameras that film the run for the user.
     pub fn filmed(&self) -> &Shutters {
         &self.sensing.film
     }
@@ -75,7 +76,7 @@ impl Run {
         }
     }
 
-    /// Shows the sensors this tick.
+    /// Shows all sensors the state of the world at this tick.
     pub(super) fn sense(&mut self) {
         let mut sensing = std::mem::take(&mut self.sensing);
         let view = self.view();

@@ -25,7 +25,7 @@ impl<'a> ObjectDraft<'a> {
         &self.name
     }
 
-    /// Gives the object a body, which stands at `start`. An object may have none, or several.
+    /// Gives the object a body that stands at `start`. An object may have no body, or several bodies.
     pub fn body(&mut self, body: Body, start: Pose) {
         if let Some([length, width, height]) = body.wrong_measures() {
             self.flaw(ObjectFlaw::Measures { length, width, height });
@@ -37,17 +37,17 @@ impl<'a> ObjectDraft<'a> {
         self.bodies.push((body, start));
     }
 
-    /// Adds an input, with the stream that it is bound to at first.
+    /// Adds an input to the object, with the stream to which the input is bound at first.
     pub fn input<T: Datum>(&mut self, name: &str, stream: impl Into<Stream<T>>) -> Input<T> {
         self.scenario.wiring.input(&format!("{}.{name}", self.name), &stream.into())
     }
 
-    /// Adds an output.
+    /// Adds an output to the object.
     pub fn output<T: Datum>(&mut self, name: &str) -> Output<T> {
         self.scenario.wiring.output(&format!("{}.{name}", self.name))
     }
 
-    /// Adds an output that every trace records.
+    /// Adds an output to the object that every trace records.
     pub fn signal(&mut self, name: &str) -> Output<f64> {
         let name = format!("{}.{name}", self.name);
         let output = self.scenario.wiring.output(&name);
@@ -55,7 +55,8 @@ impl<'a> ObjectDraft<'a> {
         output
     }
 
-    /// Refuses the object, so the world cannot be built. `why` gives the reason and goes on from the object's name.
+    /// Refuses the object, so the world cannot be built. `why` gives the reason, as the continuation of a sentence that
+    /// begins with the object's name.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(ObjectFlaw::Refused { why: why.to_owned() });
     }
@@ -70,7 +71,7 @@ impl<'a> ObjectDraft<'a> {
         self.scenario.objects.push(ObjectSetup { name: self.name, bodies: self.bodies, behaviour });
     }
 
-    /// Makes the object part of the world, moved by physics and a behaviour that pushes its one body, of `mass` kg.
+    /// Makes the object part of the world, with a behaviour that pushes its single body of `mass` kg in the physics.
     pub fn physical(mut self, mass: f64, behaviour: impl Physical) {
         if self.bodies.len() != 1 {
             return self.flaw(ObjectFlaw::Bodies { found: self.bodies.len() });

@@ -12,7 +12,7 @@ const DRY_ASPHALT: f64 = 0.8;
 /// and 0.5 to 0.7 on wet asphalt (Wong, Theory of Ground Vehicles, table 1.3, after Taborek 1957): 0.6 of 0.85.
 const LOST_IN_RAIN: f64 = 0.3;
 
-/// The conditions of a world, not placed yet: broad daylight, no fog, no rain, dry asphalt by default.
+/// The conditions of a world, not placed yet. The default is broad daylight, no fog, no rain and dry asphalt.
 #[derive(Debug, Clone)]
 pub struct Environment {
     light: Stream<f64>,
@@ -22,14 +22,14 @@ pub struct Environment {
     friction: Option<Stream<f64>>,
 }
 
-/// The conditions as streams that anything can read.
+/// The conditions of a world, as streams that the program can read.
 #[derive(Debug, Clone)]
 pub struct Conditions {
-    /// The light, from 0 (night) to 1 (broad daylight).
+    /// The amount of daylight, from 0 (night) to 1 (broad daylight).
     pub light: Stream<f64>,
-    /// The fog, from 0 (none) to 1 (so thick that nothing is seen).
+    /// The density of the fog, from 0 (no fog) to 1 (a visibility of 10 m).
     pub fog: Stream<f64>,
-    /// The rain, from 0 (none) to 1 (a cloudburst of 50 mm/h).
+    /// The strength of the rain, from 0 (no rain) to 1 (a cloudburst of 50 mm/h).
     pub rain: Stream<f64>,
     /// The elevation of the sun, in radians above the horizon.
     pub sun_elevation: Stream<f64>,
@@ -40,27 +40,27 @@ pub struct Conditions {
 }
 
 impl Environment {
-    /// Makes the default conditions: broad daylight, no fog, no rain, dry asphalt.
+    /// Makes the default conditions, which are broad daylight, no fog, no rain and dry asphalt.
     #[expect(clippy::new_without_default, reason = "as every other object it is made by its name")]
     pub fn new() -> Self {
         let Weather { light, fog, .. } = Weather::default();
         Self { light: Stream::constant(light), fog: Stream::constant(fog), rain: None, sun: None, friction: None }
     }
 
-    /// Sets the light, from 0 (night) to 1 (broad daylight).
+    /// Sets the amount of daylight, from 0 (night) to 1 (broad daylight).
     pub fn light(mut self, light: impl Into<Stream<f64>>) -> Self {
         self.light = light.into();
         self
     }
 
-    /// Sets the fog, from 0 (none) to 1 (so thick that nothing is seen).
+    /// Sets the density of the fog, from 0 (no fog) to 1 (a visibility of 10 m).
     pub fn fog(mut self, fog: impl Into<Stream<f64>>) -> Self {
         self.fog = fog.into();
         self
     }
 
-    /// Sets the rain, from 0 (none) to 1 (a cloudburst of 50 mm/h). Rain takes 0.3 times its value as a share of the
-    /// friction of all roads, and reduces the sight of all sensors but radars.
+    /// Sets the strength of the rain, from 0 (no rain) to 1 (a cloudburst of 50 mm/h). Rain takes 0.3 times its value
+    /// as a share of the friction of all roads, and reduces the sight of all sensors but radars.
     pub fn rain(mut self, rain: impl Into<Stream<f64>>) -> Self {
         self.rain = Some(rain.into());
         self
@@ -89,12 +89,12 @@ impl Default for Conditions {
 }
 
 impl Conditions {
-    /// Returns the friction that the rain leaves.
+    /// Returns the friction that remains in the rain.
     pub(super) fn wet(&self, friction: Stream<f64>) -> Stream<f64> {
         friction * (1.0 - LOST_IN_RAIN * &self.rain)
     }
 
-    /// Returns the streams of the weather: light and fog, the rain, and the place of the sun.
+    /// Returns the streams of the weather in three groups: light and fog, the rain, and the position of the sun.
     pub(super) fn weather(&self) -> [Vec<(WeatherPart, Rc<Node>)>; 3] {
         let part = |name, range, expected, of, stream: &Stream<f64>| {
             (WeatherPart { name, range, expected, of }, stream.node.clone())

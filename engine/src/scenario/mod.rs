@@ -33,15 +33,15 @@ use std::ops::RangeInclusive;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The default tick in seconds.
+/// The default duration of a tick in seconds.
 pub const DEFAULT_DT: f64 = 0.01;
 
-/// Returns how many ticks of `dt` seconds a duration takes, rounded.
+/// Returns the number of ticks of `dt` seconds in a duration, rounded.
 pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
     (duration / dt).round() as usize
 }
 
-/// The world under construction, for one test or for none.
+/// A world under construction, for a test or for the declaration of a program.
 pub struct Scenario {
     /// The test's values of parameters, by name; empty if the program is only asked for its parameters.
     given: Vec<(String, param::Given)>,
@@ -82,12 +82,12 @@ struct Said {
     sun: bool,
 }
 
-/// Something that can be placed in a world: a road, a car, a pedestrian.
+/// An object that can be placed in a world, such as a road, a car or a pedestrian.
 pub trait Place {
-    /// The handle by which the program refers to the placed thing.
+    /// The type of the handle by which a program refers to the placed object.
     type Handle;
 
-    /// Adds the thing to the world and returns its handle.
+    /// Adds the object to the world and returns the object's handle.
     fn place(self, scenario: &mut Scenario) -> Self::Handle;
 }
 
@@ -141,13 +141,14 @@ impl Scenario {
         self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()), Read::number())
     }
 
-    /// Declares an open parameter with one of these values, of which there is at least one.
+    /// Declares an open parameter that takes one of the given values, of which there is at least one.
     pub fn choice<T: Into<Value> + Clone + 'static, const N: usize>(&mut self, name: &str, levels: [T; N]) -> Param<T> {
         const { assert!(N > 0, "a choice needs at least one value") }
         self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))
     }
 
-    /// Declares a closed parameter with one of these values. It stays at its nominal value until a study opens it.
+    /// Declares a closed parameter that takes one of the given values. It stays at its nominal value until a study
+    /// opens it.
     pub fn nominal_choice<T: Into<Value> + Clone + 'static, const N: usize>(
         &mut self,
         name: &str,
@@ -202,7 +203,7 @@ impl Scenario {
         object.place(self)
     }
 
-    /// Begins an object that the program itself defines, with this name; the second of a name is called `name-2`.
+    /// Begins the construction of an object that the program defines; a second object `name` is called `name-2`.
     pub fn object(&mut self, name: &str) -> ObjectDraft<'_> {
         let count = self.names.entry(name.to_owned()).and_modify(|count| *count += 1).or_insert(1);
         let name = if *count == 1 { name.to_owned() } else { format!("{name}-{count}") };
@@ -241,19 +242,19 @@ impl Scenario {
         RequirementDraft::new(self.requirements.clone(), id, asked)
     }
 
-    /// Sets the premise of the test: if `event` never occurs and nothing is violated, the verdict is inconclusive
-    /// rather than pass.
+    /// Sets the premise of the test, which is the event that the test is about. If `event` never occurs and nothing is
+    /// violated, the verdict is inconclusive rather than pass.
     pub fn premise(&mut self, event: &Stream<bool>) {
         self.premise = Some(event.clone());
     }
 
-    /// Refuses the test, because there is no such world: the test is invalid for the reason `why`. Use this for
-    /// conditions that the intervals of the parameters cannot express.
+    /// Makes the test invalid for the reason `why`, because its world is impossible. Use this for conditions that the
+    /// intervals of the parameters cannot express.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(WorldFlaw::Refused { why: why.to_owned() });
     }
 
-    /// Sets the duration of a run in simulated seconds, unless a contact ends it before; the default is 10.
+    /// Sets the duration of a run without a contact, in simulated seconds; the default is 10.
     pub fn duration(&mut self, seconds: f64) {
         self.duration = seconds;
     }
@@ -312,7 +313,7 @@ impl Scenario {
         (graph, slot)
     }
 
-    /// Returns the streams in the language of Graphviz. All streams must have been laid out before.
+    /// Returns the graph of the streams in the language of Graphviz. All streams must have been laid out before.
     pub(crate) fn dot(&self, title: &str) -> String {
         dot(title, &self.readers(), &self.equations.borrow()).expect("what has been laid out can be drawn")
     }

@@ -13,8 +13,8 @@ use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::Rc;
 
-/// A parameter with the value that the test gives it. `T` is the type of its values: a number, a word, or any type that
-/// stands for the levels of a choice.
+/// A parameter with the value that the test gives the parameter. `T` is the type of its values: a number, a word, or
+/// any type that stands for the levels of a choice.
 #[derive(Clone)]
 pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
@@ -53,7 +53,7 @@ impl Read<f64> {
 }
 
 impl<T: Into<Value> + Clone + 'static> Read<T> {
-    /// Makes a conversion to one of these levels.
+    /// Makes the conversion of values to the given levels.
     pub fn level<const N: usize>(levels: [T; N]) -> Self {
         let placeholder = levels[0].clone();
         let levels = levels.map(|level| (level.clone().into(), level));
@@ -90,15 +90,16 @@ impl<T: Clone> Param<T> {
         self
     }
 
-    /// Lets the parameter vary over time: the test gives it a value for each coordinate of this shape. A study may ask
-    /// for another shape, or for none. A choice varies in pieces.
+    /// Lets the parameter vary over time, with a value for each coordinate of the given shape. A study may ask for
+    /// another shape, or for a constant. A choice varies in pieces.
     pub fn signal(self, shape: Shape) -> Self {
         self.declared.borrow_mut()[self.index].parameter.signal = Some(shape);
         self
     }
 
-    /// Declares that the parameter's nominal value changes nothing: a test with it has the key of a test without the
-    /// parameter, and so the same camera noise, which otherwise differs. Use it for parameters that came later.
+    /// Declares that the parameter's nominal value changes nothing. A test with this value has the key of a test
+    /// without the parameter, and so the same camera noise, which otherwise differs. Use this for parameters that came
+    /// later.
     pub fn incidental(self) -> Self {
         let value = self.given_or_nominal();
         if self.given.value.is_some() && value == self.declared.borrow()[self.index].nominal() {

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::ops::Not;
 use std::rc::Rc;
 
-/// A temporal statement about streams: a [`Formula`] over their recorded samples.
+/// A temporal statement about streams, which is a [`Formula`] over the recorded samples of the streams.
 ///
 /// A stream of truths is a statement about every tick. A truth that is made of comparisons, `&`, `|` and `!` keeps its
 /// robustness. Any other truth is recorded as 1 or 0, without a robustness.
@@ -48,42 +48,43 @@ pub fn eventually(statement: impl Into<Temporal>) -> Temporal {
 }
 
 impl Temporal {
-    /// Makes the statement that this one holds throughout the interval from now on.
+    /// Makes the statement that this statement holds throughout an interval from now on.
     pub fn always(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.always(interval), ..self }
     }
 
-    /// Makes the statement that this one holds at some tick of the interval from now on.
+    /// Makes the statement that this statement holds at some tick of an interval from now on.
     pub fn eventually(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.eventually(interval), ..self }
     }
 
-    /// Makes the statement that this one held throughout the interval back from now.
+    /// Makes the statement that this statement held throughout an interval back from now.
     pub fn historically(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.historically(interval), ..self }
     }
 
-    /// Makes the statement that this one held at some tick of the interval back from now.
+    /// Makes the statement that this statement held at some tick of an interval back from now.
     pub fn once(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.once(interval), ..self }
     }
 
-    /// Makes the statement that this one holds from now until before a tick of the interval at which `goal` holds.
+    /// Makes the statement that this statement holds until before a tick of an interval from now on at which `goal`
+    /// holds.
     pub fn until(self, interval: impl Into<Interval>, goal: impl Into<Temporal>) -> Self {
         self.join(goal.into(), |hold, goal| hold.until(interval, goal))
     }
 
-    /// Makes the statement that both statements hold.
+    /// Makes the statement that this statement and `other` both hold.
     pub fn and(self, other: impl Into<Temporal>) -> Self {
         self.join(other.into(), Formula::and)
     }
 
-    /// Makes the statement that at least one of the two holds.
+    /// Makes the statement that this statement or `other` holds, or both.
     pub fn or(self, other: impl Into<Temporal>) -> Self {
         self.join(other.into(), Formula::or)
     }
 
-    /// Makes the statement that `other` holds if this one does.
+    /// Makes the statement that `other` holds if this statement holds.
     pub fn implies(self, other: impl Into<Temporal>) -> Self {
         self.join(other.into(), Formula::implies)
     }
@@ -165,17 +166,17 @@ impl RequirementDraft {
         Self { stated, index }
     }
 
-    /// Sets the text of the requirement: one sentence for people. The default is the formula itself.
+    /// Sets the text of the requirement, which is one sentence for people. The default is the formula itself.
     pub fn text(self, text: &str) -> Self {
         self.change(|requirement| text.clone_into(&mut requirement.text))
     }
 
-    /// Sets the unit of the robustness.
+    /// Sets the unit of the requirement's robustness.
     pub fn unit(self, unit: &str) -> Self {
         self.change(|requirement| unit.clone_into(&mut requirement.unit))
     }
 
-    /// Sets the scale: the robustness, in its unit, that counts as large. The default is 1.
+    /// Sets the scale of the requirement, which is the robustness in its unit that counts as large. The default is 1.
     pub fn scale(self, scale: f64) -> Self {
         self.change(|requirement| requirement.scale = scale)
     }

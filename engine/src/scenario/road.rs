@@ -27,14 +27,14 @@ pub struct Road {
 /// A question about a road or lane that does not exist is a mistake, which is reported when the world is built.
 #[derive(Debug, Clone)]
 pub struct Streets {
-    /// The network; `None` if it cannot be built as it is described.
+    /// The network; `None` if the network cannot be built.
     network: Option<Arc<RoadNetwork>>,
     flaws: Flaws,
 }
 
 impl RoadSegment {
-    /// Sets the friction coefficient between tyre and road: [`Environment::friction`](super::Environment::friction) for
-    /// a world with one road.
+    /// Sets the friction coefficient between tyre and road, like
+    /// [`Environment::friction`](super::Environment::friction) for a world with one road.
     pub fn friction(self, friction: impl Into<Stream<f64>>) -> Paved {
         Paved { road: self, friction: friction.into() }
     }
@@ -83,8 +83,9 @@ impl Place for Arc<RoadNetwork> {
 }
 
 impl Road {
-    /// Returns the pose in the middle of a lane, `at` metres along the road, facing the way of its traffic. Lane 1 is
-    /// beside the centre line and leads along the road, lane 2 is to its right, and so on; lanes -1, -2, ... lead back.
+    /// Returns the pose in the middle of a lane, `at` metres along the road, in the direction of traffic. Lane 1 is
+    /// beside the centre line and leads along the road, lane 2 is to the right of lane 1, and so on; lanes -1, -2, ...
+    /// lead back.
     pub fn on_lane(&self, lane: i32, at: f64) -> Pose {
         self.streets.on_lane(&self.element, lane, at)
     }
@@ -94,12 +95,12 @@ impl Road {
         self.streets.on_sidewalk(&self.element, side, at)
     }
 
-    /// Returns the line straight across the road, `at` metres along it.
+    /// Returns the line straight across the road, `at` metres along the road.
     pub fn crossing(&self, at: f64) -> Line {
         self.streets.crossing(&self.element, at)
     }
 
-    /// Returns the middle of a lane from end to end, the way of its traffic.
+    /// Returns the path along the middle of a whole lane, in the direction of traffic.
     pub fn path(&self, lane: i32) -> Path {
         self.streets.path(&self.element, lane)
     }
@@ -116,12 +117,12 @@ impl Streets {
         Self { network, flaws: scenario.flaws.clone() }
     }
 
-    /// Returns the network; `None` if it cannot be built as it is described, which is reported.
+    /// Returns the road network; `None` if the network cannot be built, which the scenario reports.
     pub fn network(&self) -> Option<&Arc<RoadNetwork>> {
         self.network.as_ref()
     }
 
-    /// Returns the pose in the middle of a lane, `at` metres along a road, the way of its traffic: [`Road::on_lane`].
+    /// Returns the pose in the middle of a lane, `at` metres along a road, like [`Road::on_lane`].
     pub fn on_lane(&self, road: &str, lane: i32, at: f64) -> Pose {
         self.ask(|network| network.on_lane(road, lane, at)).unwrap_or(NOWHERE)
     }
@@ -131,24 +132,24 @@ impl Streets {
         self.ask(|network| network.on_sidewalk(road, side, at)).unwrap_or(NOWHERE)
     }
 
-    /// Returns the line straight across a road, `at` metres along it.
+    /// Returns the line straight across a road, `at` metres along the road.
     pub fn crossing(&self, road: &str, at: f64) -> Line {
         let here = self.ask(|network| network.on_centre_line(road, at)).unwrap_or(NOWHERE);
         Line { name: format!("crossing({at})"), point: here.position, direction: here.forward() }
     }
 
-    /// Returns the middle of a lane of a road from end to end, the way of its traffic.
+    /// Returns the path along the middle of a whole lane of a road, in the direction of traffic.
     pub fn path(&self, road: &str, lane: i32) -> Path {
         self.ask(|network| Ok(network.path(&[network.lane_of(road, lane)?]))).unwrap_or_else(nowhere)
     }
 
-    /// Returns the place on a lane, `at` metres along a road: a start for a car of the [traffic](crate::traffic).
+    /// Returns the place on a lane, `at` metres along a road, as the start of a car of the [traffic](crate::traffic).
     pub fn place_on(&self, road: &str, lane: i32, at: f64) -> Option<road::RoutePosition> {
         self.ask(|network| place_on(network, (road, lane, at)))
     }
 
-    /// Returns the shortest way from one place to another without a change of lanes. A place is a road, a lane, and
-    /// metres along the road.
+    /// Returns the shortest path between two places without a change of lanes. A place is a road, a lane, and metres
+    /// along the road.
     pub fn way(&self, from: (&str, i32, f64), to: (&str, i32, f64)) -> Path {
         self.ask(|network| {
             let route = network.route(place_on(network, from)?, place_on(network, to)?, f64::from(u16::MAX));

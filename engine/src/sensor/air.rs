@@ -4,7 +4,7 @@ use crate::weather::Weather;
 
 /// The extinction times the visibility (Koschmieder, at a contrast of 2 %).
 const KOSCHMIEDER: f64 = 3.912;
-/// The visibility in the thickest fog in metres, and the factor from there to the thinnest fog.
+/// The visibility in the thickest fog in metres, and the factor between the visibilities in thinnest and thickest fog.
 const THICKEST: f64 = 10.0;
 const THINNEST: f64 = 1000.0;
 /// The loss of light in rain of 1 mm/h, in dB/km, and the power with which the loss grows with the rain rate
@@ -12,12 +12,12 @@ const THINNEST: f64 = 1000.0;
 const RAIN_LOSS: f64 = 1.076;
 const RAIN_POWER: f64 = 0.67;
 
-/// The air that light passes through.
+/// The amount of daylight, and the loss of light by fog and rain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
-    /// The light, from 0 (night) to 1 (broad daylight).
+    /// The amount of daylight, from 0 (night) to 1 (broad daylight).
     pub light: f64,
-    /// The extinction coefficient of fog and rain in 1/m, 0 without any: 3.912 / visibility.
+    /// The extinction coefficient of fog and rain, 3.912 / visibility, in 1/m; 0 without fog and rain.
     pub extinction: f64,
 }
 
@@ -29,10 +29,12 @@ impl Default for Air {
 }
 
 impl Air {
-    /// Returns the air of a weather. Fog from 0 to 1 gives an extinction from 0 to that of a visibility of 10 m: 3.912
-    /// / 10 m · (1000^fog - 1) / 999. The visibility is 326 m in a fog of 0.5, and 3.4 km in a fog of 0.2.
+    /// Returns the daylight and the extinction in a weather. Fog from 0 to 1 gives an extinction from 0 to the
+    /// extinction at a visibility of 10 m: 3.912 / 10 m · (1000^fog - 1) / 999. The visibility is 326 m in a fog of
+    /// 0.5, and 3.4 km in a fog of 0.2.
     ///
-    /// Rain of `R` mm/h adds 1.076 · R^0.67 dB/km: one sees 1.1 km in the heaviest rain, 50 mm/h, and 1.8 km in half.
+    /// Rain of `R` mm/h adds 1.076 · R^0.67 dB/km: the visibility is 1.1 km in rain of 50 mm/h and 1.8 km in rain of 25
+    /// mm/h.
     pub fn of(weather: &Weather) -> Self {
         let thickness = (libm::pow(THINNEST, weather.fog.clamp(0.0, 1.0)) - 1.0) / (THINNEST - 1.0);
         let rain = RAIN_LOSS * libm::pow(weather.rain_rate(), RAIN_POWER);

@@ -12,14 +12,14 @@ use paracosm_space::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The entry of this kind of sensor in lists.
+/// The description of cameras in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor = Descriptor { name: "camera", about: "images in colour, by the renderer" };
 
 /// The cameras on the ego vehicle.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cameras {
-    /// The seed of the noise of all cameras, which also depends on the values of the test.
+    /// The seed of the noise of all cameras. The noise also depends on the values of the test.
     #[serde(default)]
     pub seed: u64,
     /// The cameras by their names.
@@ -27,50 +27,50 @@ pub struct Cameras {
     pub all: BTreeMap<String, CameraSpec>,
 }
 
-/// A camera: its mounting, and how it takes images. The table [`CORE_CAMERA_SETTINGS`](super::CORE_CAMERA_SETTINGS)
-/// describes its numbers.
+/// The description of a camera by its mounting and its settings. The table
+/// [`CORE_CAMERA_SETTINGS`](super::CORE_CAMERA_SETTINGS) describes the numbers.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CameraSpec {
-    /// The size of the images in pixels, across and down.
+    /// The width and the height of the images in pixels.
     pub resolution: [u32; 2],
     /// The focal length in millimetres.
     pub focal_mm: f64,
     /// The width of the sensor in millimetres.
     pub sensor_mm: f64,
-    /// The position of the camera, in metres from the middle of the car on the ground: ahead, to the left, up.
+    /// The position of the camera (ahead, to the left, up), in metres from the middle of the car on the ground.
     pub position: [f64; 3],
-    /// The direction of the camera in degrees: yaw to the left, then pitch downwards, then roll to the right.
+    /// The direction of the camera in degrees, as yaw to the left, then pitch downwards, then roll to the right.
     #[serde(default)]
     pub yaw_pitch_roll: [f64; 3],
     /// The number of images per second.
     pub rate: f64,
-    /// The seconds from when an image is taken to when it arrives.
+    /// The seconds between the taking of an image and its arrival at the driver.
     #[serde(default)]
     pub latency: f64,
     /// The probability that an image is lost.
     #[serde(default)]
     pub dropped: f64,
-    /// The settings of the lens and the sensor by their names, such as `blur`. The engine only hands them on. The
-    /// renderer knows the names, refuses others, and takes the default of each absent setting. In a file they stand
-    /// beside the other keys.
+    /// The settings of the lens and the sensor by their names, such as `blur`. The engine only hands the settings on.
+    /// The renderer knows the names, refuses other names, and takes the default of each absent setting. In a file the
+    /// settings stand beside the other keys.
     #[serde(flatten)]
     pub lens: Record<f64>,
 }
 
-/// The state of the world at a moment, as a camera sees it.
+/// The state of the world at a moment at which a camera takes an image.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moment {
-    /// All bodies, the car's first.
+    /// The states of all bodies in the world, with the ego vehicle's body first.
     pub bodies: Vec<BodyState>,
-    /// Light, fog, rain and the sun.
+    /// The weather, which is light, fog, rain and the position of the sun.
     pub weather: Weather,
-    /// The speed of the car in m/s.
+    /// The speed of the ego vehicle in m/s.
     pub speed: f64,
-    /// The distance that the car has covered, in metres.
+    /// The distance that the ego vehicle has covered, in metres.
     pub travelled: f64,
 }
 
-/// Records a moment for a camera at a fixed period.
+/// A sensor that records the moments at which a camera takes images, at a fixed period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shutter {
     /// The seconds between two images.
@@ -93,8 +93,8 @@ impl Sensor for Shutter {
     }
 }
 
-/// The shutters of a set of cameras, with the moments that have arrived. They form their own rig, so no camera depends
-/// on the car's other sensors.
+/// The shutters of a set of cameras, with the recorded moments that have arrived. They form their own rig, so no camera
+/// depends on the car's other sensors.
 #[derive(Debug, Default)]
 pub struct Shutters {
     cameras: Cameras,
@@ -103,7 +103,7 @@ pub struct Shutters {
 }
 
 impl Shutters {
-    /// Makes the shutters of these cameras.
+    /// Makes the shutters of the given cameras.
     ///
     /// # Errors
     /// A camera has an impossible rate, latency or probability of losing images. The error names the camera.
@@ -117,7 +117,8 @@ impl Shutters {
         Ok(Self { cameras, rig, each })
     }
 
-    /// Returns the shutters for a test with this key: each has other noise and losses, so that nobody learns them.
+    /// Returns the shutters for the test with the given key. Each test has other noise and losses, so no driver learns
+    /// them.
     pub(crate) fn in_test(mut self, key: u64) -> Self {
         self.cameras.seed = mixed(mixed(self.cameras.seed) ^ key);
         self.rig.reseed(self.cameras.seed);
@@ -130,25 +131,25 @@ impl Shutters {
         &self.cameras
     }
 
-    /// Returns the moments that have arrived since the driver was last asked, each with the index of its camera in the
-    /// order of names: camera by camera, and the earliest first.
+    /// Returns the moments that have arrived since the last question to the driver, each with the index of its camera.
+    /// Cameras are in the order of their names, and the moments of a camera in the order of time.
     pub fn arrived(&self) -> impl Iterator<Item = (usize, &Sample<Moment>)> {
         let each = self.each.iter().enumerate();
         each.flat_map(|(camera, shutter)| self.rig.arrived(shutter).iter().map(move |sample| (camera, sample)))
     }
 
-    /// Returns the rig that all moments go through.
+    /// Returns the rig that holds the shutters.
     pub(crate) fn rig(&mut self) -> &mut Rig {
         &mut self.rig
     }
 }
 
-/// An image of a camera that has arrived.
+/// An image of a camera that has arrived at the driver.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image {
     /// The index of the camera in the order of the cameras' names.
     pub camera: usize,
-    /// The number of the image: the k-th image is due at k periods.
+    /// The number k of the image, which is due after k periods of the camera.
     pub number: u64,
     /// The time at which the image was taken, in seconds since the run began.
     pub time: f64,

@@ -6,20 +6,20 @@
 
 use super::CameraSpec;
 
-/// A number that describes a camera.
+/// The description of a numeric setting of cameras, such as the focal length.
 #[derive(Debug, Clone, Copy)]
 pub struct CameraSetting {
-    /// The key of the setting in a file. Settings that share a key stand there as one list.
+    /// The key of the setting in a file. Settings that share a key stand in the file as one list.
     pub key: &'static str,
-    /// The name of the setting: the key, unless the setting is part of a list.
+    /// The name of the setting, which is the key unless the setting is part of a list.
     pub name: &'static str,
     /// The unit of the setting; empty if it has none.
     pub unit: &'static str,
     /// The least and the greatest value of the setting.
     pub range: (f64, f64),
-    /// The default value; `None` if every camera has to give the value.
+    /// The default value of the setting; `None` if every camera has to give the value.
     pub default: Option<f64>,
-    /// A common value, for messages and documents.
+    /// A common value of the setting, for messages and documents.
     pub example: f64,
     /// The meaning of the setting, in a few words with the unit.
     pub about: &'static str,
@@ -29,9 +29,9 @@ pub struct CameraSetting {
 /// The place of a setting in a camera.
 #[derive(Debug, Clone, Copy)]
 enum Place {
-    /// The setting is a field of the camera.
+    /// A setting that is a field of the camera.
     Field { of: fn(&CameraSpec) -> f64, at: fn(&mut CameraSpec) -> &mut f64 },
-    /// The setting is one of the named settings of the lens.
+    /// A setting among the named settings of the lens.
     Lens,
 }
 
@@ -41,8 +41,8 @@ macro_rules! field {
     };
 }
 
-/// The settings that the engine itself uses, in the order in which files have them. The resolution is not a single
-/// number, so it is not in the table.
+/// The camera settings that the engine itself uses, in the order in which files have the settings. The resolution is
+/// not a single number, so it is not in the table.
 pub const CORE_CAMERA_SETTINGS: [CameraSetting; 11] = [
     core("focal_mm", "mm", (0.1, 10_000.0), "the focal length in millimetres", field!(focal_mm)).required(24.0),
     core("sensor_mm", "mm", (0.1, 1000.0), "the width of the sensor in millimetres", field!(sensor_mm)).required(36.0),
@@ -64,7 +64,7 @@ pub const CORE_CAMERA_SETTINGS: [CameraSetting; 11] = [
 /// The greatest distance of a camera from the car, and its heights above ground, in metres. Below, it would see sky.
 const SIDEWAYS: (f64, f64) = (-100.0, 100.0);
 const UPWARDS: (f64, f64) = (0.05, 100.0);
-/// A full turn each way, in degrees.
+/// A full turn in both directions, in degrees.
 const TURN: (f64, f64) = (-360.0, 360.0);
 
 const fn core(
@@ -78,12 +78,12 @@ const fn core(
 }
 
 impl CameraSetting {
-    /// Makes a setting of a lens or a sensor, with the default 0.
+    /// Makes a setting of a camera's lens or image sensor, with the default 0.
     pub const fn of_lens(key: &'static str, unit: &'static str, range: (f64, f64), about: &'static str) -> Self {
         Self { key, name: key, unit, range, default: Some(0.0), example: 0.0, about, place: Place::Lens }
     }
 
-    /// Changes the default of a setting.
+    /// Returns the setting with another default value.
     pub const fn with_default(self, default: f64) -> Self {
         Self { default: Some(default), example: default, ..self }
     }
@@ -96,7 +96,8 @@ impl CameraSetting {
         Self { default: None, example, ..self }
     }
 
-    /// Returns `true` if the setting belongs to the lens or the sensor: a camera has it in [`CameraSpec::lens`].
+    /// Returns `true` if the setting belongs to the lens or the image sensor, so that its value is in
+    /// [`CameraSpec::lens`].
     pub const fn is_of_lens(&self) -> bool {
         matches!(self.place, Place::Lens)
     }
@@ -109,7 +110,7 @@ impl CameraSetting {
         }
     }
 
-    /// Sets the value in a camera.
+    /// Sets the value of the setting in a camera.
     pub fn set(&self, camera: &mut CameraSpec, value: f64) {
         match self.place {
             Place::Field { at, .. } => *at(camera) = value,

@@ -3,8 +3,8 @@
 /// The description of a kind of sensor that comes with the engine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Descriptor {
-    /// The name of the kind, as it stands in messages.
+    /// The name of the kind of sensor, as messages show it.
     pub name: &'static str,
-    /// A description of what the sensor measures, in one line.
+    /// The description of the sensor's measurements in one line.
     pub about: &'static str,
 }

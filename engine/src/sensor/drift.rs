@@ -4,19 +4,19 @@ use super::Chance;
 use super::error::{Checks, SensorError};
 use nalgebra::SVector;
 
-/// The inaccuracy of a measured quantity: standard deviations of each of its coordinates, in its unit.
+/// The inaccuracy of a measured quantity, as standard deviations of each coordinate in the quantity's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inaccuracy {
     /// The standard deviation of the noise of each reading.
     pub noise: f64,
     /// The standard deviation of the bias at the start of a run.
     pub bias: f64,
-    /// The standard deviation of the change of the bias within one second; within t seconds it is √t times as much.
+    /// The standard deviation of the change of the bias within one second; within t seconds it is √t times as large.
     pub walk: f64,
 }
 
 impl Inaccuracy {
-    /// No inaccuracy: the readings are true.
+    /// The inaccuracy of a perfect measurement, whose readings are true.
     pub const NONE: Inaccuracy = Inaccuracy { noise: 0.0, bias: 0.0, walk: 0.0 };
 
     pub(super) fn check(&self, checks: &Checks, what: &str, unit: &'static str) -> Result<(), SensorError> {
@@ -27,7 +27,7 @@ impl Inaccuracy {
     }
 }
 
-/// The bias of N coordinates as it walks.
+/// The bias of a quantity with N coordinates, which walks at random.
 #[derive(Debug, Clone)]
 pub(super) struct Drift<const N: usize> {
     inaccuracy: Inaccuracy,
@@ -40,7 +40,7 @@ impl<const N: usize> Drift<N> {
         Self { inaccuracy, now: None }
     }
 
-    /// Returns the reading of a true value at a time in seconds.
+    /// Returns the measured value for a true value at a time in seconds.
     pub fn measured(&mut self, truth: SVector<f64, N>, time: f64, chance: &mut Chance) -> SVector<f64, N> {
         let Inaccuracy { noise, bias, walk } = self.inaccuracy;
         let step = normal(chance);
@@ -52,7 +52,7 @@ impl<const N: usize> Drift<N> {
         truth + bias + normal(chance) * noise
     }
 
-    /// Begins anew, for a new run.
+    /// Forgets the bias, because a new run begins.
     pub fn reset(&mut self) {
         self.now = None;
     }

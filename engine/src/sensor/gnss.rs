@@ -6,7 +6,7 @@ use super::error::{Checks, SensorError};
 use super::{Chance, Inaccuracy, Mount, Sensor, SensorView};
 use nalgebra::Vector2;
 
-/// The entry of this kind of sensor in lists.
+/// The description of satellite receivers in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "gnss", about: "the position and velocity that a satellite receiver gives" };
 
@@ -17,19 +17,20 @@ pub struct GnssSettings {
     pub mount: Mount,
     /// The seconds between two fixes.
     pub period: f64,
-    /// The inaccuracy of positions in metres: the noise of a fix, and the slow errors of orbits and ionosphere.
+    /// The inaccuracy of positions in metres, by the noise of a fix and the slow errors of orbits and ionosphere.
     pub position: Inaccuracy,
     /// The standard deviation of the noise of each coordinate of the velocity, in m/s. The velocity is measured by the
     /// Doppler effect and has no bias.
     pub velocity_noise: f64,
-    /// The rate of outages in 1/s: 0 for no outages.
+    /// The rate of outages in 1/s; 0 for no outages.
     pub outages: f64,
     /// The mean duration of an outage in seconds. Durations are distributed exponentially.
     pub outage_duration: f64,
 }
 
 impl Default for GnssSettings {
-    /// Returns the default: ten fixes a second from the roof, 0.5 m off by fix and 1 m in the long run, no outages.
+    /// Returns the settings for ten fixes a second from the roof, with errors of 0.5 m a fix and 1 m in the long run,
+    /// and without outages.
     fn default() -> Self {
         Self {
             mount: Mount::above(1.5),
@@ -51,7 +52,7 @@ pub struct Fix {
     pub velocity: Vector2<f64>,
 }
 
-/// A satellite receiver (GPS). Its reading is a fix, or `None` during an outage.
+/// A satellite receiver (GPS), whose reading is a fix, or `None` during an outage.
 #[derive(Debug, Clone)]
 pub struct Gnss {
     settings: GnssSettings,
@@ -62,10 +63,10 @@ pub struct Gnss {
 }
 
 impl Gnss {
-    /// Makes a receiver with these settings.
+    /// Makes a satellite receiver with the given settings.
     ///
     /// # Errors
-    /// A setting is out of its range or no number.
+    /// A setting is out of its range or is not a number.
     pub fn new(settings: GnssSettings) -> Result<Self, SensorError> {
         let checks = Checks("gnss");
         settings.mount.check(&checks)?;
@@ -77,8 +78,8 @@ impl Gnss {
         Ok(Self { drift: Drift::new(settings.position), settings, before: f64::NAN, lost_until: f64::NEG_INFINITY })
     }
 
-    /// Returns `true` if there is an outage at this time. The random numbers are drawn in any case, so outages do not
-    /// change the noise.
+    /// Returns `true` if there is an outage at this time. The random numbers are drawn at every reading, so outages do
+    /// not change the noise.
     fn is_lost(&mut self, time: f64, chance: &mut Chance) -> bool {
         let passed = (time - self.before).max(0.0);
         self.before = time;

@@ -6,7 +6,7 @@ use super::error::{Checks, SensorError};
 use super::{Chance, Inaccuracy, Sensor, SensorView};
 use nalgebra::{Vector1, Vector2};
 
-/// The entry of this kind of sensor in lists.
+/// The description of inertial measurement units in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "imu", about: "accelerations and the yaw rate of the car" };
 
@@ -15,15 +15,15 @@ pub(super) const DESCRIPTOR: Descriptor =
 pub struct ImuSettings {
     /// The seconds between two readings.
     pub period: f64,
-    /// The inaccuracy of accelerations, in m/s².
+    /// The inaccuracy of measured accelerations, in m/s².
     pub acceleration: Inaccuracy,
-    /// The inaccuracy of yaw rates, in rad/s.
+    /// The inaccuracy of measured yaw rates, in rad/s.
     pub yaw_rate: Inaccuracy,
 }
 
 impl Default for ImuSettings {
-    /// Returns the settings of a usual automotive sensor: a hundred readings a second, with errors of 0.05 m/s² and 0.1
-    /// °/s from reading to reading, and as much in the long run.
+    /// Returns the settings of a usual automotive sensor. It gives a hundred readings a second, with errors of 0.05
+    /// m/s² and 0.1 °/s from reading to reading, and equal errors in the long run.
     fn default() -> Self {
         Self {
             period: 0.01,
@@ -36,8 +36,8 @@ impl Default for ImuSettings {
 /// The reading of an inertial measurement unit at one moment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inertia {
-    /// The acceleration of the car's centre of gravity over the last tick in m/s², as seen from the car: x ahead, y to
-    /// the left. It does not include gravity, for the world is flat.
+    /// The acceleration of the car's centre of gravity over the last tick in m/s² (x ahead, y to the left). It does not
+    /// include gravity, because the world is flat.
     pub acceleration: Vector2<f64>,
     /// The yaw rate of the car, to the left, in rad/s.
     pub yaw_rate: f64,
@@ -52,10 +52,10 @@ pub struct Imu {
 }
 
 impl Imu {
-    /// Makes a unit with these settings.
+    /// Makes an inertial measurement unit with the given settings.
     ///
     /// # Errors
-    /// A setting is out of its range or no number.
+    /// A setting is out of its range or is not a number.
     pub fn new(settings: ImuSettings) -> Result<Self, SensorError> {
         let ImuSettings { period, acceleration, yaw_rate } = settings;
         let checks = Checks("imu");

@@ -72,13 +72,14 @@ use crate::road::RoadNetwork;
 use crate::vehicle::VehicleState;
 use crate::weather::Weather;
 
-/// The kinds of sensors that come with the engine, in the order in which they are listed.
+/// The descriptions of all kinds of sensors that come with the engine, in the order of lists.
 pub const ALL: &[Descriptor] =
     &[camera::DESCRIPTOR, lidar::DESCRIPTOR, radar::DESCRIPTOR, gnss::DESCRIPTOR, imu::DESCRIPTOR, truth::DESCRIPTOR];
 
-/// A sensor, which measures something of the world around a car, or of the car itself.
+/// A sensor, which measures the world around a car or the car itself.
 ///
-/// For example, your own ultrasound sensor in the front bumper hears the nearest body, to some centimetres:
+/// For example, your own ultrasound sensor in the front bumper hears the nearest body, with an error of some
+/// centimetres:
 ///
 /// ```
 /// use paracosm_engine::sensor::{Chance, Delivery, Rig, Sensor, SensorView};
@@ -101,7 +102,7 @@ pub const ALL: &[Descriptor] =
 ///         let front = car.position + 2.2 * car.forward();
 ///         let distances = view.others().map(|(_, body)| (body.pose.position - front).norm());
 ///         let nearest = distances.fold(self.range, f64::min);
-///         // Whether it hears anything or not, it draws as much, and only from what it is given.
+///         // It draws one number whether or not it hears a body, and only from the given source.
 ///         let error = self.noise * chance.normal();
 ///         *reading = (nearest < self.range).then_some(nearest + error);
 ///     }
@@ -129,17 +130,17 @@ pub const ALL: &[Descriptor] =
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Sensor: Send + 'static {
-    /// The type of the measurement at one moment. A rig reuses its values.
+    /// The type of the sensor's measurement at one moment. A rig reuses values of this type.
     type Reading: Default + Send + 'static;
 
     /// Returns the seconds between two readings.
     fn period(&self) -> f64;
 
-    /// Forgets everything, because a new run begins.
+    /// Resets the sensor's memory, because a new run begins.
     fn reset(&mut self) {}
 
-    /// Measures, and writes the result to `reading`, over the values of an earlier reading. All noise is drawn from
-    /// `chance`.
+    /// Measures the world and writes the result to `reading`, over the values of an earlier reading. All noise is drawn
+    /// from `chance`.
     fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Self::Reading);
 }
 
@@ -150,18 +151,18 @@ pub struct SensorView<'a> {
     pub time: f64,
     /// The state of the car that carries the sensor.
     pub car: &'a VehicleState,
-    /// All bodies, the car's first.
+    /// The states of all bodies in the world, with the car's body first.
     pub bodies: &'a [BodyState],
-    /// The road network.
+    /// The road network of the world.
     pub network: &'a RoadNetwork,
-    /// Light, fog, rain and the sun.
+    /// The weather, which is light, fog, rain and the position of the sun.
     pub weather: Weather,
-    /// The effect of the weather on light: [`Air::of`] the weather.
+    /// The effect of the weather on light, which [`Air::of`] computes.
     pub air: Air,
 }
 
 impl<'a> SensorView<'a> {
-    /// Returns the bodies that are in the world, without the car, each with its index among all bodies.
+    /// Returns the bodies that are present in the world, without the car, each with its index among all bodies.
     pub fn others(&self) -> impl Iterator<Item = (usize, &'a BodyState)> + use<'a> {
         self.bodies.iter().enumerate().skip(1).filter(|(_, body)| body.present)
     }

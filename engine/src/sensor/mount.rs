@@ -5,27 +5,27 @@ use crate::geometry::Pose;
 use crate::vehicle::VehicleState;
 use nalgebra::{Vector2, Vector3};
 
-/// The position of an upright sensor on a car, and the direction in which it looks.
+/// The position and the heading of an upright sensor on a car.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mount {
-    /// The position from the middle of the car's box, on the ground: x ahead, y to the left, z up, in metres.
+    /// The position of the sensor in metres from the car's middle on the ground (x ahead, y to the left, z up).
     pub position: Vector3<f64>,
     /// The direction of the sensor, in radians counter-clockwise from the car's heading.
     pub heading: f64,
 }
 
 impl Mount {
-    /// Mounts a sensor over the middle of the car, this many metres above the ground, looking ahead.
+    /// Makes the mounting of a sensor that looks ahead from `height` metres above the ground at the car's middle.
     pub fn above(height: f64) -> Self {
         Self { position: Vector3::new(0.0, 0.0, height), heading: 0.0 }
     }
 
-    /// Mounts a sensor this many metres ahead of the middle of the car and above the ground, looking ahead.
+    /// Makes the mounting of a sensor that looks ahead, `ahead` metres from the car's middle and `height` metres high.
     pub fn ahead(ahead: f64, height: f64) -> Self {
         Self { position: Vector3::new(ahead, 0.0, height), heading: 0.0 }
     }
 
-    /// Returns the pose of the sensor, seen from above.
+    /// Returns the pose of the sensor in the plane of the world.
     pub fn pose(&self, car: &VehicleState) -> Pose {
         car.pose().then(&Pose { position: self.position.xy(), heading: self.heading })
     }

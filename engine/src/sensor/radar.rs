@@ -15,7 +15,7 @@ use crate::object::{BodyState, Class, Outline};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_3, LN_2, TAU};
 
-/// The entry of this kind of sensor in lists.
+/// The description of radars in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "radar", about: "distance, direction and closing speed of bodies" };
 
@@ -31,25 +31,25 @@ pub struct RadarSettings {
     pub period: f64,
     /// The greatest distance in metres that the radar measures.
     pub range: f64,
-    /// The opening angle in radians.
+    /// The horizontal opening angle of the radar in radians.
     pub field_of_view: f64,
     /// The distance in metres at which a car is detected in half of the sweeps.
     pub half_range: f64,
-    /// The standard deviation of a range in metres.
+    /// The standard deviation of the noise of a measured range, in metres.
     pub range_noise: f64,
-    /// The standard deviation of a range rate in m/s.
+    /// The standard deviation of the noise of a measured range rate, in m/s.
     pub range_rate_noise: f64,
-    /// The standard deviation of an azimuth in radians.
+    /// The standard deviation of the noise of a measured azimuth, in radians.
     pub azimuth_noise: f64,
-    /// The mean number of false detections in a sweep, evenly distributed over ranges and directions of the field.
+    /// The mean number of false detections in a sweep, evenly distributed over ranges and directions.
     pub clutter: f64,
-    /// The greatest range rate of a false detection in m/s, either way.
+    /// The greatest absolute range rate of a false detection in m/s.
     pub clutter_range_rate: f64,
 }
 
 impl Default for RadarSettings {
-    /// Returns the settings of a long-range radar in the front bumper: twenty sweeps a second, 60 degrees, a car at
-    /// 160 m in half of the sweeps, and a false detection in two sweeps.
+    /// Returns the settings of a long-range radar in the front bumper. It makes twenty sweeps a second over 60 degrees,
+    /// with a car at 160 m in half of the sweeps and 0.5 false detections a sweep.
     fn default() -> Self {
         Self {
             mount: Mount::ahead(2.25, 0.5),
@@ -66,7 +66,7 @@ impl Default for RadarSettings {
     }
 }
 
-/// A detection of a radar: a point from which an echo seems to come.
+/// A detection of a radar, which is a point from which an echo seems to come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detection {
     /// The distance of the point, in metres.
@@ -75,21 +75,21 @@ pub struct Detection {
     pub range_rate: f64,
     /// The azimuth of the point, in radians counter-clockwise from the direction of the radar.
     pub azimuth: f64,
-    /// The index of the detected body; `None` for clutter. Only for comparisons: no real radar knows this.
+    /// The index of the detected body; `None` for a false detection. Only for comparisons: no real radar knows this.
     pub body: Option<usize>,
 }
 
-/// A radar. Its reading is the list of detections of a sweep: first those of bodies, then false ones.
+/// A radar, whose reading is the list of detections of a sweep. Detections of bodies come before false detections.
 #[derive(Debug, Clone)]
 pub struct Radar {
     settings: RadarSettings,
 }
 
 impl Radar {
-    /// Makes a radar with these settings.
+    /// Makes a radar with the given settings.
     ///
     /// # Errors
-    /// A setting is out of its range or no number.
+    /// A setting is out of its range or is not a number.
     pub fn new(settings: RadarSettings) -> Result<Self, SensorError> {
         let checks = Checks("radar");
         settings.mount.check(&checks)?;
@@ -105,7 +105,7 @@ impl Radar {
         Ok(Self { settings })
     }
 
-    /// Returns the probability that a sweep detects a body of this class at this distance in metres, if unhidden.
+    /// Returns the probability that a sweep detects an unhidden body of a given class at a given distance in metres.
     pub fn probability(&self, class: Class, range: f64) -> f64 {
         let nearer = self.settings.half_range / range;
         // At the half range, a car has the signal-to-noise ratio that gives a probability of one half.

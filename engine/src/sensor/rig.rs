@@ -1,4 +1,4 @@
-//! The sensors of a car: when each measures, and when its readings arrive.
+//! The sensors of a car: the times at which sensors measure, and at which their readings arrive.
 
 use super::error::{Checks, SensorError};
 use super::{Chance, Sensor, SensorView};
@@ -10,34 +10,34 @@ use std::marker::PhantomData;
 /// A tolerance in seconds, because times are sums of ticks.
 const WHISKER: f64 = 1e-9;
 
-/// The delay and the loss of readings on their way from a sensor.
+/// The delay and the loss of readings on their way from a sensor to the driver.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Delivery {
-    /// The seconds from the measurement to its arrival.
+    /// The seconds between a measurement and its arrival.
     pub latency: f64,
     /// The probability that a reading is lost on the way, independently for each reading.
     pub loss: f64,
 }
 
 impl Delivery {
-    /// Delivers all readings after this many seconds.
+    /// Makes a delivery that takes `latency` seconds and loses no reading.
     pub fn after(latency: f64) -> Self {
         Self { latency, loss: 0.0 }
     }
 }
 
-/// A reading with its number and time.
+/// A reading of a sensor, with its number and time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sample<R> {
-    /// The number of the reading: the k-th reading is due at k periods.
+    /// The number k of the reading, which is due after k periods of the sensor.
     pub number: u64,
     /// The time of the measurement, in seconds since the run began.
     pub time: f64,
-    /// The measured values.
+    /// The values that the sensor has measured.
     pub reading: R,
 }
 
-/// A handle of a sensor in a rig, with which its readings are asked for.
+/// A handle to a sensor in a rig, which gives access to the sensor's readings.
 #[derive(Debug)]
 pub struct Handle<S> {
     index: usize,
@@ -56,12 +56,12 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// Makes a rig without sensors. The seed is that of all noise.
+    /// Makes a rig without sensors. `seed` is the seed of all noise.
     pub fn new(seed: u64) -> Self {
         Self { seed, sensors: Vec::new() }
     }
 
-    /// Attaches a sensor. Its noise depends on its name, and on no other sensor.
+    /// Attaches a sensor to the rig. The noise depends on the sensor's name, and on no other sensor.
     ///
     /// # Errors
     /// Another sensor has that name, the latency is no number from 0 to 100 s, the loss is no probability, or the
@@ -78,7 +78,7 @@ impl Rig {
         Ok(Handle { index: self.sensors.len() - 1, sensor: PhantomData })
     }
 
-    /// Changes the seed.
+    /// Changes the seed of all noise.
     pub(super) fn reseed(&mut self, seed: u64) {
         self.seed = seed;
     }
@@ -88,31 +88,31 @@ impl Rig {
         self.sensors.is_empty()
     }
 
-    /// Forgets everything, because a new run begins.
+    /// Resets all sensors and drops all readings, because a new run begins.
     pub fn reset(&mut self) {
         self.sensors.iter_mut().for_each(|sensor| sensor.reset());
     }
 
-    /// Shows all sensors the next moment: those that are due measure, and readings whose latency has passed arrive.
+    /// Shows all sensors the next moment. Sensors that are due measure, and readings whose latency has passed arrive.
     pub fn see(&mut self, view: &SensorView<'_>) {
         for sensor in &mut self.sensors {
             sensor.see(self.seed, view);
         }
     }
 
-    /// Drops the arrived readings, except for the last of every sensor, so that only later arrivals are new. A run does
-    /// this whenever its driver has answered.
+    /// Drops the arrived readings, except for the last reading of every sensor, so that only later arrivals are new. A
+    /// run calls this whenever its driver has answered.
     pub fn clear(&mut self) {
         self.sensors.iter_mut().for_each(|sensor| sensor.clear());
     }
 
     /// Returns the readings that have arrived from a sensor since the rig was last [cleared](Rig::clear), the earliest
-    /// first. Empty for a sensor of another rig.
+    /// first. The handle must be from this rig.
     pub fn arrived<S: Sensor>(&self, sensor: &Handle<S>) -> &[Sample<S::Reading>] {
         self.port(sensor).map_or(&[], |port| &port.arrived)
     }
 
-    /// Returns the last reading that has arrived from a sensor so far.
+    /// Returns the last reading that has arrived from a sensor; `None` if no reading has arrived yet.
     pub fn latest<S: Sensor>(&self, sensor: &Handle<S>) -> Option<&Sample<S::Reading>> {
         let port = self.port(sensor)?;
         port.arrived.last().or(port.known.as_ref())

@@ -3,12 +3,12 @@
 use crate::object::{BodyState, Class, crosses};
 use nalgebra::Vector2;
 
-/// Returns `true` if bodies of this class are large enough to hide others.
+/// Returns `true` if bodies of this class are large enough to hide other bodies.
 pub(crate) fn hides(class: Class) -> bool {
     matches!(class, Class::Car | Class::Truck | Class::Building)
 }
 
-/// Returns `true` if something large is between two places, except for the car (the first body) and `target`.
+/// Returns `true` if a large body other than the car (the first body) and `target` is between two places.
 pub(super) fn hidden(bodies: &[BodyState], target: usize, from: Vector2<f64>, to: Vector2<f64>) -> bool {
     let between = bodies.iter().enumerate().skip(1).filter(|(index, body)| *index != target && body.present);
     between.filter(|(_, body)| hides(body.body.class)).any(|(_, body)| {

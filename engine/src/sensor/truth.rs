@@ -8,7 +8,7 @@ use crate::geometry::wrapped;
 use crate::object::{Class, gap};
 use nalgebra::{Vector2, Vector3};
 
-/// The entry of this kind of sensor in lists.
+/// The description of the ground truth sensor in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "ground truth",
     about: "all bodies around the car as they truly are, and whether each is hidden",
@@ -17,7 +17,7 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
 /// The settings of a sensor that knows the ground truth, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundTruthSettings {
-    /// The mounting of the sensor, which decides which bodies are hidden.
+    /// The mounting of the sensor, which determines the hidden bodies.
     pub mount: Mount,
     /// The seconds between two readings.
     pub period: f64,
@@ -26,44 +26,44 @@ pub struct GroundTruthSettings {
 }
 
 impl Default for GroundTruthSettings {
-    /// Returns the default settings: ten times a second, up to 100 m, seen from the roof.
+    /// Returns the settings of a sensor on the roof that measures ten times a second, up to 100 m.
     fn default() -> Self {
         Self { mount: Mount::above(1.5), period: 0.1, range: 100.0 }
     }
 }
 
-/// A body as it truly is.
+/// The true state of a body, as seen from the car.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrueBody {
     /// The index of the body among the bodies of the run, of which the ego vehicle has the index 0.
     pub body: usize,
     /// The class of the body.
     pub class: Class,
-    /// The middle of the body's box from the middle of the car's, on the ground: x ahead, y left, z up, in metres.
+    /// The middle of the body's box, in metres from the car's middle on the ground (x ahead, y to the left, z up).
     pub position: Vector3<f64>,
     /// The length, width and height of the body's box in metres.
     pub size: Vector3<f64>,
     /// The direction in which the body points, in radians counter-clockwise from the car's heading.
     pub heading: f64,
-    /// The velocity of the body over the ground in m/s, in the car's directions.
+    /// The velocity of the body over the ground in m/s, along the axes of the car.
     pub velocity: Vector2<f64>,
-    /// The metres of free space between the body and the car.
+    /// The free distance between the body and the car, in metres.
     pub distance: f64,
-    /// True if something large stands between the sensor and the body's middle.
+    /// True if a large body stands between the sensor and the middle of the observed body.
     pub hidden: bool,
 }
 
-/// A sensor that knows the truth of all bodies around the car, including hidden bodies, in the order of the bodies.
+/// A sensor that measures the true states of all bodies around the car, including hidden bodies, in their order.
 #[derive(Debug, Clone)]
 pub struct GroundTruth {
     settings: GroundTruthSettings,
 }
 
 impl GroundTruth {
-    /// Makes a sensor with these settings.
+    /// Makes a ground truth sensor with the given settings.
     ///
     /// # Errors
-    /// A setting is out of its range or no number.
+    /// A setting is out of its range or is not a number.
     pub fn new(settings: GroundTruthSettings) -> Result<Self, SensorError> {
         let checks = Checks("ground truth");
         settings.mount.check(&checks)?;

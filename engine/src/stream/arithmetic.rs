@@ -28,65 +28,65 @@ impl Stream<f64> {
         self.with(NodeKind::Compare(Comparison::AtLeast), &other.into())
     }
 
-    /// Returns the smaller of the values of the two streams; NaN if a value is NaN.
+    /// Returns the smaller value of this stream and the other stream; NaN if a value is NaN.
     pub fn min(&self, other: impl Into<Stream<f64>>) -> Self {
         self.with(NodeKind::Binary(Binary::Least), &other.into())
     }
 
-    /// Returns the larger of the values of the two streams; NaN if a value is NaN.
+    /// Returns the larger value of this stream and the other stream; NaN if a value is NaN.
     pub fn max(&self, other: impl Into<Stream<f64>>) -> Self {
         self.with(NodeKind::Binary(Binary::Greatest), &other.into())
     }
 
-    /// Returns the absolute value of the number.
+    /// Returns the absolute value of the stream's number at each tick.
     pub fn abs(&self) -> Self {
         self.then(NodeKind::Unary(Unary::Absolute))
     }
 
-    /// Returns the square root of the number; NaN if the number is below 0.
+    /// Returns the square root of the stream's number at each tick; NaN if the number is below 0.
     pub fn sqrt(&self) -> Self {
         self.then(NodeKind::Unary(Unary::SquareRoot))
     }
 
-    /// Returns the sum of all values so far, at the ticks at which this stream has a value.
+    /// Returns the sum of all values of the stream so far, at the ticks at which the stream has a value.
     pub fn sum(&self) -> Self {
         self.then(NodeKind::Sum(0.0.into()))
     }
 }
 
 impl Stream<Vector2<f64>> {
-    /// Makes the stream of vectors with these coordinates.
+    /// Makes a stream of vectors from the streams of the vectors' coordinates.
     pub fn vector(x: impl Into<Stream<f64>>, y: impl Into<Stream<f64>>) -> Self {
         x.into().with(NodeKind::Binary(Binary::Vector), &y.into())
     }
 
-    /// Returns the distance in metres from this position to a line, along the line's direction; negative if the
+    /// Returns the distance in metres from the stream's position to a line, along the line's direction; negative if the
     /// position is past the line.
     pub fn distance_to(&self, line: &Line) -> Stream<f64> {
         self.then(NodeKind::Towards(line.clone()))
     }
 
-    /// Returns the length of the vector.
+    /// Returns the length of the stream's vector at each tick.
     pub fn norm(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::Norm))
     }
 
-    /// Returns the scalar product of the vectors of the two streams.
+    /// Returns the scalar product of the vectors of this stream and the other stream.
     pub fn dot(&self, other: impl Into<Stream<Vector2<f64>>>) -> Stream<f64> {
         self.with(NodeKind::Binary(Binary::Dot), &other.into())
     }
 
-    /// Returns the first coordinate of the vector.
+    /// Returns the first coordinate of the stream's vector at each tick.
     pub fn x(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::X))
     }
 
-    /// Returns the second coordinate of the vector.
+    /// Returns the second coordinate of the stream's vector at each tick.
     pub fn y(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::Y))
     }
 
-    /// Returns the sum of all values so far, at the ticks at which this stream has a value.
+    /// Returns the sum of all values of the stream so far, at the ticks at which the stream has a value.
     pub fn sum(&self) -> Self {
         self.then(NodeKind::Sum(Vector2::zeros().into()))
     }

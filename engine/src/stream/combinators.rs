@@ -7,7 +7,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::rc::Rc;
 
-/// A stream of values of type `T`: a cheap handle, see the [module](crate::stream).
+/// A stream of values of type `T`, which is a cheap handle on an expression ([module](crate::stream)).
 pub struct Stream<T> {
     pub(crate) node: Rc<Node>,
     carries: PhantomData<T>,
@@ -25,21 +25,21 @@ impl<T> fmt::Debug for Stream<T> {
     }
 }
 
-/// An effect at the ticks of a stream: [`Stream::for_each`] makes it, and [`Scenario::place`](crate::Scenario::place)
-/// makes it part of the world.
+/// An effect at the ticks of a stream. [`Stream::for_each`] makes the effect, and
+/// [`Scenario::place`](crate::Scenario::place) makes it part of the world.
 #[must_use = "an effect only happens if you place it in the scenario"]
 #[derive(Debug)]
 pub struct Effect(pub(crate) Rc<Node>);
 
 impl Stream<()> {
-    /// Returns the clock: an event at every tick.
+    /// Returns the clock, which is a stream with an event at every tick.
     pub fn tick() -> Self {
         Self::constant(())
     }
 }
 
 impl Stream<f64> {
-    /// Returns the time since the run began, in seconds.
+    /// Returns the stream of the time since the run began, in seconds.
     pub fn time() -> Self {
         Self::new(NodeKind::Time, [])
     }
@@ -51,17 +51,17 @@ impl<T: Datum> Stream<T> {
         Self { node: Rc::new(node), carries: PhantomData }
     }
 
-    /// Returns the stream that has this value at every tick.
+    /// Returns the stream that has the given value at every tick.
     pub fn constant(value: T) -> Self {
         Self::new(NodeKind::Constant { value: samples(value), parameter: None }, [])
     }
 
-    /// Returns the stream of a node, whose values must have this type.
+    /// Returns the stream of a node, whose values must have the type `T`.
     pub(crate) fn of(node: Rc<Node>) -> Self {
         Self { node, carries: PhantomData }
     }
 
-    /// Returns the stream that has no value at any tick. An input that is bound to nothing reads it.
+    /// Returns the stream that has no value at any tick. An unbound input reads this stream.
     pub fn absent() -> Self {
         Self::new(NodeKind::Constant { value: vec![DatumSample::Absent; T::WIDTH], parameter: None }, [])
     }
@@ -75,7 +75,8 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Named(name.to_owned()))
     }
 
-    /// Applies `f` to the value, at the ticks that have one. `f` should be pure: the number of calls is not defined.
+    /// Applies `f` to the stream's value, at the ticks at which the stream has a value. `f` should be pure: the number
+    /// of calls is not defined.
     pub fn map<U: Datum>(&self, f: impl Fn(T) -> U + 'static) -> Stream<U> {
         let map = move |input: &[_], output: &mut [_]| {
             if let Some(value) = T::get(input) {
@@ -85,39 +86,39 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Map(Rc::new(map)))
     }
 
-    /// Returns the stream at the ticks for whose value `keep` is true; absent at all others.
+    /// Returns the stream at the ticks at which `keep` is true for the value; absent at all other ticks.
     pub fn filter(&self, keep: impl Fn(T) -> bool + 'static) -> Self {
         self.then(NodeKind::Filter(Rc::new(move |input: &[_]| T::get(input).is_some_and(&keep))))
     }
 
-    /// Returns the stream at the ticks at which `event` occurs; absent at all others.
+    /// Returns the stream at the ticks at which `event` occurs; absent at all other ticks.
     pub fn when<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::When, event)
     }
 
-    /// Returns the pair of both values, at the ticks at which both streams have one.
+    /// Returns the pair of the values of two streams, at the ticks at which both streams have a value.
     pub fn zip<U: Datum>(&self, other: &Stream<U>) -> Stream<(T, U)> {
         Stream::new(NodeKind::Zip, [self.node.clone(), other.node.clone()])
     }
 
-    /// Returns the first `count` values; over after them.
+    /// Returns the first `count` values of the stream; over after the last of these values.
     pub fn take(&self, count: usize) -> Self {
         self.then(NodeKind::Take(count))
     }
 
-    /// Returns the stream until it is over, then `next` as it is at those ticks: nothing is queued or begun anew.
+    /// Returns this stream until it is over, and from then on the present values of `next`, which are not queued.
     pub fn concat(&self, next: &Stream<T>) -> Self {
         self.with(NodeKind::Concat, next)
     }
 
-    /// Returns `value` at the first tick, and the stream from then on: Lustre's `->`. With [`Stream::pre`], it gives a
-    /// feedback its first value: `x.pre().initially(0.0)`.
+    /// Returns `value` at the first tick, and this stream from then on, like Lustre's `->`. With [`Stream::pre`], it
+    /// gives a feedback its first value: `x.pre().initially(0.0)`.
     pub fn initially(&self, value: impl Into<Stream<T>>) -> Self {
         value.into().take(1).concat(self)
     }
 
-    /// Folds the values, at the ticks that have one: the result is `f` of the previous result (`initial` at first) and
-    /// the value. `f` should be a pure function.
+    /// Folds the values of the stream, at the ticks at which it has a value. The result is `f` of the previous result
+    /// (`initial` at first) and the value. `f` should be a pure function.
     pub fn scan<A: Datum>(&self, initial: A, f: impl Fn(A, T) -> A + 'static) -> Stream<A> {
         let step = move |sum: &mut [_], input: &[_]| {
             if let (Some(before), Some(value)) = (A::get(sum), T::get(input)) {
@@ -127,37 +128,37 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Scan { initial: samples(initial), step: Rc::new(step) })
     }
 
-    /// Returns the stream at the ticks at which it has a value, and `other` at the ticks at which only `other` has one.
+    /// Returns the value of this stream, and the value of `other` at the ticks at which only `other` has a value.
     pub fn merge(&self, other: &Stream<T>) -> Self {
         self.with(NodeKind::Merge, other)
     }
 
-    /// Returns the stream until before the first tick at which `event` occurs; over from that tick on.
+    /// Returns the stream before the first tick at which `event` occurs; over from that tick on.
     pub fn take_until<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::TakeUntil, event)
     }
 
-    /// Returns the stream from the first tick at which `event` occurs; absent before.
+    /// Returns the stream from the first tick on at which `event` occurs; absent before that tick.
     pub fn skip_until<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::SkipUntil, event)
     }
 
-    /// Returns the stream's value at the tick before: absent if it was absent then, and at the first tick.
+    /// Returns the stream's value at the previous tick; absent at the first tick and after an absent value.
     pub fn pre(&self) -> Self {
         self.then(NodeKind::Pre)
     }
 
-    /// Returns the latest value, or `initial` before the first one: a value at every tick.
+    /// Returns the latest value of the stream at every tick, or `initial` before the first value.
     pub fn hold(&self, initial: T) -> Self {
         self.then(NodeKind::Hold { initial: samples(initial) })
     }
 
-    /// Is true at the ticks at which both streams have the same value.
+    /// Returns a stream that is true at the ticks at which both streams have the same value.
     pub fn equals(&self, other: impl Into<Stream<T>>) -> Stream<bool> {
         Stream::new(NodeKind::Equal, [self.node.clone(), other.into().node])
     }
 
-    /// Calls `f` with the value, at the ticks that have one. The returned effect has to be placed in the scenario.
+    /// Returns an effect that calls `f` with each value of the stream. The effect has to be placed in the scenario.
     pub fn for_each(&self, mut f: impl FnMut(T) + 'static) -> Effect {
         let effect = move |input: &[_]| T::get(input).map_or((), &mut f);
         let effect: Stream<()> = self.then(NodeKind::ForEach(Rc::new(RefCell::new(effect))));

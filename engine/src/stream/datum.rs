@@ -2,7 +2,8 @@
 
 use nalgebra::Vector2;
 
-/// A value at one tick, or a part of it. It is public only because [`Datum`] uses it; other crates cannot name it.
+/// A stream's value at one tick, or a part of such a value. It is public only because [`Datum`] uses it; other crates
+/// cannot name it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DatumSample {
     Absent,
@@ -19,16 +20,16 @@ impl DatumSample {
     }
 }
 
-/// The types that streams carry: numbers (`f64`, `i32`), truths (`bool`), words (`&'static str`), vectors in the ground
-/// plane (`Vector2<f64>`), the bare event `()`, and pairs of these.
+/// A type of values that streams carry. The types are numbers (`f64`, `i32`), truths (`bool`), words (`&'static str`),
+/// vectors in the ground plane (`Vector2<f64>`), the bare event `()`, and pairs of these.
 pub trait Datum: Copy + 'static {
-    /// The number of samples that a value takes. The value is absent if its first sample is.
+    /// The number of samples that a value takes. The value is absent if its first sample is absent.
     #[doc(hidden)]
     const WIDTH: usize;
-    /// Writes the value over the first samples.
+    /// Writes the value to the first samples of a list.
     #[doc(hidden)]
     fn put(self, samples: &mut [DatumSample]);
-    /// Reads the value from the first samples.
+    /// Reads the value from the first samples of a list; `None` if the value is absent.
     #[doc(hidden)]
     fn get(samples: &[DatumSample]) -> Option<Self>;
 }

@@ -6,9 +6,9 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::rc::Rc;
 
-/// Writes a graph with its readers. Outputs of objects are boxes, parameters ellipses, and readers bold boxes. The
-/// input of a `pre`, which it takes from the tick before, is a dashed line. If the order of two inputs matters, their
-/// lines are numbered.
+/// Writes a graph of streams with its readers as DOT. Outputs of objects are boxes, parameters ellipses, and readers
+/// bold boxes. The input of a `pre`, which is from the tick before, is a dashed line. If the order of two inputs
+/// matters, their lines are numbered.
 pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, GraphFlaw> {
     let ordered = order(readers.iter().map(|(_, node)| node), equations)?;
     let mut names: HashMap<*const Node, Vec<&str>> = HashMap::new();

@@ -6,8 +6,8 @@ use std::cell::RefCell;
 use std::ops::Deref;
 use std::rc::Rc;
 
-/// A stream that was announced by [`Scenario::forward`](crate::Scenario::forward) and is defined later. It can be used
-/// like any other stream, before and after its definition.
+/// A stream that was announced by [`Scenario::forward`](crate::Scenario::forward) and is defined later. A program can
+/// use it like any other stream, before and after its definition.
 #[derive(Debug)]
 pub struct Forward<T> {
     pub(crate) stream: Stream<T>,
@@ -17,7 +17,7 @@ pub struct Forward<T> {
 }
 
 impl<T> Forward<T> {
-    /// Defines the stream. A second definition is a mistake of the scenario.
+    /// Sets the definition of the stream. A second definition is a mistake of the scenario.
     pub fn define(&self, definition: impl Into<Stream<T>>) {
         let equation = &mut self.equations.borrow_mut()[self.equation];
         equation.is_defined_twice |= equation.definition.replace(definition.into().node).is_some();

@@ -7,11 +7,12 @@ use paracosm_space::Shape;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// The place of a node's value.
+/// The place of a node's value in the memory of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot(usize);
 
-/// The time of an evaluation: the tick from 0, the number of ticks in the run, and the duration of a tick in seconds.
+/// The time of an evaluation, as the tick from 0, the number of ticks in the run, and the duration of a tick in
+/// seconds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     pub tick: usize,
@@ -39,7 +40,7 @@ enum Memory {
     Occurred(bool),
     /// The number of values that are still to come.
     Left(usize),
-    /// A value, and whether the stream is over.
+    /// A value, and true if the stream is over.
     Value {
         samples: Vec<DatumSample>,
         over: bool,
@@ -53,7 +54,7 @@ enum Memory {
 pub(crate) struct Graph {
     operations: Vec<Operation>,
     values: Vec<DatumSample>,
-    /// For each value, whether its stream is over.
+    /// For each value, true if its stream is over.
     over: Vec<bool>,
     /// The operations that take in their operand when the tick is over.
     delays: Vec<usize>,
@@ -64,7 +65,7 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// Lays out the roots and all nodes that they depend on.
+    /// Lays out the given roots and all nodes that the roots depend on.
     pub fn new<'a>(
         roots: impl IntoIterator<Item = &'a Rc<Node>>,
         equations: &'a [Equation],
@@ -123,7 +124,7 @@ impl Graph {
         Slot(at)
     }
 
-    /// Returns the place of a node's value.
+    /// Returns the place of a node's value in the memory of the graph.
     ///
     /// # Panics
     /// The node is not in the graph.
@@ -147,7 +148,7 @@ impl Graph {
         }
     }
 
-    /// Returns the value in a slot at the last tick; `None` if it was absent.
+    /// Returns the value in a slot at the last tick; `None` if the value was absent.
     pub fn value<T: Datum>(&self, slot: Slot) -> Option<T> {
         T::get(&self.values[slot.0..])
     }

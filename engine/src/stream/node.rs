@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;
 
-/// An output of an object at the beginning of a tick: the index of its first sample among the samples of all outputs.
+/// An output of an object, as the index of its first sample among the samples of all outputs at the start of a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Source(pub usize);
 
@@ -104,16 +104,16 @@ pub(crate) enum NodeKind {
     ForEach(Effect),
 }
 
-/// A node of the graph.
+/// A node of the graph of streams.
 pub(crate) struct Node {
     pub kind: NodeKind,
-    /// The nodes that this node reads: none, one or two.
+    /// The nodes that this node reads (none, one or two).
     pub inputs: Vec<Rc<Node>>,
     /// The number of samples of the node's value.
     pub width: usize,
 }
 
-/// The definition of a forward stream, once it is known: an equation `name = definition`.
+/// The equation `name = definition` of a forward stream, with a definition once it is known.
 #[derive(Debug, Clone)]
 pub(crate) struct Equation {
     pub name: String,
@@ -122,7 +122,7 @@ pub(crate) struct Equation {
 }
 
 impl Node {
-    /// Returns the name of the node for pictures that show its inputs beside it.
+    /// Returns the label of the node in pictures that also show the inputs of the node.
     pub fn label(&self) -> String {
         match &self.kind {
             NodeKind::Constant { value, parameter: None } => value.iter().map(text).collect::<Vec<_>>().join(", "),
@@ -144,8 +144,8 @@ impl Node {
         }
     }
 
-    /// Returns `true` if two nodes mean the same: the same operations on the same inputs. Closures mean the same only
-    /// if they are the same closure.
+    /// Returns `true` if two nodes mean the same, which is the same operations on the same inputs. Closures mean the
+    /// same only if they are the same closure.
     pub fn means(self: &Rc<Self>, other: &Rc<Self>) -> bool {
         let (left, right) = (self.unnamed(), other.unnamed());
         if Rc::ptr_eq(left, right) {
@@ -173,7 +173,7 @@ impl Node {
         matches!(self.kind, NodeKind::Output { .. })
     }
 
-    /// Returns the node behind the names that the program has given it.
+    /// Returns the node without the names that the program has given to the node.
     pub fn unnamed(self: &Rc<Self>) -> &Rc<Self> {
         match self.kind {
             NodeKind::Named(_) => self.inputs[0].unnamed(),

@@ -1,4 +1,4 @@
-//! Finds the order in which the nodes of a graph are evaluated, or the reason why there is none.
+//! Finds the order in which the nodes of a graph are evaluated, or the reason why no order exists.
 //!
 //! Operands come before the nodes that use them, but a `pre` uses its operand only once the tick is over. The rest is a
 //! depth-first search (Tarjan, SIAM J. Comput. 1, 1972) that stops at the first node it meets again on its own path.
@@ -9,7 +9,7 @@ use std::collections::{HashMap, VecDeque};
 use std::rc::Rc;
 use thiserror::Error;
 
-/// The reason why a graph of streams has no meaning.
+/// The reason why a graph of streams cannot be evaluated.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum GraphFlaw {
     /// A stream is read but not defined.
@@ -18,10 +18,11 @@ pub enum GraphFlaw {
         /// The name of the stream.
         stream: String,
     },
-    /// Streams depend on themselves within a tick.
+    /// A stream depends on its own value at the same tick.
     #[error("a stream depends on its own value at the same tick: {}; put a `pre` on this cycle", circle(.labels))]
     Cycle {
-        /// The labels of the nodes. Each node is an operand of the next, and the last node an operand of the first.
+        /// The labels of the nodes on the cycle. Each node is an operand of the next, and the last node an operand of
+        /// the first.
         labels: Vec<String>,
     },
 }

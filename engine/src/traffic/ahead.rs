@@ -31,22 +31,22 @@ pub(super) struct View<'a> {
 /// The limits of how a car may drive on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead {
-    /// The acceleration by the model in m/s²: in total, and because of the body ahead alone.
+    /// The acceleration of the car in m/s² that the driver model demands; `following` counts only the body ahead.
     pub acceleration: f64,
     pub following: f64,
-    /// The greatest safe speed in m/s after this step.
+    /// The greatest safe speed of the car after this step, in m/s.
     pub safe: f64,
     pub ask: Option<Ask>,
-    /// The distance from the front to the place where the car will stop by itself, apart from the line of `ask`.
+    /// The distance in metres from the car's front to the next place where it has to stop, without the line of `ask`.
     pub wall: f64,
-    /// `true` if the path is too short to decide.
+    /// `true` if the known path of the car is too short for a decision.
     pub short: bool,
     /// The rear of the nearest body ahead once the body has stopped, relative to the car's middle.
     held_up: f64,
 }
 
 impl Ahead {
-    /// Returns the limits of a car that has left the network: none.
+    /// Returns empty limits, for a car that has left the network.
     pub fn nothing() -> Self {
         let (short, far) = (false, f64::INFINITY);
         Self { acceleration: 0.0, following: 0.0, safe: far, ask: None, wall: far, short, held_up: far }
@@ -60,7 +60,7 @@ impl Ahead {
         self.safe = self.safe.min(safe_speed(car.speed, gap, speed, car.braking, dt));
     }
 
-    /// Takes account of a place to stop at, `distance` metres ahead.
+    /// Lowers the limits so that the car stops within `distance` metres.
     pub fn stop(&mut self, car: &Car, distance: f64, dt: f64) {
         let stopping = car.idm.following(car.speed, car.desired, distance + car.idm.gap, 0.0);
         self.acceleration = self.acceleration.min(stopping);
@@ -76,7 +76,7 @@ impl Ahead {
 }
 
 impl View<'_> {
-    /// Returns what lies ahead of a car, except lines that it has no leave to pass: where it asks for leave, it brakes.
+    /// Returns the limits that everything ahead sets to a car, without the next line that the car needs leave to pass.
     pub fn ahead_of(&self, index: usize, dt: f64) -> Ahead {
         let car = &self.cars[index];
         let free = car.idm.free(car.speed, car.desired);
@@ -246,8 +246,8 @@ impl View<'_> {
         }
     }
 
-    /// Returns the gap to the next car ahead once both cars have joined. `end` is the distance to the end of this car's
-    /// lane, `rear` the place of the other car's rear along its own lane.
+    /// Returns the gap in metres between two cars after both cars have joined the same lane. `end` is the distance to
+    /// the end of this car's lane, `rear` the place of the other car's rear along its own lane.
     pub fn joining_gap(&self, end: f64, rival: &Rival, rear: f64) -> f64 {
         end - (self.map.length(rival.lane) - rear) - JOINING
     }

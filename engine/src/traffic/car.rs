@@ -17,7 +17,7 @@ const MOST_ARMS: usize = 3;
 /// The metres of a lane that each scattered car has for itself.
 const SLOT: f64 = 9.0;
 
-/// The description of a car of the traffic.
+/// The description of a car that takes part in simulated traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficCar {
     pub(super) start: RoutePosition,
@@ -42,7 +42,7 @@ pub(super) enum Way {
 }
 
 impl TrafficCar {
-    /// Makes a car of 4.5 m by 1.8 m that stands with its middle at this place. It drives at 50 km/h on a free road and
+    /// Makes a car of 4.5 m by 1.8 m that stands with its middle at `start`. It drives at 50 km/h on a free road and
     /// turns at random.
     pub fn at(start: RoutePosition) -> Self {
         Self {
@@ -60,7 +60,7 @@ impl TrafficCar {
         }
     }
 
-    /// Makes a car that drives along a route, from its start to its end, and stays there.
+    /// Makes a car that drives along a route from the start to the end, and stays at the end.
     ///
     /// # Panics
     /// The route has no lanes.
@@ -87,39 +87,39 @@ impl TrafficCar {
         self.start
     }
 
-    /// Sets the speed in m/s at which the car drives if nothing hinders it.
+    /// Sets the speed in m/s at which the car drives on a free road.
     pub fn desired_speed(mut self, speed: f64) -> Self {
         self.desired = speed;
         self
     }
 
-    /// Sets the speed in m/s at which the car begins.
+    /// Sets the speed in m/s that the car has at the start.
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
     }
 
-    /// Sets the parameters by which the car follows other cars.
+    /// Sets the parameters of the model by which the car follows other cars.
     pub fn idm(mut self, idm: Idm) -> Self {
         self.idm = idm;
         self
     }
 
-    /// Sets the length and width in metres. A car larger than a van of 7 m by 2.3 m reaches into the neighbouring lane
-    /// when it turns at an intersection: its middle stays on its lane, and its rear does not cut the corner.
+    /// Sets the length and width of the car in metres. A car larger than a van of 7 m by 2.3 m reaches into the
+    /// neighbouring lane in a turn: its middle stays on its lane, and its rear does not cut the corner.
     pub fn size(mut self, length: f64, width: f64) -> Self {
         self.length = length;
         self.width = width;
         self
     }
 
-    /// Sets how many metres to the right of the middle of its lane the car drives.
+    /// Sets the distance in metres at which the car drives to the right of the middle of its lane.
     pub fn keeping_right(mut self, metres: f64) -> Self {
         self.offset = -metres;
         self
     }
 
-    /// Lets the car change lanes if it can then drive faster, by the model MOBIL. By default, a car changes lanes only
+    /// Lets the car change lanes by the model MOBIL in order to drive faster. By default, a car changes lanes only
     /// where its route does.
     pub fn changing_lanes(mut self) -> Self {
         self.changes_lanes = true;
@@ -132,19 +132,19 @@ impl TrafficCar {
         self
     }
 
-    /// Sets the colour that the car has as an object of a scenario, instead of the usual colour.
+    /// Sets the colour of the car as an object of a scenario, instead of the usual colour.
     pub fn coloured(mut self, colour: Colour) -> Self {
         self.colour = Some(colour);
         self
     }
 
-    /// Lets the car begin at the speed at which it drives if nothing hinders it.
+    /// Lets the car start at its desired speed.
     pub fn moving(self) -> Self {
         Self { speed: self.desired, ..self }
     }
 
-    /// Returns a similar car with its own driver, at random from `seed`: up to 10 % longer or shorter, up to 16 %
-    /// faster or slower, and up to 20 % away in the parameters by which it follows others.
+    /// Returns a similar car with random changes of its size and its driver, which follow from `seed`. The car is up to
+    /// 10 % longer or shorter and up to 16 % faster or slower; its parameters as a follower change by up to 20 %.
     pub fn varied(self, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
         let mut near = |value: f64, share: f64| value * random.random_range(1.0 - share..=1.0 + share);
@@ -163,12 +163,12 @@ impl TrafficCar {
         }
     }
 
-    /// Makes a van of 6 m by 2.1 m.
+    /// Makes a van of 6 m by 2.1 m that starts at a place.
     pub fn van(start: RoutePosition) -> Self {
         Self::at(start).size(6.0, 2.1)
     }
 
-    /// Makes a lorry of 10 m by 2.5 m for lanes straight on. It accelerates about half as fast as a car.
+    /// Makes a lorry of 10 m by 2.5 m for routes that lead straight on. It accelerates about half as fast as a car.
     pub fn lorry(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, ..Idm::default() };
         Self::at(start).size(10.0, 2.5).idm(idm)
@@ -180,8 +180,8 @@ impl TrafficCar {
         Self::at(start).size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0).idm(idm)
     }
 
-    /// Returns `count` cars at different random places on the roads of a network, or fewer if there is no room. Each is
-    /// made by [`TrafficCar::at`].
+    /// Returns `count` cars at different random places on the roads of a network, or fewer cars if there is no more
+    /// room. Each is made by [`TrafficCar::at`].
     pub fn scattered(network: &RoadNetwork, count: usize, seed: u64) -> Vec<Self> {
         let mut places = Vec::new();
         for (id, lane) in network.ids().zip(network.lanes()).filter(|(_, lane)| lane.kind == LaneKind::Road) {
@@ -291,7 +291,7 @@ pub(super) enum Itinerary {
 }
 
 impl Itinerary {
-    /// Returns the itinerary of a car after its first lane, and the place along its last lane where it ends.
+    /// Returns the itinerary of a car after its first lane, and the end of the itinerary in metres along its last lane.
     pub fn of(car: &TrafficCar, index: usize, seed: u64) -> (Self, f64) {
         match &car.way {
             Way::Wander => (Self::Wander(Pcg64::new(u128::from(seed), index as u128), 0), f64::INFINITY),
@@ -304,7 +304,7 @@ impl Itinerary {
         }
     }
 
-    /// Returns the lane after `last`, if the itinerary goes on.
+    /// Returns the lane that the car takes after the lane `last`; `None` if the itinerary ends with this lane.
     pub fn next(&mut self, last: LaneId, network: &RoadNetwork) -> Option<LaneId> {
         match self {
             Self::Wander(random, arms) => {
@@ -333,7 +333,7 @@ impl Itinerary {
         }
     }
 
-    /// Returns the end of the itinerary, if there is one: `end` metres along its last lane.
+    /// Returns the end of the itinerary, `end` metres along its last lane; `None` if the itinerary has no end.
     pub fn goal(&self, end: f64) -> Option<RoutePosition> {
         match self {
             Self::Lanes { lanes, circular: false, .. } => {
@@ -343,7 +343,7 @@ impl Itinerary {
         }
     }
 
-    /// Returns `true` if the car may choose another way.
+    /// Returns `true` if the car has no fixed route and may choose another way.
     pub fn is_free(&self) -> bool {
         matches!(self, Self::Wander(..))
     }

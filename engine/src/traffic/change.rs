@@ -62,7 +62,7 @@ impl Car {
 }
 
 impl View<'_> {
-    /// Returns the lane change that a car wants and may begin now.
+    /// Returns the lane change that a car wants to make and may begin now; `None` without such a lane change.
     pub fn wanted_change(&self, index: usize, ahead: &Ahead, dt: f64) -> Option<(Side, LaneId, f64)> {
         let car = &self.cars[index];
         let lane = self.map.network.lane(car.lane);

@@ -13,15 +13,15 @@ const RESERVE: f64 = 0.5;
 /// The parameters of the intelligent driver model. By default, they describe a driver in a town.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Idm {
-    /// The greatest acceleration, a in the paper, in m/s².
+    /// The greatest acceleration of the car, a in the paper, in m/s².
     pub acceleration: f64,
-    /// The comfortable deceleration, b in the paper, in m/s².
+    /// The comfortable deceleration of the car, b in the paper, in m/s².
     pub deceleration: f64,
-    /// The time headway T in s.
+    /// The desired time headway to the car ahead, T in the paper, in s.
     pub headway: f64,
-    /// The gap s0 at standstill in metres.
+    /// The desired gap to the car ahead at standstill, s0 in the paper, in metres.
     pub gap: f64,
-    /// The exponent δ of the free acceleration.
+    /// The exponent of the acceleration on a free road, δ in the paper.
     pub exponent: f64,
 }
 
@@ -32,8 +32,8 @@ impl Default for Idm {
 }
 
 impl Idm {
-    /// Returns the acceleration in m/s² on a free road at a speed, for a `desired` speed. A car that is too fast brakes
-    /// with at most the comfortable deceleration.
+    /// Returns the acceleration in m/s² of a car at the speed `speed` on a free road, with the desired speed `desired`.
+    /// A car that is too fast brakes with at most the comfortable deceleration.
     pub fn free(&self, speed: f64, desired: f64) -> f64 {
         if desired <= 0.0 {
             return if speed > 0.0 { -self.deceleration } else { 0.0 };
@@ -43,7 +43,7 @@ impl Idm {
         (self.acceleration * (1.0 - power)).max(-self.deceleration)
     }
 
-    /// Returns the acceleration in m/s² behind a body at the speed `ahead` in m/s, `gap` metres from bumper to bumper.
+    /// Returns the acceleration in m/s² of a car `gap` metres (bumper to bumper) behind a body with the speed `ahead`.
     pub fn following(&self, speed: f64, desired: f64, gap: f64, ahead: f64) -> f64 {
         let share = self.desired_gap(speed, ahead) / gap.max(0.1);
         self.free(speed, desired) - self.acceleration * share * share

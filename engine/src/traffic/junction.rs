@@ -45,9 +45,9 @@ const TRUSTED: f64 = 1.0;
 /// The lanes of an intersection that a car drives over between two places where it may stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passage {
-    /// The last lane of the passage, by its index in the path.
+    /// The index of the passage's last lane in the path of the car.
     pub last: usize,
-    /// `true` if there is room behind the passage.
+    /// `true` if the car has room behind the end of the passage.
     pub sure: bool,
 }
 
@@ -267,7 +267,7 @@ impl View<'_> {
         })
     }
 
-    /// Returns `true` if a car may have the claim that it asks for.
+    /// Returns `true` if a car may get the claim that it asks for.
     pub fn may_go(&self, asker: &Asker, askers: &[Asker], asking: &Lists<usize>) -> bool {
         let car = &self.cars[asker.car];
         let mut base = asker.ask.base;

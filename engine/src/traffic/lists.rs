@@ -40,7 +40,7 @@ impl<T> Lists<T> {
         *head = self.nodes.len() as u32 - 1;
     }
 
-    /// Returns the items that were added for a lane, with their owners.
+    /// Returns the items that were added for a lane, each with the index of its owner.
     pub fn on(&self, lane: LaneId) -> impl Iterator<Item = (usize, &T)> {
         let mut next = self.heads[lane.index()];
         std::iter::from_fn(move || {

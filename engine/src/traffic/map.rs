@@ -18,9 +18,9 @@ pub(super) const BEFORE_ZONE: f64 = 1.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rival {
     pub lane: LaneId,
-    /// The place along this lane from which on a car on it is in the way of the other lane.
+    /// The place on this lane in metres beyond which a car blocks the other lane.
     pub from: f64,
-    /// The beginning and end of the zone along the other lane in which a car is in the way of this lane.
+    /// The beginning and the end of the zone of the other lane in which a car blocks this lane, in metres.
     pub other: (f64, f64),
     /// `true` if this lane gives way to the other lane. `given_way` is `true` if the other lane gives way to this lane.
     pub gives_way: bool,
@@ -33,7 +33,7 @@ pub(super) struct Rival {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fork {
     pub lane: LaneId,
-    /// The places along this lane and along the other lane up to which the lanes are too close.
+    /// The places in metres along this lane and along the other lane up to which the lanes are too close.
     pub apart: (f64, f64),
 }
 
@@ -112,7 +112,7 @@ impl Map {
         self.lanes[lane.index()].speed
     }
 
-    /// Returns the place where cars wait before a lane that has rivals.
+    /// Returns the place where cars wait before they enter a conflict with another lane, in metres along the lane.
     pub fn line(&self, lane: LaneId) -> f64 {
         self.lanes[lane.index()].line
     }
@@ -122,7 +122,7 @@ impl Map {
         self.lanes[lane.index()].road
     }
 
-    /// Returns `true` if cars do not stop between the previous lane and this lane: in a roundabout with several lanes.
+    /// Returns `true` if cars do not stop between the previous lane and this lane, as in a wide roundabout.
     pub fn is_through(&self, lane: LaneId) -> bool {
         self.lanes[lane.index()].through
     }
@@ -142,12 +142,12 @@ impl Map {
         self.network.lane(lane).beside().any(|beside| beside == other)
     }
 
-    /// Returns the road lane that continues this lane at its end, if this lane leads nowhere else.
+    /// Returns the only successor of this lane if the successor runs along a road; otherwise `None`.
     pub fn road_after(&self, lane: LaneId) -> Option<LaneId> {
         self.only_road(&self.network.lane(lane).successors)
     }
 
-    /// Returns the road lane that leads to this lane, if no other lane does.
+    /// Returns the only predecessor of this lane if the predecessor runs along a road; otherwise `None`.
     pub fn road_before(&self, lane: LaneId) -> Option<LaneId> {
         self.only_road(&self.network.lane(lane).predecessors)
     }
@@ -165,7 +165,7 @@ impl Map {
     }
 }
 
-/// Returns how far along a lane the lane `other`, which begins at the same place, is too close.
+/// Returns the distance in metres along a lane over which the lane `other` from the same place is too close.
 fn parted(network: &RoadNetwork, lane: LaneId, other: LaneId) -> f64 {
     let (lane, other) = (network.lane(lane), network.lane(other));
     let steps = (lane.length() / STEP).ceil() as usize;

@@ -55,7 +55,7 @@ use std::sync::Arc;
 /// The seconds between two decisions of a car about a lane change.
 const THOUGHT: f64 = 1.0;
 
-/// Cars on a road network.
+/// A simulation of cars that drive by themselves on a road network.
 #[derive(Debug)]
 pub struct Traffic {
     map: Map,
@@ -75,10 +75,10 @@ pub struct Traffic {
     near: Near,
 }
 
-/// The present state of a car.
+/// The present state of a car of the traffic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CarState {
-    /// The middle of the car's rectangle, and its heading.
+    /// The position of the car's middle, and the car's heading.
     pub pose: Pose,
     /// The length of the car in metres.
     pub length: f64,
@@ -90,15 +90,15 @@ pub struct CarState {
     pub acceleration: f64,
     /// The lane of the car; from the beginning of a lane change on, the new lane.
     pub lane: LaneId,
-    /// The place of the car's middle, in metres along the lane.
+    /// The place of the car's middle, in metres along the car's lane.
     pub s: f64,
-    /// The distance from the middle of the lane in metres, positive to the left.
+    /// The distance of the car from the middle of its lane in metres, positive to the left.
     pub offset: f64,
-    /// The side to which the car is changing lanes.
+    /// The side to which the car is changing lanes; `None` if the car keeps its lane.
     pub indicator: Option<Side>,
     /// The distance in metres that the car has travelled.
     pub travelled: f64,
-    /// `true` if the car has driven out of the network. It is nowhere then.
+    /// `true` if the car has driven out of the network. Then it has no place.
     pub gone: bool,
 }
 

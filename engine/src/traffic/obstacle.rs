@@ -11,10 +11,10 @@ use crate::geometry::Pose;
 use crate::road::{Bounds, Crossing, LaneId, RoadNetwork};
 use nalgebra::Vector2;
 
-/// A body that cars stop for: the ego vehicle, a pedestrian, or an object that stands in the way.
+/// A body for which traffic cars stop, such as the ego vehicle, a pedestrian, or an object that stands in the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Obstacle {
-    /// The middle of the body's rectangle, and its heading.
+    /// The position of the body's middle, and the body's heading.
     pub pose: Pose,
     /// The length of the body in metres.
     pub length: f64,

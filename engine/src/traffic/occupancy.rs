@@ -9,10 +9,10 @@ use crate::road::LaneId;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Body {
     pub lane: LaneId,
-    /// The rear and the front of the body, in metres along the lane; they may lie beyond its ends.
+    /// The place of the body's rear (here) and front (`front`), in metres along the lane or beyond the lane's ends.
     pub rear: f64,
     pub front: f64,
-    /// The speed along the lane, in m/s.
+    /// The speed of the body along the lane, in m/s.
     pub speed: f64,
     pub who: Who,
 }
@@ -20,11 +20,11 @@ pub(super) struct Body {
 /// The kind of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Who {
-    /// A car of the traffic.
+    /// A car of the traffic on its own lane, by the index of the car.
     Car(u32),
-    /// The same car, on the lane that it is leaving.
+    /// A car of the traffic on the lane that it is leaving, by the index of the car.
     Leaving(u32),
-    /// Another body, which will be there in `soon` seconds.
+    /// A body that is not part of the traffic and will be on the lane in `soon` seconds.
     Foreign { soon: f64 },
     /// A zebra crossing that a person is walking over.
     Zebra,
@@ -35,7 +35,7 @@ impl Body {
         0.5 * (self.rear + self.front)
     }
 
-    /// Returns the index of the traffic car, if the body is a car of the traffic.
+    /// Returns the index of the car in the traffic; `None` if the body is not a car of the traffic.
     pub fn car(&self) -> Option<usize> {
         match self.who {
             Who::Car(car) | Who::Leaving(car) => Some(car as usize),
@@ -73,7 +73,7 @@ impl Occupancy {
         }
     }
 
-    /// Empties the list of bodies to sort and fills it again: `place` adds the bodies of each car.
+    /// Empties the list of bodies to sort and fills it again by `place`, which adds the bodies of a car.
     pub fn clear(&mut self, mut place: impl FnMut(u32, &mut Vec<Body>)) {
         self.unsorted.clear();
         for car in &self.order {
@@ -81,12 +81,12 @@ impl Occupancy {
         }
     }
 
-    /// Returns the list to which further bodies are added.
+    /// Returns the list of bodies to sort, to which a caller can add further bodies.
     pub fn added(&mut self) -> &mut Vec<Body> {
         &mut self.unsorted
     }
 
-    /// Sorts the bodies that were added.
+    /// Sorts the added bodies by lane, and along each lane.
     pub fn sort(&mut self) {
         for lane in self.used.drain(..) {
             self.ranges[lane.index()] = (0, 0);
@@ -135,7 +135,7 @@ impl Occupancy {
         }
     }
 
-    /// Returns the bodies on a lane, in order.
+    /// Returns the bodies on a lane, in their order along the lane.
     pub fn on(&self, lane: LaneId) -> &[Body] {
         let (begin, end) = self.ranges[lane.index()];
         &self.bodies[begin as usize..end as usize]

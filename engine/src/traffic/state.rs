@@ -17,10 +17,10 @@ const LONGEST_ROUND: f64 = 500.0;
 /// The next line on the path of a car, which it needs leave to pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ask {
-    /// The index in the path of the lane behind the line, and how far ahead of the car's middle this lane begins.
+    /// The index of the lane behind the line in the car's path; `base` is the distance from the car's middle.
     pub index: usize,
     pub base: f64,
-    /// The distance from the car's front to the line.
+    /// The distance from the car's front to the line, in metres.
     pub distance: f64,
     /// `true` if the car has leave to pass the line.
     pub held: bool,
@@ -34,9 +34,9 @@ pub(super) struct Claim {
     pub lane: LaneId,
     /// The distance that the car will have travelled when its middle is at the beginning of the lane.
     pub start: f64,
-    /// The same for the first of the lanes that were claimed together.
+    /// The value of `start` of the first lane among the lanes that were claimed together.
     pub entry: f64,
-    /// The order in which claims are served; claims that were given together share the number.
+    /// The number of the claim in the order of service; claims that were given together share the number.
     pub turn: u64,
     /// `true` if the car is sure to leave the lane soon.
     pub sure: bool,
@@ -48,11 +48,11 @@ pub(super) struct Change {
     pub side: Side,
     /// The lane that the car is leaving.
     pub from: Option<LaneId>,
-    /// The offset at the start of the lane change: how far to the left of its place on the new lane the car was.
+    /// The distance of the car to the left of its place on the new lane at the start of the lane change, in metres.
     pub start: f64,
-    /// The progress from 0 to 1.
+    /// The progress of the lane change, from 0 to 1.
     pub progress: f64,
-    /// The duration in seconds.
+    /// The duration of the lane change in seconds.
     pub duration: f64,
 }
 
@@ -63,17 +63,17 @@ pub(super) struct Car {
     pub idm: Idm,
     /// The hardest braking of the car on this road, in m/s².
     pub braking: f64,
-    /// The share of the comfortable speed in bends that the road allows.
+    /// The share of the comfortable speed in bends that the friction of the road allows.
     pub grip: f64,
     /// The distance in metres at which the car drives to the left of the middle of its lane.
     keeps: f64,
     pub desired: f64,
-    /// The speed that is set from outside.
+    /// The speed of the car in m/s that a caller has set; `None` if the model drives the car.
     pub given: Option<f64>,
     pub heedless: bool,
     pub changes_lanes: bool,
     pub itinerary: Itinerary,
-    /// The end of the route, in metres along its last lane.
+    /// The end of the car's way in metres along its last lane; infinite for a way without an end.
     pub end: f64,
     pub lane: LaneId,
     /// The place of the car's middle, in metres along the lane.
@@ -81,16 +81,16 @@ pub(super) struct Car {
     pub speed: f64,
     pub acceleration: f64,
     pub travelled: f64,
-    /// The lane of the car and the lanes to come. Each is a successor of the previous lane, or a neighbour of it.
+    /// The lane of the car and the next lanes of its way. Each is a successor of the previous lane, or its neighbour.
     pub path: VecDeque<LaneId>,
     /// `true` if the path holds all lanes of the car's way.
     pub complete: bool,
     /// `true` if the car has driven out of the network.
     pub gone: bool,
     pub claims: Vec<Claim>,
-    /// The lane of an intersection that the car waits for, and since when.
+    /// The lane of an intersection for which the car waits, and the time since which the car waits.
     pub ticket: Option<(LaneId, f64)>,
-    /// The metres from the car's front to the place where it will stop by itself.
+    /// The distance in metres from the car's front to the place where the car will stop by itself.
     pub wall: f64,
     pub change: Option<Change>,
     /// The time of the next decision about a lane change.
@@ -146,25 +146,25 @@ impl Car {
         self.idm.deceleration.min(self.braking)
     }
 
-    /// Returns the speed in m/s that the car may have after the next step, apart from some acceleration: a speed that
-    /// is set from outside applies at once.
+    /// Returns the greater of the car's present speed and the speed that a caller has set, in m/s. A set speed applies
+    /// at once.
     pub fn soon(&self) -> f64 {
         self.given.unwrap_or(0.0).max(self.speed)
     }
 
-    /// Returns how far ahead the car looks, in metres.
+    /// Returns the distance up to which the car takes account of the road ahead, in metres.
     pub fn horizon(&self) -> f64 {
         let speed = self.soon();
         self.half + 30.0 + speed * (2.0 + 0.6 * speed / self.deceleration())
     }
 
-    /// Returns the distance from a line at which the car asks for leave, far enough that it need not brake meanwhile.
+    /// Returns the distance in metres from a line at which the car asks for leave early enough that it need not brake.
     pub fn asking_distance(&self) -> f64 {
         let speed = self.soon();
         5.0 + speed * (1.0 + 0.5 * speed / self.deceleration())
     }
 
-    /// Adds lanes to the path up to the horizon.
+    /// Extends the path of the car by lanes, up to the distance that the car looks ahead.
     pub fn extend_path(&mut self, map: &Map) {
         let mut ahead = -self.s;
         for pair in 0..self.path.len() {
@@ -207,12 +207,12 @@ impl Car {
         self.claims.iter().all(|claim| claim.sure)
     }
 
-    /// Returns the place of the car's rear along a lane that it has a claim on.
+    /// Returns the place of the car's rear in metres along a claimed lane.
     pub fn rear_on(&self, claim: &Claim) -> f64 {
         self.travelled - claim.start - self.half
     }
 
-    /// Moves the car on by a step of `dt` seconds to this speed.
+    /// Moves the car on by `dt` seconds, in which its speed changes to `speed`.
     pub fn drive(&mut self, speed: f64, dt: f64, map: &Map) {
         self.acceleration = (speed - self.speed) / dt;
         let way = 0.5 * (self.speed + speed) * dt;
@@ -249,7 +249,7 @@ impl Car {
         };
     }
 
-    /// Returns the distance to the left of the middle of the lane in metres, and its rate of change in m/s.
+    /// Returns the distance of the car to the left of the lane's middle, in metres, and the lateral speed in m/s.
     pub fn offset(&self) -> (f64, f64) {
         let Some(change) = &self.change else { return (self.keeps, 0.0) };
         // The curve of least jerk from rest to rest.

@@ -5,28 +5,28 @@ use thiserror::Error;
 /// The reason why the description of a vehicle is not valid.
 #[derive(Debug, Clone, Copy, Error, PartialEq)]
 pub enum VehicleFlaw {
-    /// A parameter is not a finite number above 0.
+    /// A parameter of the vehicle is not a finite number above 0.
     #[error("the vehicle's {parameter} is {value}, expected a number above 0")]
     NotPositive {
-        /// The name of the parameter: a field of [`Vehicle`](super::Vehicle).
+        /// The name of the parameter, which is a field of [`Vehicle`](super::Vehicle).
         parameter: &'static str,
         /// The value of the parameter, in the unit of the field.
         value: f64,
     },
-    /// A parameter is outside of its range.
+    /// A parameter of the vehicle is out of range.
     #[error("the vehicle's {parameter} is {value}, expected a number from 0 to less than {most}")]
     OutOfRange {
-        /// The name of the parameter: a field of [`Vehicle`](super::Vehicle).
+        /// The name of the parameter, which is a field of [`Vehicle`](super::Vehicle).
         parameter: &'static str,
         /// The value of the parameter, in the unit of the field.
         value: f64,
-        /// The upper end of the range, which does not belong to it.
+        /// The upper end of the range, which does not belong to the range.
         most: f64,
     },
     /// An axle carries no more than the mass of its wheels.
     #[error("the vehicle's {axle} axle carries {carried:.1} kg, expected more than the {wheels} kg of its wheels")]
     Axle {
-        /// The name of the axle: `front` or `rear`.
+        /// The name of the axle, `front` or `rear`.
         axle: &'static str,
         /// The mass that the axle carries, in kg.
         carried: f64,

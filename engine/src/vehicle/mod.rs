@@ -46,15 +46,15 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;
 
-/// Standard gravity in m/s².
+/// The standard acceleration of gravity in m/s².
 pub const GRAVITY: f64 = 9.80665;
 
 /// The positions of pedals and steering wheel, which the driver chooses.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pedals {
-    /// The pedals, from -1 (full brakes) to 1 (full power).
+    /// The position of the pedals, from -1 (full brakes) to 1 (full power).
     pub throttle: f64,
-    /// The steering, from -1 (front wheels fully to the right) to 1 (fully to the left).
+    /// The position of the steering wheel, from -1 (front wheels fully to the right) to 1 (fully to the left).
     pub steering: f64,
 }
 
@@ -63,15 +63,15 @@ pub struct Pedals {
 pub struct VehicleState {
     /// The position of the middle of the car's box, in metres.
     pub position: Vector2<f64>,
-    /// The heading in radians, counter-clockwise from x; not wrapped.
+    /// The heading of the car in radians, counter-clockwise from x; not wrapped.
     pub heading: f64,
-    /// The velocity of the middle of the car's box in m/s, as seen from the car: x ahead, y to the left.
+    /// The velocity of the middle of the car's box in m/s, as seen from the car, with x ahead and y to the left.
     pub velocity: Vector2<f64>,
-    /// The yaw rate in radians per second, counter-clockwise.
+    /// The yaw rate of the car in radians per second, counter-clockwise.
     pub yaw_rate: f64,
-    /// The angle of the front wheels to the left, in radians; if they differ, the angle of a wheel between them.
+    /// The angle of the front wheels to the left in radians, or of an imagined wheel midway if the angles differ.
     pub steering_angle: f64,
-    /// The acceleration of the centre of gravity in m/s² over the last step, seen from the car: x ahead, y to the left.
+    /// The acceleration of the centre of gravity in m/s² over the last step, with x ahead and y to the left of the car.
     pub acceleration: Vector2<f64>,
     /// The distance that the car has travelled, in metres.
     pub travelled: f64,
@@ -80,10 +80,10 @@ pub struct VehicleState {
 /// The state of a wheel on the road.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wheel {
-    /// The difference of the speeds of the tread and of the road under it, divided by the greater of both: -1 for a
-    /// locked wheel, 0 for a rolling wheel, 1 for a wheel that spins on the spot.
+    /// The difference of the speeds of the tread and of the road under the wheel, divided by the greater speed. It is
+    /// -1 for a locked wheel, 0 for a rolling wheel, 1 for a wheel that spins on the spot.
     pub slip_ratio: f64,
-    /// The angle in radians from the wheel's direction to its motion; positive if the wheel slips to its left.
+    /// The angle in radians from the wheel's direction to the wheel's motion; positive if the wheel slips to its left.
     pub slip_angle: f64,
     /// The load on the wheel, in newtons.
     pub load: f64,
@@ -91,7 +91,7 @@ pub struct Wheel {
     pub contact: bool,
 }
 
-/// A model of the motion of a car.
+/// A model of the motion of a car, which moves the car on step by step.
 pub trait Dynamics: Send {
     /// Moves the car on by `dt` seconds with these pedals on a road with this friction coefficient.
     ///
@@ -102,26 +102,26 @@ pub trait Dynamics: Send {
     /// Returns the present position and motion of the car.
     fn state(&self) -> &VehicleState;
 
-    /// Returns the wheels of the car: front left, front right, rear left, rear right.
+    /// Returns the states of the wheels in the order front left, front right, rear left, rear right.
     fn wheels(&self) -> [Wheel; 4];
 }
 
-/// The models of the motion of a car, by name.
+/// A model of the motion of a car, by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum VehicleModel {
-    /// The model [`SingleTrack`].
+    /// The model [`SingleTrack`], in which one wheel stands for the two wheels of an axle.
     #[default]
     SingleTrack,
-    /// The model [`Jointed`].
+    /// The model [`Jointed`], in which the car is a chassis with four wheels on joints.
     Jointed,
 }
 
 impl VehicleModel {
-    /// All models.
+    /// All models of the motion of a car.
     pub const ALL: [VehicleModel; 2] = [VehicleModel::SingleTrack, VehicleModel::Jointed];
 
-    /// Returns the name of the model, as users write it.
+    /// Returns the name by which users refer to the model.
     pub fn name(self) -> &'static str {
         match self {
             VehicleModel::SingleTrack => "single-track",
@@ -129,7 +129,7 @@ impl VehicleModel {
         }
     }
 
-    /// Returns the model with this name.
+    /// Returns the model with a given name.
     ///
     /// # Errors
     /// There is no model with this name.
@@ -137,7 +137,7 @@ impl VehicleModel {
         Self::ALL.into_iter().find(|model| model.name() == name).ok_or_else(|| UnknownModel { name: name.to_owned() })
     }
 
-    /// Makes a car of this model. Its middle has the pose `start`, and it goes straight ahead at `speed` m/s.
+    /// Makes a car with this motion model. Its middle has the pose `start`, and it goes straight ahead at `speed` m/s.
     ///
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].
@@ -149,11 +149,11 @@ impl VehicleModel {
     }
 }
 
-/// The error that no model of a car has the given name.
+/// The error that no model of the motion of a car has the given name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no vehicle model is called `{name}`, expected `single-track` or `jointed`")]
 pub struct UnknownModel {
-    /// The name that was given.
+    /// The unknown name, which no model has.
     pub name: String,
 }
 
@@ -189,12 +189,12 @@ impl VehicleState {
         Pose { position: self.position, heading: self.heading }
     }
 
-    /// Returns the speed of the car's middle, in m/s.
+    /// Returns the speed of the car's middle in m/s.
     pub fn speed(&self) -> f64 {
         self.velocity.norm()
     }
 
-    /// Returns `true` if all values are finite.
+    /// Returns `true` if all values of the state are finite.
     pub fn is_finite(&self) -> bool {
         let motion = self.velocity.sum() + self.acceleration.sum() + self.yaw_rate + self.steering_angle;
         (self.position.sum() + self.heading + self.travelled + motion).is_finite()

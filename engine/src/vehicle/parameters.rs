@@ -6,12 +6,12 @@ use super::VehicleFlaw;
 /// The wheels that the engine drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Drive {
-    /// The front wheels.
+    /// The engine drives the front wheels.
     Front,
-    /// The rear wheels.
+    /// The engine drives the rear wheels.
     #[default]
     Rear,
-    /// All four wheels, each in proportion to its load.
+    /// The engine drives all four wheels, each in proportion to its load.
     Four,
 }
 
@@ -19,34 +19,34 @@ pub enum Drive {
 /// the axles are at equal distances from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vehicle {
-    /// The length from bumper to bumper.
+    /// The length of the car from bumper to bumper, in metres.
     pub length: f64,
-    /// The width from side to side.
+    /// The width of the car from side to side, in metres.
     pub width: f64,
-    /// The height from road to roof.
+    /// The height of the car from road to roof, in metres.
     pub height: f64,
-    /// The distance from front axle to rear axle.
+    /// The distance from the front axle to the rear axle, in metres.
     pub wheelbase: f64,
-    /// The distance from left wheel to right wheel.
+    /// The distance from a left wheel to the right wheel of the same axle, in metres.
     pub track: f64,
-    /// The distance from the centre of gravity to the front axle.
+    /// The distance from the centre of gravity to the front axle, in metres.
     pub front_axle: f64,
-    /// The height of the centre of gravity above the road, on which the load transfer acts. It is that of the sprung
-    /// mass, as in the single-track model of the source.
+    /// The height in metres of the centre of gravity above the road, which determines the load transfer. It is the
+    /// height of the sprung mass, as in the single-track model of the source.
     pub centre_of_gravity: f64,
     /// The mass of the whole car, in kg.
     pub mass: f64,
-    /// The moment of inertia about the vertical axis through the centre of gravity, in kg m².
+    /// The moment of inertia of the car about the vertical axis through its centre of gravity, in kg m².
     pub yaw_inertia: f64,
-    /// The radius of a wheel: the distance from axle to road.
+    /// The radius of a wheel, which is the distance from axle to road, in metres.
     pub wheel_radius: f64,
-    /// The mass of one wheel, in kg.
+    /// The mass of one wheel of the car, in kg.
     pub wheel_mass: f64,
     /// The moment of inertia of one wheel about its axle, in kg m².
     pub wheel_inertia: f64,
-    /// The frequency in Hz at which the body bounces on its springs.
+    /// The frequency in Hz at which the body of the car bounces on the springs.
     pub ride_frequency: f64,
-    /// The damping of the body's bouncing, as a share of the critical damping, which just prevents overshoot.
+    /// The damping of the body's bounce, as a share of the critical damping, which just prevents overshoot.
     pub damping_ratio: f64,
     /// The side force of a tyre divided by its load and its slip angle, in 1/rad, for small angles.
     pub cornering_stiffness: f64,
@@ -56,11 +56,11 @@ pub struct Vehicle {
     pub max_steering_angle: f64,
     /// The largest rate at which the front wheels turn, in rad/s.
     pub max_steering_rate: f64,
-    /// The greatest acceleration of the engine and deceleration of the brakes, in m/s², before the road limits them.
+    /// The greatest acceleration by the engine and deceleration by the brakes, in m/s², without the limits of the road.
     pub max_acceleration: f64,
-    /// The speed in m/s above which the engine gives constant power, so that its acceleration falls as 1/v.
+    /// The speed in m/s above which the engine gives constant power, so that the acceleration falls as 1/v.
     pub switch_speed: f64,
-    /// The top speed in m/s.
+    /// The top speed of the car in m/s.
     pub max_speed: f64,
 }
 
@@ -155,7 +155,7 @@ impl Vehicle {
         self.max_acceleration * self.mass * self.wheel_radius
     }
 
-    /// Returns the same car with this greatest torque, in N m.
+    /// Returns the same car with a given greatest torque, in N m.
     pub fn with_max_torque(self, torque: f64) -> Self {
         Self { max_acceleration: torque / (self.mass * self.wheel_radius), ..self }
     }
@@ -171,7 +171,7 @@ impl Vehicle {
         *self
     }
 
-    /// Returns the first mistake in the description, if there is one.
+    /// Returns the first mistake in the description of the vehicle; `None` if the description is valid.
     pub fn flaw(&self) -> Option<VehicleFlaw> {
         let positive = [
             ("length", self.length),
@@ -297,7 +297,12 @@ mod tests {
         assert!(problem(Vehicle { mass: f64::NAN, ..CAR }).contains("mass is NaN"));
         assert!(problem(Vehicle { track: 0.0, ..CAR }).contains("track is 0"));
         assert!(problem(Vehicle { wheel_mass: 250.0, ..CAR }).contains("rear axle carries 490.1 kg"));
-        assert!(problem(Vehicle { yaw_inertia: 200.0, ..CAR }).contains("yaw_inertia is 200, expected more than"));
-        assert!(problem(Vehicle { front_axle: 3.0, ..CAR }).contains("front_axle is 3, expected 0 to less than 2.579"));
+        assert!(
+            problem(Vehicle { yaw_inertia: 200.0, ..CAR }).contains("yaw_inertia is 200 kg m², expected more than")
+        );
+        assert!(
+            problem(Vehicle { front_axle: 3.0, ..CAR })
+                .contains("front_axle is 3, expected a number from 0 to less than 2.579")
+        );
     }
 }

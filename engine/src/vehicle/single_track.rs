@@ -23,7 +23,7 @@ const SLOW: f64 = 0.1;
 /// The speeds in m/s and rad/s below which a braking car stands, and a car that has stopped turning goes straight.
 const STILL: f64 = 1e-9;
 
-/// A car as a dynamic bicycle model.
+/// A model of a car in which one wheel stands for the two wheels of an axle (dynamic bicycle model).
 #[derive(Debug, Clone)]
 pub struct SingleTrack {
     vehicle: Vehicle,
@@ -60,7 +60,7 @@ struct Axle {
 }
 
 impl SingleTrack {
-    /// Makes a car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    /// Makes a car whose middle has the pose `start` and that goes straight ahead at `speed` m/s.
     ///
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].

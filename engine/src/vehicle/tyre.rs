@@ -9,14 +9,14 @@ use nalgebra::Vector2;
 /// A tyre on the road, or all tyres of an axle together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Tyre {
-    /// The greatest force of the tyre, in newtons: `mu N`.
+    /// The greatest force of the tyre in newtons, which is `mu N`.
     pub limit: f64,
     /// `theta` divided by the slip.
     stiffness: f64,
 }
 
 impl Tyre {
-    /// Makes a tyre with a stiffness by load in 1/rad, under a load in newtons. Without friction it has no force.
+    /// Makes a tyre with a stiffness by load in 1/rad and with a load in newtons. Without friction it has no force.
     pub fn new(stiffness: f64, friction: f64, load: f64) -> Self {
         if friction > 0.0 {
             Self { limit: friction * load, stiffness: stiffness / (3.0 * friction) }
@@ -25,7 +25,7 @@ impl Tyre {
         }
     }
 
-    /// Returns the force in newtons at this slip (the tangent of the slip angle), and the derivative of the force by
+    /// Returns the side force in newtons at a slip (the tangent of the slip angle), and the derivative of the force by
     /// the slip. The force acts against the slip.
     pub fn side_force(&self, slip: f64) -> (f64, f64) {
         let sticking = (1.0 - self.stiffness * slip.abs()).max(0.0);
@@ -34,7 +34,7 @@ impl Tyre {
         (force.copysign(slip), 3.0 * self.limit * self.stiffness * square)
     }
 
-    /// Returns the force divided by the slip, at a slip of this size in any direction.
+    /// Returns the force of the tyre divided by the slip, at a slip of a given size in any direction.
     pub fn secant(&self, slip: f64) -> f64 {
         let part = (self.stiffness * slip).min(1.0);
         // 1 - (1 - theta)³, divided by theta.
@@ -48,7 +48,7 @@ impl Tyre {
         if size <= self.limit { asked } else { asked * (self.limit / size) }
     }
 
-    /// Returns the slip ratio at which the tyre has this force. The force of a brush is opposite to its slip.
+    /// Returns the slip ratio at which the tyre has a given force. The force of a brush is opposite to its slip.
     pub fn slip_ratio(&self, force: Vector2<f64>) -> f64 {
         let size = force.norm();
         if size == 0.0 {

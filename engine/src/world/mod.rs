@@ -28,7 +28,7 @@ const TOUCH: f64 = 1e-5;
 /// A contact of the ego vehicle with another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Touching {
-    /// The index of the other body.
+    /// The index of the body that touches the ego vehicle.
     pub body: usize,
     pub face: Face,
 }
@@ -54,7 +54,7 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// Makes a world of these bodies. `masses` gives the indices and masses in kg of the bodies that the physics moves.
+    /// Makes a world of the given bodies. `masses` gives the indices and masses in kg of the physical bodies.
     pub fn new(bodies: &[BodyState], masses: &[(usize, f64)]) -> Self {
         let mut physics = PhysicsWorld::default();
         let solids: Vec<Solid> = bodies
@@ -69,8 +69,8 @@ impl World {
         Self { physics, solids, pushed }
     }
 
-    /// Moves the physical bodies on by a tick of `dt` seconds, with this friction of the ground and these forces. The
-    /// other bodies have already moved.
+    /// Moves the physical bodies on by a tick of `dt` seconds, under the friction of the ground and the given forces.
+    /// The other bodies have already moved.
     pub fn advance(&mut self, bodies: &mut [BodyState], pushes: &[Vector2<f64>], friction: f64, dt: f64) {
         if let Some(pushed) = &mut self.pushed {
             pushed.step(&mut self.physics, &self.solids, bodies, pushes, friction, dt);
@@ -84,8 +84,8 @@ impl World {
         }
     }
 
-    /// Returns the distance in metres between the ego vehicle and the nearest other body; infinite if there is none. If
-    /// they touch or overlap, it returns [`TOUCH`], and the contact gives the details.
+    /// Returns the distance in metres between the ego vehicle and the nearest other body; infinite if no other body is
+    /// present. If both touch or overlap, it returns [`TOUCH`], and the contact gives the details.
     pub fn clearance(&self, bodies: &[BodyState]) -> f64 {
         let Some((car, others)) = bodies.split_first() else { return f64::INFINITY };
         let mut nearest = f64::INFINITY;
@@ -98,7 +98,7 @@ impl World {
         nearest.max(TOUCH)
     }
 
-    /// Returns the first of the other bodies that touches the ego vehicle at this tick, and the side that it touches.
+    /// Returns the first body that touches the ego vehicle at this tick, and the touched side of the ego vehicle.
     pub fn contact(&mut self, bodies: &[BodyState]) -> Option<Touching> {
         if self.clearance(bodies) > REACH {
             return None;

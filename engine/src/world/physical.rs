@@ -15,7 +15,7 @@ pub(super) struct Physics {
 }
 
 impl Physics {
-    /// Prepares these bodies, and the ground that they lie on.
+    /// Prepares the physical bodies and the ground on which they lie.
     pub fn new(world: &mut PhysicsWorld, masses: &[(usize, f64)]) -> Self {
         world.gravity = [0.0, 0.0, -GRAVITY as f32].into();
         // Bodies on the ground have no friction of their own.

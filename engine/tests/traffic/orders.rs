@@ -114,6 +114,6 @@ fn cars_that_cannot_be_are_refused_by_their_indices() {
     let way = Route { lanes: lanes.to_vec(), start: 10.0, end: 20.0, length: 0.0, changes: 0 };
     assert_eq!(
         refusal(TrafficCar::following(&way)),
-        "the route of car 1 leads from lane 0 to lane 2, neither its successor nor beside it on a road"
+        "the route of car 1 leads from lane 0 to lane 2, which neither follows nor is beside it on a road"
     );
 }

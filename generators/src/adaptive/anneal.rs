@@ -20,7 +20,7 @@ use std::borrow::Borrow;
 use std::sync::Mutex;
 
 impl Strategy {
-    /// Simulated annealing on the robustness.
+    /// The strategy "anneal", which searches for a failure by simulated annealing on the robustness.
     pub const ANNEAL: Self = Self::of(&Descriptor {
         name: "anneal",
         about: "random walks towards failures, uphill now and then: for a rough robustness and cheap tests",
@@ -44,7 +44,7 @@ const STALLED: u64 = 150;
 const FIRST_STEP: f64 = 0.3;
 const LAST_STEP: f64 = 0.01;
 
-/// The search.
+/// Makes the search by simulated annealing.
 pub(super) fn anneal(axes: Vec<Axis>, rng: Pcg64) -> Chains {
     Chains::new(axes, walk, WALKS, rng)
 }

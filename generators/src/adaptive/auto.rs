@@ -25,7 +25,7 @@ use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
 
 impl Strategy {
-    /// Several strategies side by side, for systems about which nothing is known.
+    /// The strategy "auto", which runs several searches for a failure side by side, for unknown systems.
     pub const AUTO: Self = Self::of(&Descriptor {
         name: "auto",
         about: "gp-cmaes, bayes and nelder-mead side by side, learning from each other: for unknown systems",
@@ -42,7 +42,7 @@ impl Strategy {
     });
 }
 
-/// The searches with their shares of the tests.
+/// The search of the strategy "auto", which combines several searches with their shares of the tests.
 pub(super) struct Auto {
     members: Vec<Member>,
     /// For each proposal without a result, the member that proposed it and the member's own number for it.

@@ -20,7 +20,7 @@ use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Stra
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// Bayesian optimisation of the robustness in a trust region.
+    /// The strategy "bayes", which searches for a failure by Bayesian optimisation of the robustness in a trust region.
     pub const BAYES: Self = Self::of(&Descriptor {
         name: "bayes",
         about: "a model of the robustness says which test is likely to fail: for few, costly tests",
@@ -41,7 +41,7 @@ const CANDIDATES: usize = 80;
 /// The number of candidates for the first places of a new region.
 const DESIGNS: usize = 200;
 
-/// The search.
+/// The search by Bayesian optimisation.
 pub(super) struct Bayes {
     surrogate: Surrogate,
     region: Region,

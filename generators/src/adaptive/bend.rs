@@ -1,27 +1,28 @@
 //! Transforms a robustness ("bends" it) so that a Gaussian process fits it.
 
-/// A transformation of a robustness.
+/// A transformation of robustness values, so that a Gaussian process fits the values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Bend {
-    /// Multiples of the spread below the median, their logarithm above: the worst values need not be known well.
+    /// A linear scale below the median and a logarithmic scale above the median. The worst values need not be known
+    /// well.
     Low { median: f64, scale: f64 },
-    /// The same transformation on both sides of 0, which maps 0 to 0.
+    /// A scale that is logarithmic for large values on both sides of 0, and maps 0 to 0.
     Signed { scale: f64 },
-    /// A scale from -1 to 1 that is flat beyond the usual values on each side of 0, whatever the two sides measure.
+    /// A scale from -1 to 1 that is flat beyond the usual values on each side of 0, with a separate unit for each side.
     Sides { below: f64, above: f64 },
-    /// The verdict only, as -1 or 1.
+    /// The verdict without the amount of the robustness, which is -1 for a failure and 1 for a pass.
     Verdict,
 }
 
 impl Bend {
-    /// Makes the transformation for a search for low values.
+    /// Makes the transformation of robustness values for a search for low values.
     pub(super) fn low(values: &[f64]) -> Self {
         let median = median(values.to_vec());
         Self::Low { median, scale: scale(values.iter().map(|value| (value - median).abs()).collect()) }
     }
 
-    /// Makes the transformations for a search for the sides of 0, from the one that keeps most to the one that keeps
-    /// least.
+    /// Makes three transformations of robustness values for a model of the sides of 0. The first transformation keeps
+    /// most of the values, the last keeps least.
     pub(super) fn of_sides(values: &[f64]) -> [Self; 3] {
         let side = |failed: bool| {
             let side = values.iter().filter(|value| is_failure(**value) == failed);
@@ -44,7 +45,7 @@ impl Bend {
     }
 }
 
-/// Returns `true` if a robustness is that of a failed test: -0 is a failure, +0 is not.
+/// Returns `true` if a test with the given robustness failed. The robustness -0 is a failure, +0 is a pass.
 pub(super) fn is_failure(robustness: f64) -> bool {
     robustness.is_sign_negative()
 }

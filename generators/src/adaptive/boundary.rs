@@ -16,7 +16,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// The boundary between passing and failing, by a Gaussian process.
+    /// The strategy "boundary", which maps the boundary between passing and failing by a Gaussian process.
     pub const BOUNDARY: Self = Self::of(&Descriptor {
         name: "boundary",
         about: "a model says where passing turns into failing: maps the border instead of finding one failure",
@@ -46,7 +46,7 @@ const CLOSE_CALLS: usize = 20;
 /// The step from a close call to a candidate.
 const STEP: f64 = 0.1;
 
-/// The search.
+/// The search for the boundary between passing and failing.
 pub(super) struct Boundary {
     surrogate: Surrogate,
     rng: Pcg64,

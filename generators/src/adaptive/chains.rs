@@ -18,22 +18,22 @@ const BEST: usize = 3;
 /// Two tests that are nearer than this on every axis are not different starts.
 const NEAR: f64 = 0.1;
 
-/// The start of a solver.
+/// The start of a solver, with its place, the axes and the known tests.
 pub(super) struct Start<'a> {
-    /// The kinds of the axes.
+    /// The kinds of the axes of the cube.
     pub axes: &'a [Axis],
-    /// The place to start from.
+    /// The place in the cube at which the solver starts.
     pub at: Vec<f64>,
-    /// All tests so far, the best ones first.
+    /// All tests so far with their results, in ascending order of cost.
     pub trials: &'a [Evaluation],
-    /// A separate source of random numbers.
+    /// The generator of random numbers that only this solver uses.
     pub rng: Pcg64,
 }
 
-/// A function that starts a solver.
+/// A function that starts a solver at a given start.
 pub(super) type Launch = fn(Start) -> Solver;
 
-/// A set of running solvers.
+/// A search that runs several solvers at a time and replaces solvers that have ended.
 pub(super) struct Chains {
     axes: Vec<Axis>,
     launch: Launch,
@@ -56,7 +56,7 @@ struct Chain {
 }
 
 impl Chains {
-    /// Makes a set of at most `most` solvers at a time.
+    /// Makes a search with at most `most` running solvers at a time.
     pub(super) fn new(axes: Vec<Axis>, launch: Launch, most: usize, rng: Pcg64) -> Self {
         Self {
             axes,

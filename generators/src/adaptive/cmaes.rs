@@ -25,7 +25,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// CMA-ES with restarts (BIPOP) on the robustness.
+    /// The strategy "cmaes", which searches for a failure by CMA-ES with restarts (BIPOP) on the robustness.
     pub const CMAES: Self = Self::of(&Descriptor {
         name: "cmaes",
         about: "a distribution that learns where failures lie: for hundreds of tests and narrow valleys",
@@ -43,7 +43,7 @@ impl Strategy {
 }
 
 impl Strategy {
-    /// CMA-ES in which a Gaussian process chooses the samples that are tested.
+    /// The strategy "gp-cmaes", which is CMA-ES with a Gaussian process that chooses the samples to test.
     pub const GP_CMAES: Self = Self::of(&Descriptor {
         name: "gp-cmaes",
         about: "cmaes with a model that chooses from its samples: the fewest tests to a failure nearly everywhere",
@@ -69,7 +69,7 @@ const RATE: f64 = 0.3;
 /// The greatest number of times that a population is doubled.
 const MOST_DOUBLED: u32 = 9;
 
-/// The search.
+/// The search by CMA-ES with restarts.
 pub(super) struct Cmaes {
     axes: Vec<Axis>,
     dims: usize,
@@ -120,7 +120,7 @@ impl Cmaes {
         }
     }
 
-    /// Makes the search that tests only the samples that a Gaussian process chooses.
+    /// Makes the CMA-ES search in which a Gaussian process chooses the samples to test.
     pub(super) fn preselected(axes: Vec<Axis>, covariance: DMatrix<f64>, rng: Pcg64) -> Self {
         Self { preselection: Some(Preselection::new(axes.clone())), ..Self::new(axes, covariance, rng) }
     }

@@ -11,19 +11,19 @@
 use paracosm_space::rules::Rules;
 use paracosm_space::{Point, Space, Value};
 
-/// The meaning of the numbers along an axis.
+/// The kind of an axis of the cube, which gives the numbers along the axis a meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
-    /// The numbers are the values themselves.
+    /// The axis is continuous, and a number along the axis is the coordinate itself.
     Continuous,
-    /// The axis has this number of levels in order.
+    /// The axis has the given number of levels, which have an order.
     Ordered(usize),
-    /// The axis has this number of levels without an order.
+    /// The axis has the given number of levels, which have no order.
     Nominal(usize),
 }
 
 impl Axis {
-    /// The difference between two places along the axis. Different words all have the difference 1.
+    /// Returns the difference between two places along the axis. Different words all have the difference 1.
     pub(super) fn difference(self, a: f64, b: f64) -> f64 {
         match self {
             Self::Nominal(_) => f64::from(a != b),
@@ -32,7 +32,7 @@ impl Axis {
     }
 }
 
-/// The cube of a space.
+/// The cube of a space, in which continuous and discrete parameters are axes.
 pub(super) struct Cube {
     axes: Vec<Axis>,
     dims: usize,
@@ -44,18 +44,18 @@ impl Cube {
         Self { axes: axes(space), dims: space.dims(), rules }
     }
 
-    /// The kinds of all axes, the continuous ones first.
+    /// Returns the kinds of all axes, with the continuous axes first.
     pub(super) fn axes(&self) -> &[Axis] {
         &self.axes
     }
 
-    /// The number of continuous axes.
+    /// Returns the number of continuous axes.
     pub(super) fn dims(&self) -> usize {
         self.dims
     }
 
-    /// The test at a place, which is moved to the nearest place of the cube, and repaired if the constraints exclude
-    /// it.
+    /// Returns the test at a place. The place is moved to the nearest place of the cube, and repaired if the
+    /// constraints exclude the test.
     pub(super) fn point(&self, at: &[f64]) -> Point {
         let (continuous, discrete) = at.split_at(self.dims);
         let row: Vec<usize> = discrete.iter().zip(self.rules.levels()).map(|(&u, &levels)| level(u, levels)).collect();
@@ -65,7 +65,7 @@ impl Cube {
         }
     }
 
-    /// The place of a test.
+    /// Returns the place of a test in the cube.
     pub(super) fn place(&self, point: &Point) -> Vec<f64> {
         place(&self.axes, point)
     }
@@ -81,13 +81,13 @@ impl Cube {
     }
 }
 
-/// The kinds of a space's axes, the continuous ones first.
+/// Returns the kinds of the axes of a space, with the continuous axes first.
 pub(super) fn axes(space: &Space) -> Vec<Axis> {
     let discrete = space.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(axis_of);
     std::iter::repeat_n(Axis::Continuous, space.dims()).chain(discrete).collect()
 }
 
-/// The place of a test: a level is in the middle of its slice.
+/// Returns the place of a test in the cube, with each level in the middle of its slice.
 pub(super) fn place(axes: &[Axis], point: &Point) -> Vec<f64> {
     let middle = |(&level, axis): (&usize, &Axis)| match *axis {
         Axis::Ordered(levels) | Axis::Nominal(levels) => middle(level, levels),
@@ -104,17 +104,17 @@ fn axis_of(levels: &[Value]) -> Axis {
     if is_ordered { Axis::Ordered(levels.len()) } else { Axis::Nominal(levels.len()) }
 }
 
-/// The level whose slice contains a number.
+/// Returns the level whose slice of the axis contains a number.
 pub(super) fn level(u: f64, levels: usize) -> usize {
     ((u.max(0.0) * levels as f64) as usize).min(levels - 1)
 }
 
-/// The middle of a level's slice.
+/// Returns the middle of the slice of the axis that belongs to a level.
 pub(super) fn middle(level: usize, levels: usize) -> f64 {
     (level as f64 + 0.5) / levels as f64
 }
 
-/// A number mirrored at 0 and 1 until it is between them.
+/// Returns a number mirrored at 0 and 1 until the number is between 0 and 1.
 pub(super) fn mirrored(x: f64) -> f64 {
     let x = x.rem_euclid(2.0);
     if x > 1.0 { 2.0 - x } else { x }

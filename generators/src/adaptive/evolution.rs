@@ -19,7 +19,7 @@ const MOST_CONDITION: f64 = 1e14;
 /// end.
 const WINDOW: usize = 10;
 
-/// The distribution with its paths.
+/// The normal distribution of a CMA-ES run, with its evolution paths.
 pub(super) struct Evolution {
     lambda: usize,
     weights: Vec<f64>,
@@ -38,13 +38,14 @@ pub(super) struct Evolution {
     over: bool,
 }
 
-/// The default number of samples in a generation.
+/// Returns the default number of samples in a generation.
 pub(super) fn default_lambda(dims: usize) -> usize {
     4 + (3.0 * libm::log(dims.max(1) as f64)) as usize
 }
 
 impl Evolution {
-    /// Makes a distribution around a place. `covariance` is that of the first steps, in units of `sigma` squared.
+    /// Makes a distribution with the given mean. `covariance` is the covariance of the first steps, in units of `sigma`
+    /// squared.
     pub(super) fn new(mean: Vec<f64>, sigma: f64, lambda: usize, covariance: DMatrix<f64>) -> Self {
         let n = mean.len();
         let mu = lambda / 2;
@@ -72,23 +73,23 @@ impl Evolution {
         evolution
     }
 
-    /// The number of samples in a generation.
+    /// Returns the number of samples in a generation.
     pub(super) fn lambda(&self) -> usize {
         self.lambda
     }
 
-    /// The weights of the better half, the weight of the best sample first.
+    /// Returns the weights of the better half of a generation, with the weight of the best sample first.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// A sample, which may lie outside the cube.
+    /// Draws a sample from the distribution, which may lie outside the cube.
     pub(super) fn sample(&self, rng: &mut impl Rng) -> Vec<f64> {
         let z = DVector::from_iterator(self.mean.len(), self.scales.iter().map(|scale| scale * normal(rng)));
         (&self.mean + &self.basis * z * self.sigma).data.into()
     }
 
-    /// Learns from a generation of places with their costs, the best first.
+    /// Updates the distribution from a generation of places with their costs, in ascending order of cost.
     pub(super) fn update(&mut self, generation: &[(&[f64], f64)]) {
         let n = self.mean.len();
         let dims = n as f64;
@@ -132,8 +133,8 @@ impl Evolution {
         self.decompose();
     }
 
-    /// Returns `true` if the run should end: the steps have become tiny, the covariance is degenerate, or all costs
-    /// are alike.
+    /// Returns `true` if the CMA-ES run should end, because the steps have become tiny, the covariance is degenerate,
+    /// or all costs are alike.
     pub(super) fn is_over(&self) -> bool {
         self.over
     }

@@ -30,7 +30,7 @@ const KERNELS: usize = 8;
 /// The number of places that are looked at together.
 const TOGETHER: usize = 1024;
 
-/// A Gaussian-process model that estimates which tests fail.
+/// A Gaussian-process model that estimates the probability that a test fails.
 ///
 /// It is a probabilistic least-squares classification (Rasmussen and Williams, "Gaussian Processes for Machine
 /// Learning", 2006, section 6.5) of the robustness. The robustness is transformed in one of three ways: the one that
@@ -58,22 +58,22 @@ struct Belief {
     errors: Vec<f64>,
 }
 
-/// The estimate of the share of some tests that fail.
+/// The estimated share of failing tests in a group of tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailingShare {
-    /// The expected share, which is the probability that one of the tests, chosen at random, fails.
+    /// The expected share of failing tests in the group. It is the probability that a random test of the group fails.
     pub mean: f64,
-    /// The uncertainty of the share, as one standard deviation.
+    /// The standard deviation of the share, which measures its uncertainty.
     pub deviation: f64,
-    /// The probability that the share is more than one half. As the model itself may be wrong, it is no nearer to 0
-    /// or 1 than the number of tests allows: each test counts as one observation, and there is one more for either
-    /// side (Laplace's rule of succession). With fewer than 18 tests it is between 0.05 and 0.95.
+    /// The probability that more than one half of the tests in the group fail. As the model itself may be wrong, it is
+    /// no nearer to 0 or 1 than the number of tests allows: each test counts as one observation, and there is one more
+    /// for either side (Laplace's rule of succession). With fewer than 18 tests it is between 0.05 and 0.95.
     pub above_half: f64,
 }
 
 impl FailureModel {
-    /// Fits a model to tests of a space. `robustness` has a number for each test, and its sign is the verdict: a test
-    /// with -0 has failed. Tests whose robustness is NaN are left out.
+    /// Fits a failure model to tests of a space with their robustness. `robustness` has a number for each test, and its
+    /// sign is the verdict: a test with -0 has failed. Tests whose robustness is NaN are left out.
     ///
     /// Returns `None` if fewer than two tests are left.
     pub fn fit(space: &Space, tests: &[Point], robustness: &[f64]) -> Option<Self> {
@@ -101,7 +101,7 @@ impl FailureModel {
         Some(Self { axes, seen, values, verdicts, tests })
     }
 
-    /// Returns the probability that each of these tests fails.
+    /// Returns the probability of failure for each of the given tests.
     pub fn probabilities(&self, tests: &[Point]) -> Vec<f64> {
         let mut probabilities = Vec::with_capacity(tests.len());
         for tests in tests.chunks(TOGETHER) {
@@ -113,8 +113,8 @@ impl FailureModel {
         probabilities
     }
 
-    /// Estimates the share of failures in each of several groups of tests. All groups have the same size; the result
-    /// is empty if they have no tests. Every test has a weight.
+    /// Estimates the share of failing tests in each of several groups of tests. All groups have the same size; the
+    /// result is empty if the groups have no tests. Every test has a weight.
     ///
     /// A group may consist of several samples of one size, one after the other, of the tests that it represents. The
     /// difference between their shares is the error of sampling (Owen, "Monte Carlo theory, methods and examples",

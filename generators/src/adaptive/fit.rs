@@ -26,24 +26,24 @@ const SHORTEST_STEP: f64 = 1e-3;
 const LENGTHS: (f64, f64) = (0.01, 30.0);
 const NOISES: (f64, f64) = (1e-8, 0.3);
 
-/// The kernel that is assumed before any test.
+/// Returns the kernel that is assumed before any test.
 pub(super) fn prior(axes: &[Axis]) -> Kernel {
     let length = LENGTH * (axes.len() as f64).sqrt();
     Kernel { axes: axes.to_vec(), lengths: vec![length; axes.len()], noise: NOISE }
 }
 
-/// The logarithms of a kernel's lengths, and last of its noise: the fitted numbers.
+/// Returns the logarithms of a kernel's lengths, and last of its noise. These are the fitted numbers.
 pub(super) fn logarithms(kernel: &Kernel) -> Vec<f64> {
     kernel.lengths.iter().chain([&kernel.noise]).map(|&x| libm::log(x)).collect()
 }
 
-/// The kernel with these logarithms.
+/// Makes the kernel with the given logarithms of lengths and noise.
 pub(super) fn of_logarithms(axes: &[Axis], at: &[f64]) -> Kernel {
     let lengths = at[..axes.len()].iter().map(|&x| libm::exp(x)).collect();
     Kernel { axes: axes.to_vec(), lengths, noise: libm::exp(at[axes.len()]) }
 }
 
-/// The bounds of the logarithm with this index.
+/// Returns the bounds of the logarithm with the given index.
 pub(super) fn bounds(axes: &[Axis], index: usize) -> (f64, f64) {
     let (least, most) = if index < axes.len() { LENGTHS } else { NOISES };
     (libm::log(least), libm::log(most))
@@ -57,7 +57,8 @@ fn off(axes: &[Axis], at: &[f64]) -> Vec<(f64, f64)> {
     (0..at.len()).map(one).collect()
 }
 
-/// The logarithm of the posterior probability of these logarithms, up to a constant. Only the first places count.
+/// Returns the logarithm of the posterior probability of a kernel, given by its logarithms, up to a constant. Only the
+/// first places count.
 pub(super) fn log_posterior(axes: &[Axis], at: &[f64], places: &[Vec<f64>], values: &[f64]) -> f64 {
     let n = places.len().min(MOST_TESTS);
     let process = Process::new(of_logarithms(axes, at), places[..n].to_vec(), &values[..n], Mean::Unknown);
@@ -65,7 +66,7 @@ pub(super) fn log_posterior(axes: &[Axis], at: &[f64], places: &[Vec<f64>], valu
     process.map_or(f64::NEG_INFINITY, |process| process.log_likelihood() + prior)
 }
 
-/// A better kernel than `from` for these values, after `steps` steps.
+/// Fits a kernel to the values by `steps` steps from the kernel `from`.
 pub(super) fn fit(from: &Kernel, places: &[Vec<f64>], values: &[f64], steps: usize) -> Kernel {
     let n = places.len().min(MOST_TESTS);
     let (places, values) = (&places[..n], &values[..n]);

@@ -6,13 +6,13 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};
 
-/// The logarithm of the expected improvement: how far a normally distributed number is below `best` on average, 0 if
-/// above.
+/// Returns the logarithm of the expected improvement on `best`. The improvement is the amount by which a normally
+/// distributed number is below `best`, or 0 if it is above.
 pub(super) fn log_expected_improvement(best: f64, mean: f64, deviation: f64) -> f64 {
     libm::log(deviation) + log_h((best - mean) / deviation)
 }
 
-/// The probability that a standard normal number is below `z`.
+/// Returns the probability that a standard normal number is below `z`.
 pub(super) fn normal_below(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }

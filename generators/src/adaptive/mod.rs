@@ -54,7 +54,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
 
-/// The strategies of this folder, in the order in which they are shown.
+/// The adaptive strategies, in the order in which lists show the strategies.
 pub(crate) const ALL: &[Strategy] = &[
     Strategy::ANNEAL,
     Strategy::PSO,

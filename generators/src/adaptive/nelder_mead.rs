@@ -19,7 +19,7 @@ use std::sync::Mutex;
 use std::vec::IntoIter;
 
 impl Strategy {
-    /// Nelder and Mead's simplices on the robustness.
+    /// The strategy "nelder-mead", which searches for a failure by simplices of Nelder and Mead on the robustness.
     pub const NELDER_MEAD: Self = Self::of(&Descriptor {
         name: "nelder-mead",
         about: "simplices move downhill to a failure: for few parameters and a robustness that slopes towards it",
@@ -46,7 +46,7 @@ const PATIENCE: usize = 2;
 /// The greatest number of moves of a simplex, per corner.
 const MOVES: u64 = 50;
 
-/// The search.
+/// Makes the search by simplices of Nelder and Mead.
 pub(super) fn nelder_mead(axes: Vec<Axis>, rng: Pcg64) -> Chains {
     Chains::new(axes, simplex, SIMPLICES, rng)
 }

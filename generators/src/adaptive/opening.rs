@@ -32,7 +32,7 @@ const MOST_PAIRED: usize = 7;
 /// The greatest number of rows of the discrete family that are part of the opening.
 const MOST_ROWS: usize = 32;
 
-/// The points of the opening, and the low-dispersion points after them.
+/// The opening of an adaptive strategy, which gives the first points and then low-dispersion points.
 pub(super) struct Opening {
     family: Family,
     /// The first rows of the family, shuffled.
@@ -55,12 +55,12 @@ impl Opening {
         Self { family, rows, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
     }
 
-    /// Returns `true` if all of the opening has been proposed.
+    /// Returns `true` if all points of the opening have been proposed.
     pub(super) fn is_over(&self) -> bool {
         self.next >= self.len
     }
 
-    /// The next point. After the opening the sequence goes on.
+    /// Returns the next point. After the opening the low-dispersion sequence goes on.
     pub(super) fn next(&mut self) -> Point {
         let index = self.next;
         self.next += 1;

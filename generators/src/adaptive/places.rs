@@ -4,7 +4,7 @@ use super::cube::{Axis, level, middle};
 use super::normal;
 use rand::Rng;
 
-/// The same place, with its discrete coordinates in the middle of their slices.
+/// Returns the place in the cube with each discrete coordinate moved to the middle of its slice.
 pub(super) fn snapped(axes: &[Axis], mut at: Vec<f64>) -> Vec<f64> {
     for (u, axis) in at.iter_mut().zip(axes) {
         *u = match *axis {
@@ -15,7 +15,8 @@ pub(super) fn snapped(axes: &[Axis], mut at: Vec<f64>) -> Vec<f64> {
     at
 }
 
-/// A place near another place: some axes move by normally distributed steps, and now and then a word is replaced.
+/// Returns a random place near a given place. Some coordinates move by normally distributed steps, and now and then a
+/// word is replaced.
 pub(super) fn nudged(axes: &[Axis], from: &[f64], step: f64, rng: &mut impl Rng) -> Vec<f64> {
     let share = (3.0 / axes.len() as f64).clamp(0.3, 1.0);
     let one = rng.random_range(0..axes.len());

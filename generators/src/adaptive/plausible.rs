@@ -18,7 +18,8 @@ const SWEEPS: usize = 3;
 /// The greatest number of times that a slice shrinks: after that it is a point.
 const MOST_SHRINKS: usize = 30;
 
-/// Draws `count` kernels from their distribution given these values. `from` is the most probable kernel.
+/// Draws `count` kernels from the distribution of kernels that the given values leave possible. `from` is the most
+/// probable kernel.
 pub(super) fn plausible(
     from: &Kernel,
     places: &[Vec<f64>],

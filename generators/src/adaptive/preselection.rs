@@ -22,7 +22,7 @@ const DRAWN: usize = 32;
 /// The greatest number of tests without a result at a time.
 const PART: usize = 4;
 
-/// The model that chooses.
+/// The model that chooses the samples of a distribution that are worth a test.
 pub(super) struct Preselection {
     axes: Vec<Axis>,
     surrogate: Surrogate,
@@ -33,13 +33,13 @@ impl Preselection {
         Self { surrogate: Surrogate::new(axes.clone()), axes }
     }
 
-    /// The number of tests that may still be proposed while `out` tests have no result.
+    /// Returns the number of tests that may still be proposed while `out` tests have no result.
     pub(super) fn room(&self, out: usize) -> usize {
         PART.saturating_sub(out)
     }
 
-    /// The `n` samples with the greatest expected improvement on the best test so far. If nothing is known, or few
-    /// different samples are drawn, other samples fill up.
+    /// Chooses the `n` samples with the greatest expected improvement on the best test so far. If nothing is known, or
+    /// few different samples are drawn, other samples fill up.
     pub(super) fn choose(
         &mut self,
         n: usize,
@@ -61,7 +61,7 @@ impl Preselection {
         places
     }
 
-    /// Tells the result of a test: of its own proposal with a number, or of a test from elsewhere.
+    /// Takes the result of a test, which is a numbered proposal of this model or a test from elsewhere.
     pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         self.surrogate.learn(proposal, trial);
     }

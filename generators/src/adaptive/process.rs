@@ -20,14 +20,14 @@ const LEAST_VARIANCE: f64 = 1e-12;
 /// Cholesky factor.
 const DRAW_NOISE: f64 = 1e-8;
 
-/// The kernel of a process, which gives the similarity of two places.
+/// The kernel of a Gaussian process, which gives the correlation of two places.
 #[derive(Debug, Clone)]
 pub(super) struct Kernel {
-    /// The kind of each axis.
+    /// The kind of each axis of the cube.
     pub axes: Vec<Axis>,
     /// The length scale of each axis, which is the distance along the axis over which the robustness stays similar.
     pub lengths: Vec<f64>,
-    /// The variance that no place explains, as a share of the process's variance.
+    /// The variance of the noise, as a share of the process's variance.
     pub noise: f64,
 }
 
@@ -38,7 +38,7 @@ impl Kernel {
         scaled * scaled
     }
 
-    /// Returns `sqrt(5) r`, where r is the distance of two places.
+    /// Returns the distance of two places times `sqrt(5)`, in length scales.
     pub(super) fn scaled_distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let squares = self.axes.iter().zip(&self.lengths).zip(a.iter().zip(b));
         let squares = squares.map(|((axis, length), (a, b))| {
@@ -86,16 +86,16 @@ fn pair(i: usize, j: usize) -> usize {
     i * i.saturating_sub(1) / 2 + j
 }
 
-/// The mean of the process far from all tests.
+/// The mean of a Gaussian process far from all tests.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Mean {
-    /// The mean is unknown and is estimated.
+    /// The mean of the process is unknown and is estimated.
     Unknown,
-    /// The mean is known.
+    /// The mean of the process is known and has the given value.
     Known(f64),
 }
 
-/// The process that is conditioned on the tests.
+/// A Gaussian process that is conditioned on the results of tests.
 pub(super) struct Process {
     kernel: Kernel,
     places: Vec<Vec<f64>>,
@@ -111,19 +111,19 @@ pub(super) struct Process {
     variance: f64,
 }
 
-/// The random numbers of a draw from the process.
+/// The random numbers for one draw from a Gaussian process.
 pub(super) struct Draw {
-    /// A standard normal number for each place.
+    /// A standard normal random number for each place of the draw.
     pub values: Vec<f64>,
-    /// A standard normal number for the mean.
+    /// A standard normal random number for the mean of the process.
     pub mean: f64,
-    /// The ratio of the drawn deviation to the most likely deviation.
+    /// The ratio of the drawn standard deviation to the most likely standard deviation of the process.
     pub spread: f64,
 }
 
 impl Process {
-    /// Makes the process through values at places; `None` if the correlations have no Cholesky factor or there is no
-    /// place.
+    /// Makes the process that is conditioned on values at places; `None` if the correlations have no Cholesky factor or
+    /// there is no place.
     pub(super) fn new(kernel: Kernel, places: Vec<Vec<f64>>, values: &[f64], mean: Mean) -> Option<Self> {
         let n = places.len();
         if n == 0 {
@@ -160,8 +160,8 @@ impl Process {
         })
     }
 
-    /// Makes the process through values at places, with as much noise as necessary: without noise, places that are
-    /// almost equal have no Cholesky factor.
+    /// Makes the process that is conditioned on values at places, with as much noise as necessary. Without noise,
+    /// places that are almost equal have no Cholesky factor.
     pub(super) fn with_noise(kernel: &Kernel, places: &[Vec<f64>], values: &[f64]) -> Option<Self> {
         [1.0, 1e2, 1e4].into_iter().find_map(|more| {
             let kernel = Kernel { noise: kernel.noise * more, ..kernel.clone() };
@@ -169,13 +169,13 @@ impl Process {
         })
     }
 
-    /// Returns the kernel, which gives the similarity of places.
+    /// Returns the kernel of the process, which gives the correlation of two places.
     pub(super) fn kernel(&self) -> &Kernel {
         &self.kernel
     }
 
-    /// Returns the mean and deviation at each place if the value at the place were unknown, and mean, variance and
-    /// kernel were known (Rasmussen and Williams, equation 5.12).
+    /// Predicts the mean and the deviation at each place from the values at all other places. The mean, the variance
+    /// and the kernel of the process count as known (Rasmussen and Williams, equation 5.12).
     pub(super) fn leave_one_out(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let n = self.places.len();
         // Only the diagonal of the inverse is needed: the squares in the columns of the inverse of the factor.
@@ -221,7 +221,7 @@ impl Process {
         gradient
     }
 
-    /// Returns the estimate of the process at places.
+    /// Returns the mean and the variance of the process at the given places.
     pub(super) fn posterior(&self, places: Vec<Vec<f64>>) -> Posterior<'_> {
         let n = self.places.len();
         let mut whitened = Mat::from_fn(n, places.len(), |i, j| self.kernel.correlation(&self.places[i], &places[j]));
@@ -235,7 +235,7 @@ impl Process {
     }
 }
 
-/// The mean and variance at some places.
+/// The mean and the variance of a Gaussian process at given places.
 pub(super) struct Posterior<'a> {
     process: &'a Process,
     places: Vec<Vec<f64>>,
@@ -249,7 +249,7 @@ pub(super) struct Posterior<'a> {
 }
 
 impl Posterior<'_> {
-    /// Returns the number of places.
+    /// Returns the number of places of the estimate.
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
@@ -266,7 +266,7 @@ impl Posterior<'_> {
         (self.share[index] * self.process.variance).sqrt()
     }
 
-    /// Draws values at some of the places together, and returns a list for each draw.
+    /// Draws values at several places together, and returns a list of values for each draw.
     ///
     /// The mean is as uncertain as the tests leave it (Rasmussen and Williams, equation 2.42), and so is the
     /// deviation.
@@ -295,8 +295,8 @@ impl Posterior<'_> {
         draws.iter().map(|draw| (0..at.len()).map(|i| value(draw, i)).collect()).collect()
     }
 
-    /// Assumes that a test at one of the places has the expected value (kriging believer; Ginsbourger et al. 2010).
-    /// No mean changes, but all variances do.
+    /// Assumes that a test at the place with the given index has the expected value (kriging believer; Ginsbourger et
+    /// al. 2010). No mean changes, but all variances do.
     pub(super) fn believe(&mut self, index: usize) {
         let kernel = &self.process.kernel;
         let length = (self.share[index] + kernel.noise).sqrt();

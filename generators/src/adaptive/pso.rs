@@ -16,7 +16,7 @@ use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// Particle swarms on the robustness.
+    /// The strategy "pso", which searches for a failure by particle swarms on the robustness.
     pub const PSO: Self = Self::of(&Descriptor {
         name: "pso",
         about: "swarms drawn to the worst tests so far: for a rough robustness and many tests at a time",
@@ -38,7 +38,8 @@ const PATIENCE: usize = 5;
 /// The standard deviation of the first velocities.
 const FIRST_STEP: f64 = 0.2;
 
-/// The search: one swarm at a time, of `10 + 2 sqrt(d)` particles, of which 16 are about a batch.
+/// Makes the search by particle swarms. It runs one swarm at a time, of `10 + 2 sqrt(d)` particles, of which 16 are
+/// about a batch.
 pub(super) fn pso(axes: Vec<Axis>, rng: Pcg64) -> Chains {
     Chains::new(axes, swarm, 1, rng)
 }

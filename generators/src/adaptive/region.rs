@@ -23,7 +23,7 @@ const IMPROVEMENT: f64 = 1e-3;
 /// The distance by which a side reaches beyond its ends, so that ends of the axes are among the candidates.
 const BEYOND: f64 = 0.03;
 
-/// The box with the best test in it.
+/// A trust region, which is a box around the best test whose size follows the progress of the search.
 pub(super) struct Region {
     best: Option<Evaluation>,
     side: f64,
@@ -37,12 +37,12 @@ impl Region {
         Self { best: None, side: FIRST, successes: 0, failures: 0, improved: false }
     }
 
-    /// The best test since the search came to this region.
+    /// Returns the best test since the search began this region.
     pub(super) fn best(&self) -> Option<&Evaluation> {
         self.best.as_ref()
     }
 
-    /// Takes note of a test.
+    /// Takes the result of a test.
     pub(super) fn learn(&mut self, trial: &Evaluation) {
         let cost = trial.cost();
         let Some(best) = self.best.as_ref().map(Evaluation::cost) else {
@@ -55,7 +55,7 @@ impl Region {
         }
     }
 
-    /// Takes note that a batch of this size is over. Returns `false` if nothing more can be expected in this region.
+    /// Resizes the region after a batch of `batch` tests, and returns `true` if the region is still worth tests.
     pub(super) fn is_worth_it_after(&mut self, batch: usize, axes: usize) -> bool {
         if self.improved {
             (self.successes, self.failures) = (self.successes + 1, 0);
@@ -71,7 +71,8 @@ impl Region {
         self.side >= SHORTEST
     }
 
-    /// Candidates for the next tests: most in the box, some near the best test, some on edges, some anywhere.
+    /// Draws candidates for the next tests. Most candidates are in the box, some near the best test, some on edges,
+    /// some anywhere.
     pub(super) fn candidates(&self, n: usize, axes: &[Axis], lengths: &[f64], rng: &mut impl Rng) -> Vec<Vec<f64>> {
         let Some(best) = &self.best else { return Vec::new() };
         let mean_log = lengths.iter().map(|&length| libm::log(length)).sum::<f64>() / lengths.len() as f64;

@@ -11,7 +11,7 @@ use paracosm_space::Space;
 /// The correlation of two neighbouring pieces.
 const NEIGHBOURS: f64 = 0.9;
 
-/// The covariance of the steps along the continuous coordinates of a space. Each step has variance 1.
+/// Returns the covariance of the steps along the continuous coordinates of a space. Each step has variance 1.
 pub(super) fn covariance(space: &Space) -> DMatrix<f64> {
     let owners: Vec<&str> = space.continuous().map(|coordinate| coordinate.parameter.name.as_str()).collect();
     DMatrix::from_fn(owners.len(), owners.len(), |i, j| {

@@ -14,7 +14,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
-/// A running solver.
+/// A solver that runs in a thread of its own and requests costs in batches.
 pub(super) struct Solver {
     batches: Receiver<Vec<Vec<f64>>>,
     /// The sender of costs; `None` only during the drop.
@@ -23,7 +23,7 @@ pub(super) struct Solver {
 }
 
 impl Solver {
-    /// Starts a solver, which ends when `run` ends or the cost function fails.
+    /// Starts a solver in a new thread, which ends when `run` ends or the cost function fails.
     pub(super) fn start(run: impl FnOnce(Cost) + Send + 'static) -> Self {
         let (to_us, batches) = channel();
         let (costs, from_us) = channel();
@@ -33,13 +33,13 @@ impl Solver {
         Self { batches, costs: Some(costs), thread }
     }
 
-    /// The batch of places whose costs the solver needs next; `None` when it has ended. Every batch must be answered
-    /// before the next is requested.
+    /// Returns the batch of places whose costs the solver needs next; `None` when the solver has ended. Every batch
+    /// must be answered before the next is requested.
     pub(super) fn batch(&self) -> Option<Vec<Vec<f64>>> {
         self.batches.recv().ok()
     }
 
-    /// Answers the last batch with its costs.
+    /// Sends the costs of the last batch to the solver.
     pub(super) fn answer(&self, costs: Vec<f64>) {
         // A solver that has ended does not listen.
         let _ = self.costs.as_ref().map(|sender| sender.send(costs));
@@ -56,7 +56,7 @@ impl Drop for Solver {
     }
 }
 
-/// The cost function as the solver sees it.
+/// The cost function of a solver, which waits for the results of tests.
 pub(super) struct Cost {
     batches: Sender<Vec<Vec<f64>>>,
     costs: Receiver<Vec<f64>>,
@@ -103,7 +103,7 @@ impl Patience {
     }
 }
 
-/// The content of a mutex, even if a thread panicked while it held the mutex.
+/// Locks a mutex, even if a thread panicked while the thread held the mutex.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -39,15 +39,15 @@ const LEAST_PROBABLE: f64 = 1e-12;
 /// The greatest number of tests of a batch: further tests would be chosen by assumptions only.
 const MOST_BATCH: usize = 32;
 
-/// The tests that matter, and their purpose.
+/// The part of the tests that a model describes, with the purpose of the model.
 pub(super) enum View<'a> {
-    /// Low values near a place.
+    /// The model describes low robustness values near the given place.
     Near(&'a [f64]),
-    /// The side of 0 on which values are.
+    /// The model describes the side of 0 on which robustness values are.
     Sides,
 }
 
-/// The tests so far.
+/// A model of the robustness and of errors that learns from the tests so far.
 pub(super) struct Surrogate {
     axes: Vec<Axis>,
     kernel: Kernel,
@@ -76,7 +76,7 @@ impl Surrogate {
         &self.trials
     }
 
-    /// For each axis, the distance over which places are similar.
+    /// Returns the length scale of each axis, which is the distance over which the robustness stays similar.
     pub(super) fn lengths(&self) -> &[f64] {
         &self.kernel.lengths
     }
@@ -86,7 +86,7 @@ impl Surrogate {
         self.out.is_empty()
     }
 
-    /// The number of the next proposal.
+    /// Returns the number of the next proposal, which counts the proposals so far.
     pub(super) fn proposals(&self) -> usize {
         self.proposals
     }
@@ -108,7 +108,7 @@ impl Surrogate {
         known.into_iter().any(|known| known == at)
     }
 
-    /// Counts places as proposed.
+    /// Records places as proposals that have no result yet.
     pub(super) fn send(&mut self, places: &[Vec<f64>]) {
         for at in places {
             self.out.insert(self.proposals, at.clone());

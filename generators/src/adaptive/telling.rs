@@ -12,7 +12,7 @@ use super::process::Kernel;
 /// long.
 const MOST_OF_A_VERDICT: usize = 2048;
 
-/// The indices of the most informative tests, at most `most`, by the kernel's distance.
+/// Chooses the most informative tests, at most `most`, by the kernel's distance, and returns the indices of the tests.
 pub(super) fn telling(kernel: &Kernel, places: &[&[f64]], failed: &[bool], most: usize) -> Vec<usize> {
     let distance = |a: usize, b: usize| kernel.scaled_distance(places[a], places[b]);
     let sides = [true, false].map(|side| thinned((0..places.len()).filter(|&i| failed[i] == side).collect()));

@@ -50,13 +50,13 @@ const OFFSETS: usize = 33;
 /// The least probability of a verdict, so that a single surprise does not decide everything.
 const LEAST_PROBABLE: f64 = 1e-6;
 
-/// The kernels of the three transformations; each fit continues from them.
+/// A fitter of failure models, which keeps the kernel of each transformation as the start of the next fit.
 pub(super) struct Fitter {
     kernels: [Kernel; 3],
     is_fitted: bool,
 }
 
-/// The result of a fit.
+/// A fitted model of verdicts, with a transformation, a Gaussian process and a link.
 pub(super) struct Verdicts {
     pub bend: Bend,
     pub process: Process,
@@ -72,7 +72,7 @@ struct LeftOut {
     weights: Vec<f64>,
 }
 
-/// The function from a value of the process to a probability.
+/// The link function, which turns a value of the process into a probability of failure.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     slope: f64,
@@ -84,7 +84,8 @@ impl Fitter {
         Self { kernels: [(); 3].map(|()| prior(axes)), is_fitted: false }
     }
 
-    /// Fits the best of the three models. The first places determine the lengths. `None` if there is no place.
+    /// Fits a model with each of three transformations of the robustness, and returns the best model. The first places
+    /// determine the lengths. `None` if there is no place.
     pub(super) fn fit(&mut self, places: &[Vec<f64>], robustness: &[f64]) -> Option<Verdicts> {
         let later = (FIRST_FIT / self.kernels[0].axes.len().max(1)).clamp(LATER_FIT.0, LATER_FIT.1);
         let steps = if self.is_fitted { later } else { FIRST_FIT };
@@ -111,8 +112,8 @@ impl Fitter {
 }
 
 impl Verdicts {
-    /// A link that, after the left-out tests, is as plausible as the best link. The prior of the offset is standard
-    /// normal.
+    /// Draws a link with the probability that the link has after the left-out tests. The prior of the offset is
+    /// standard normal.
     pub(super) fn plausible_link(&self, rng: &mut impl Rng) -> Link {
         let offset = |i: usize| MOST_OFFSET * (2.0 * i as f64 / (OFFSETS - 1) as f64 - 1.0);
         let links = slopes().flat_map(|slope| (0..OFFSETS).map(move |i| Link { slope, offset: offset(i) }));
@@ -131,13 +132,13 @@ impl Verdicts {
         drawn.map_or(self.link, |drawn| links[drawn])
     }
 
-    /// The probability that a test fails if its transformed robustness has this mean and deviation.
+    /// Returns the probability that a test fails whose transformed robustness has the given mean and deviation.
     pub(super) fn failure(&self, mean: f64, deviation: f64) -> f64 {
         normal_below(-self.link.of(mean, deviation))
     }
 
-    /// Returns the same model with the link that makes the verdicts of all these tests most likely. The process has
-    /// seen the first `seen` tests; each of them is left out when it is predicted.
+    /// Returns the model with the link that makes the verdicts of all given tests most likely. The process has seen the
+    /// first `seen` tests; each of them is left out when it is predicted.
     ///
     /// The process sees the most informative tests, which are at the boundary more often, and fail more often, than
     /// other tests. So the other tests must show how many fail.
@@ -156,7 +157,7 @@ impl Verdicts {
 }
 
 impl Link {
-    /// The probability that a test with this transformed robustness fails.
+    /// Returns the probability that a test with the given transformed robustness fails.
     pub(super) fn of_value(self, value: f64) -> f64 {
         normal_below(-self.of(value, 0.0))
     }

@@ -1,6 +1,6 @@
 //! Finite fields, as tables.
 
-/// The finite field with `order` elements, which are numbered from 0 = zero and 1 = one.
+/// A finite field whose elements have numbers, from 0 for zero and 1 for one.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     order: usize,
@@ -9,7 +9,7 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// Makes the field of this order; `None` if the order is not a power of a prime.
+    /// Makes the finite field with `order` elements; `None` if the order is not a power of a prime.
     pub(super) fn new(order: usize) -> Option<Self> {
         let prime = (2..=order).find(|factor| order.is_multiple_of(*factor))?;
         let degree = (1..).find(|&degree| power(prime, degree) >= order)?;

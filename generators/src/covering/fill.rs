@@ -10,7 +10,7 @@ use paracosm_coverage::Deadline;
 /// The greatest number of all levels for which pairs of levels are counted; beyond it only single levels are counted.
 const MOST_LEVELS: usize = 1 << 11;
 
-/// Gives every open entry a level that the constraints allow. Stops if the deadline passes.
+/// Gives every open entry of the rows a level that the constraints allow. Stops if the deadline passes.
 pub(super) fn fill(columns: &Columns, rows: &mut Rows, deadline: Deadline) {
     let mut seen = Seen::new(&columns.levels);
     for index in 0..rows.len() {

@@ -9,10 +9,10 @@ use super::rows::{Columns, OPEN};
 use paracosm_coverage::Deadline;
 use paracosm_space::rules::Companions;
 
-/// Columns whose combinations of `strength` columns have to be covered.
+/// A set of columns with a strength, so that all combinations of `strength` of the columns have to be covered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Family {
-    /// The columns, in ascending order.
+    /// The columns of the family, in ascending order.
     pub(super) members: Vec<usize>,
     pub(super) strength: usize,
 }
@@ -44,10 +44,10 @@ impl Block {
     }
 }
 
-/// The entries of a row before the newest column as bits, by words.
+/// The entries of a row before the newest column, as pairs of a word's position and the bits in the word.
 pub(super) type Bits = Vec<(u32, u64)>;
 
-/// The combinations of one family with the newest column that are left to cover.
+/// The uncovered combinations of one family that contain a level of the newest column.
 #[derive(Debug)]
 pub(super) struct Front {
     column: usize,
@@ -64,8 +64,8 @@ pub(super) struct Front {
 }
 
 impl Front {
-    /// Makes the front of a family at one of its columns; `None` if there are too few columns before it. After the
-    /// deadline the front is incomplete and must not be used.
+    /// Makes the front of a family at a column of the family; `None` if too few columns come before this column. After
+    /// the deadline the front is incomplete and must not be used.
     pub(super) fn new(
         columns: &Columns,
         companions: &mut Companions,
@@ -142,12 +142,12 @@ impl Front {
         self.blocks.push(block);
     }
 
-    /// The number of combinations with a level that are left.
+    /// Returns the number of uncovered combinations with the given level of the newest column.
     pub(super) fn left_of(&self, level: usize) -> u64 {
         self.left[level]
     }
 
-    /// The entries of a row in the columns of the front, as bits.
+    /// Writes the entries of a row in the columns of the front into `bits`.
     #[inline(always)]
     pub(super) fn bits_of(&self, row: &[u32], bits: &mut Bits) {
         bits.clear();
@@ -165,7 +165,7 @@ impl Front {
         }
     }
 
-    /// Adds to `gains` the number of combinations that a row would cover with each level.
+    /// Adds the number of combinations that a row would cover with each level to `gains`.
     #[inline(always)]
     pub(super) fn gains(&self, columns: &Columns, row: &[u32], bits: &Bits, gains: &mut [u32]) {
         for block in self.blocks.iter().filter(|block| block.left > 0) {
@@ -202,8 +202,8 @@ impl Front {
         }
     }
 
-    /// Finds the first combination with a level that is left, from a position on. Puts its entries before the newest
-    /// column into `entries`, and returns its position.
+    /// Finds the first uncovered combination with a level, from a position on, and returns the position of the
+    /// combination. Puts the entries of the combination before the newest column into `entries`.
     pub(super) fn next_left(
         &self,
         columns: &Columns,
@@ -243,14 +243,14 @@ impl Front {
     }
 }
 
-/// The position of a combination in a front.
+/// The position of an uncovered combination in a front.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Position {
     block: usize,
     word: usize,
 }
 
-/// All choices of `k` of the columns, in lexicographic order.
+/// Lists all choices of `k` of the columns, in lexicographic order.
 pub(super) fn choices(columns: &[usize], k: usize) -> Vec<Vec<usize>> {
     match (k, columns) {
         (0, _) => vec![vec![]],

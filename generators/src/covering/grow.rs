@@ -36,7 +36,8 @@ impl Choice {
     }
 }
 
-/// Grows rows until all families are covered. The first columns may already be covered.
+/// A procedure that grows rows column by column until all families are covered. The first columns may already be
+/// covered.
 pub(super) struct Growth<'a> {
     pub(super) columns: &'a Columns<'a>,
     pub(super) families: &'a [Family],
@@ -45,7 +46,8 @@ pub(super) struct Growth<'a> {
 }
 
 impl Growth<'_> {
-    /// Grows the columns from `begin` on. If the deadline passes, the rows are incomplete and must not be used.
+    /// Grows the rows by the columns from `begin` on. If the deadline passes, the rows are incomplete and must not be
+    /// used.
     pub(super) fn grow(&self, rows: &mut Rows, companions: &mut Companions, begin: usize) {
         for column in begin..self.columns.len() {
             let with_column = self.families.iter().filter(|family| family.members.contains(&column));

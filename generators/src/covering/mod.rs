@@ -36,51 +36,52 @@ use paracosm_space::demand::TestKind;
 use paracosm_space::rules::Rules;
 use task::Task;
 
-/// A request for a covering array.
+/// A request for a covering array, with parameters, strength, existing tests and limits.
 #[derive(Debug, Clone)]
 pub struct CoveringRequest<'a> {
-    /// The parameters and the constraints on them.
+    /// The discrete parameters with their levels, and the constraints on the parameters.
     pub rules: &'a Rules,
-    /// The kinds of tests, if negative values divide them. Tests of one kind do not cover the combinations of another
-    /// kind. Empty if all tests are of one kind.
+    /// The kinds of tests, if negative values divide the tests into kinds. Tests of one kind do not cover the
+    /// combinations of another kind. Empty if all tests are of one kind.
     pub kinds: &'a [TestKind],
-    /// The strength k of the array, which covers all valid combinations of any k parameters.
+    /// The strength k of the array, whose tests contain all valid combinations of levels of any k parameters.
     pub k: usize,
-    /// The groups of parameters that need a higher strength, as positions of the parameters and the strength.
+    /// The groups of parameters with a higher strength, each with the positions of its parameters and its strength.
     pub groups: &'a [(Vec<usize>, usize)],
-    /// Existing tests, with a level or `None` for each parameter. They come first in the array, completed.
+    /// Existing tests that the array keeps, with a level or `None` for each parameter. These tests come first in the
+    /// array, completed.
     pub existing: &'a [Vec<Option<usize>>],
-    /// The seed of all chance.
+    /// The seed of the random decisions in the construction.
     pub seed: u64,
-    /// The deadline at which the construction is given up.
+    /// The deadline at which the construction ends without an array.
     pub deadline: Deadline,
 }
 
 impl<'a> CoveringRequest<'a> {
-    /// Makes a request for all valid combinations of `k` parameters, without existing tests.
+    /// Makes a request for a covering array of strength `k`, without existing tests and without a deadline.
     pub fn new(rules: &'a Rules, k: usize) -> Self {
         Self { rules, kinds: &[], k, groups: &[], existing: &[], seed: 0, deadline: Deadline::never() }
     }
 }
 
-/// Tests that contain every valid combination that the request demands.
+/// A covering array, whose tests contain every valid combination of levels that a request demands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CoveringArray {
-    /// The tests, with a level for each parameter. The existing tests that can be kept come first. All satisfy the
-    /// constraints.
+    /// The tests of the array, with a level for each parameter. The existing tests that can be kept come first. All
+    /// satisfy the constraints.
     pub rows: Vec<Vec<usize>>,
-    /// The number of rows that are existing tests.
+    /// The number of existing tests among the tests of the array.
     pub kept: usize,
-    /// The positions of existing tests that violate a constraint, and so are not among the rows.
+    /// The positions of the existing tests that violate a constraint, and therefore are not in the array.
     pub invalid: Vec<usize>,
-    /// A lower bound on the number of tests that cover as much. It is the largest number of valid combinations that
-    /// any k parameters, or the parameters of a group, have among themselves, or the bound that
-    /// [`fewest_rows`](paracosm_coverage::theory::covering::fewest_rows) proves for parameters without constraints.
-    /// The bounds of several kinds of tests are added up.
+    /// A lower bound on the number of tests of every array for the same request. It is the largest number of valid
+    /// combinations that any k parameters, or the parameters of a group, have among themselves, or the bound that
+    /// [`fewest_rows`](paracosm_coverage::theory::covering::fewest_rows) proves for parameters without constraints. The
+    /// bounds of several kinds of tests are added up.
     pub lower_bound: u64,
 }
 
-/// Constructs a covering array.
+/// Constructs a covering array for a request.
 ///
 /// # Errors
 /// A strength is 0 or more than the number of parameters that it combines, a parameter has no level, a group names a
@@ -148,8 +149,8 @@ impl CoveringRequest<'_> {
         Ok(())
     }
 
-    /// Computes a lower bound on the number of tests, as in [`CoveringArray::lower_bound`], without an array. A
-    /// number beyond `u128` saturates.
+    /// Computes a lower bound on the number of tests of a covering array, without constructing the array. It is the
+    /// number in [`CoveringArray::lower_bound`]. A number beyond `u128` saturates.
     ///
     /// # Errors
     /// As [`covering_array`], except for the size.
@@ -158,7 +159,8 @@ impl CoveringRequest<'_> {
         Ok(bound(&Task::all(self).0))
     }
 
-    /// Computes the number of combinations that an array must contain. A number beyond `u128` saturates.
+    /// Computes the number of combinations of levels that the tests of a covering array must contain. A number beyond
+    /// `u128` saturates.
     ///
     /// # Errors
     /// As [`covering_array`], except for the size.

@@ -9,7 +9,7 @@ use super::rows::{Columns, OPEN, Rows};
 /// The greatest number of bits of all sets. Older rows beyond it are left out, because they are full or nearly full.
 const MOST_BITS: usize = 1 << 26;
 
-/// The rows with open entries that have, or may get, a given level in the newest column.
+/// An index of the rows with open entries that have, or may get, a given level in the newest column.
 #[derive(Debug)]
 pub(super) struct OpenRows {
     columns: usize,
@@ -57,7 +57,8 @@ impl OpenRows {
         }
     }
 
-    /// Puts a combination into the first row with room, or into a new row. Returns the row's position.
+    /// Puts a combination into the first row that has room for the combination, or into a new row. Returns the row's
+    /// position.
     pub(super) fn place(&mut self, columns: &Columns, rows: &mut Rows, combination: &[(usize, u32)]) -> usize {
         if let Some(place) = self.find(columns, rows, combination) {
             let index = self.rows[place];

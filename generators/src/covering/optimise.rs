@@ -21,8 +21,9 @@ const CELLS_OF_SYMMETRIC: usize = 1_000_000;
 /// The number of looks at the clock after which another kind of symmetry is tried.
 const LOOKS_IN_TURN: usize = 256;
 
-/// Shrinks an array that [`covering_array`](super::covering_array) constructed for the same request, until the
-/// deadline or the lower bound. Existing rows stay. `progress` is called with each new size.
+/// Reduces the number of tests of a covering array, until the deadline passes or the lower bound is reached.
+/// [`covering_array`](super::covering_array) must have constructed the array for the same request. Existing rows stay.
+/// `progress` is called with each new size.
 ///
 /// All cores search, each from the best array found so far. The result depends on the available time. It covers as
 /// much as the given array and is never larger.

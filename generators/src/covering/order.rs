@@ -42,7 +42,7 @@ impl Counters {
     }
 }
 
-/// Orders the rows from `kept` on. Each row is judged by the task that it belongs to.
+/// Orders the rows from position `kept` on. Each row is judged by the task that it belongs to.
 pub(super) fn order(tasks: &[Task], rows: Vec<Vec<usize>>, kept: usize) -> Vec<Vec<usize>> {
     let own: Vec<usize> = rows.iter().map(|row| Task::of_row(tasks, row)).collect();
     let mut sizes = vec![0; tasks.len()];

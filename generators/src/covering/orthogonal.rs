@@ -14,13 +14,13 @@ const LARGEST_FIELD: usize = 64;
 /// The greatest size of a useful orthogonal array, as a multiple of the rows that t columns need at least.
 const MOST_TIMES: usize = 3;
 
-/// Rows that cover the combinations of t of the first columns, and the number of these columns.
+/// An orthogonal array for the first columns, whose rows cover all combinations of any t of the first columns.
 pub(super) struct Base {
     pub(super) rows: Rows,
     pub(super) columns: usize,
 }
 
-/// The orthogonal arrays that fit the first columns, which have equally many levels. Each array has more of these
+/// Lists the orthogonal arrays for the first columns, which have equally many levels. Each array has more of these
 /// columns than the array before. An entry beyond the levels of its column is left open.
 pub(super) fn bases(columns: &Columns, t: usize) -> Vec<Base> {
     let alike = |&column: &usize| columns.group(column).is_none() && columns.levels[column] == columns.levels[0];

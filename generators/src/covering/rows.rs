@@ -2,17 +2,17 @@
 
 use paracosm_space::rules::Rules;
 
-/// The mark of an open entry, which no combination needs yet.
+/// The mark of an open entry of a row, which no combination needs yet.
 pub(super) const OPEN: u32 = u32::MAX;
 
-/// The columns of an array: the parameters, those with most levels first.
+/// The columns of a covering array, which are the parameters in descending order of their numbers of levels.
 ///
 /// Later columns find the rows that the earlier columns need. If columns with many levels come first, these rows are
 /// almost enough.
 #[derive(Debug)]
 pub(super) struct Columns<'r> {
     pub(super) rules: &'r Rules,
-    /// The parameter of each column.
+    /// The position of the parameter of each column.
     pub(super) order: Vec<usize>,
     /// The column of each parameter.
     column: Vec<usize>,
@@ -38,7 +38,7 @@ impl<'r> Columns<'r> {
         self.column[parameter]
     }
 
-    /// The group of a column's parameter.
+    /// Returns the group of joined parameters that contains a column's parameter.
     pub(super) fn group(&self, column: usize) -> Option<usize> {
         self.rules.group_of(self.order[column])
     }
@@ -48,24 +48,24 @@ impl<'r> Columns<'r> {
         |parameter| Some(row[self.column[parameter]]).filter(|&level| level != OPEN).map(|level| level as usize)
     }
 
-    /// Returns `true` if the open entries of a row's group can be chosen so that the constraints hold.
+    /// Returns `true` if the open entries of a group in a row can be filled so that the constraints hold.
     pub(super) fn holds(&self, group: usize, row: &[u32]) -> bool {
         self.rules.holds(group, self.fixed(row))
     }
 
-    /// The levels that an open entry of a row may get; `None` if it may get any level.
+    /// Returns the levels that an open entry of a row may get; `None` if the entry may get any level.
     pub(super) fn allowed(&self, column: usize, row: &[u32]) -> Option<Vec<bool>> {
         self.group(column)?;
         Some(self.rules.supported_at(self.order[column], self.fixed(row)))
     }
 
-    /// The levels of a complete row, by parameter.
+    /// Returns the levels of a complete row, in the order of the parameters.
     pub(super) fn test(&self, row: &[u32]) -> Vec<usize> {
         self.column.iter().map(|&column| row[column] as usize).collect()
     }
 }
 
-/// Rows of the same length in one allocation.
+/// A list of rows of the same length, stored in one allocation.
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
     columns: usize,

@@ -21,7 +21,7 @@ type Group = Vec<Vec<usize>>;
 /// The largest number of combinations of t levels that is sorted into orbits.
 const MOST_COMBINATIONS: usize = 1 << 16;
 
-/// A search for starters.
+/// A search for a symmetric covering array, whose rows are images of few starter rows.
 pub(super) struct Symmetric {
     group: Group,
     rules: Rules,
@@ -34,7 +34,7 @@ pub(super) struct Symmetric {
     search: Option<Annealing>,
 }
 
-/// Makes a search for each suitable group of permutations; none if the parameters differ.
+/// Makes a search for symmetric arrays for each suitable group of permutations; none if the parameters differ.
 pub(super) fn symmetric_searches(task: &Task) -> Vec<Symmetric> {
     let levels = task.rules.levels();
     let v = levels[0];
@@ -106,8 +106,8 @@ impl Symmetric {
         Self { group, rules: task.rules.clone(), strength, constant, constants, seed, search: None }
     }
 
-    /// Drops starters until the array is smaller than `size`, or begins with so few. Returns `false` if that is
-    /// impossible.
+    /// Drops starter rows until the array is smaller than `size`, or begins with few enough starter rows. Returns
+    /// `false` if that is impossible.
     pub(super) fn shrink_below(&mut self, size: usize) -> bool {
         let starters = size.saturating_sub(self.constants + 1) / self.group.len();
         let goal = self.constant.len() + starters;
@@ -126,7 +126,7 @@ impl Symmetric {
         starters > 0
     }
 
-    /// Takes `steps` steps. Returns the rows of an array if one is found.
+    /// Takes `steps` steps of the search. Returns the rows of an array if one is found.
     pub(super) fn steps(&mut self, steps: usize) -> Option<Vec<Vec<usize>>> {
         let search = self.search.as_mut()?;
         search.steps(steps);

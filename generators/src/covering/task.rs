@@ -19,19 +19,19 @@ const STEP_WORK: usize = 300;
 /// The work of polishing, in visits of cells: well below 0.1 s.
 const POLISH_WORK: usize = 3_800_000;
 
-/// The part of a request that falls to tests of one kind.
+/// The part of a request for a covering array that concerns the tests of one kind.
 #[derive(Debug)]
 pub(super) struct Task<'a> {
     pub(super) rules: Rules,
-    /// Parameters in ascending order, and the strength at which their valid combinations are covered.
+    /// The families to cover, each with its parameters in ascending order and its strength.
     pub(super) families: Vec<(Vec<usize>, usize)>,
-    /// The existing tests of this kind, which can be completed.
+    /// The existing tests of this kind, which can be completed to valid tests.
     pub(super) existing: Vec<&'a [Option<usize>]>,
     pub(super) seed: u64,
 }
 
 impl<'a> Task<'a> {
-    /// The tasks of a request, and the positions of existing tests that fit no kind.
+    /// Returns the tasks of a request, and the positions of the existing tests that fit no kind.
     pub(super) fn all(request: &CoveringRequest<'a>) -> (Vec<Self>, Vec<usize>) {
         let whole = [TestKind::of(request.rules)];
         let kinds = if request.kinds.is_empty() { &whole } else { request.kinds };
@@ -49,7 +49,7 @@ impl<'a> Task<'a> {
         (tasks, invalid)
     }
 
-    /// The position of the task that a row belongs to.
+    /// Returns the position of the task to which a row belongs.
     pub(super) fn of_row(tasks: &[Self], row: &[usize]) -> usize {
         tasks.iter().position(|task| task.rules.allows(row)).expect("every row is of some kind")
     }
@@ -72,8 +72,9 @@ impl<'a> Task<'a> {
         Self { rules, families, existing: Vec::new(), seed: request.seed }
     }
 
-    /// The largest number of valid combinations that parameters of a family have among themselves, or the bound that
-    /// theory proves for the parameters without constraints, if it is larger.
+    /// Returns a lower bound on the number of rows of the task. It is the largest number of valid combinations of one
+    /// choice of parameters, or the bound that theory proves for the parameters without constraints, if this bound is
+    /// larger.
     pub(super) fn lower_bound(&self) -> u128 {
         let needed = |(members, strength): &(Vec<usize>, usize)| {
             let free = members.iter().filter(|&&member| self.rules.group_of(member).is_none());
@@ -84,19 +85,19 @@ impl<'a> Task<'a> {
         self.families.iter().map(needed).fold(0, u128::max)
     }
 
-    /// The number of valid combinations of all families.
+    /// Returns the number of valid combinations of all families.
     pub(super) fn combinations(&self) -> u128 {
         let valid = self.families.iter().map(|(members, strength)| self.rules.count(members, *strength).valid);
         valid.fold(0, u128::saturating_add)
     }
 
-    /// The numbered cells that have to be covered; `None` if there are too many.
+    /// Returns the numbered cells that have to be covered; `None` if there are too many cells.
     pub(super) fn cells(&self) -> Option<Vec<Cells>> {
         let numbered = |(members, strength): &(Vec<usize>, usize)| Cells::new(self.rules.levels(), members, *strength);
         self.families.iter().map(numbered).collect()
     }
 
-    /// Makes rows that cover everything, the existing rows first.
+    /// Makes rows that cover all combinations of the task, with the existing rows first.
     ///
     /// # Errors
     /// The deadline passed before the rows were complete.

@@ -5,7 +5,7 @@ use paracosm_coverage::empty_boxes::EmptyBoxes;
 /// The least volume of a box that counts, as a share of the largest box.
 const LARGE: f64 = 0.65;
 
-/// The large boxes that a point can break.
+/// The large empty boxes that a point in a given room can break.
 pub(super) struct Holes {
     dims: usize,
     /// For each box, the eighth power of the ratio of its volume to the largest volume.
@@ -15,8 +15,8 @@ pub(super) struct Holes {
 }
 
 impl Holes {
-    /// Collects the large boxes that meet the room, which has a lower end and a width along each axis. `largest` is
-    /// the volume of the largest empty box, here or elsewhere, with which the boxes are compared.
+    /// Collects the large empty boxes that overlap a room. The room has a lower end and a width along each axis.
+    /// `largest` is the volume of the largest empty box, here or elsewhere, with which the boxes are compared.
     pub fn around(boxes: &EmptyBoxes, room: &[(f64, f64)], largest: f64) -> Self {
         let dims = room.len();
         let mut holes = Self { dims, weights: Vec::new(), sides: Vec::new() };
@@ -34,12 +34,12 @@ impl Holes {
         holes
     }
 
-    /// Returns `true` if there is no large box.
+    /// Returns `true` if no large empty box overlaps the room.
     pub fn is_empty(&self) -> bool {
         self.weights.is_empty()
     }
 
-    /// The amount by which a point changes the sum of the eighth powers of all volumes.
+    /// Returns the amount by which a new point changes the sum of the eighth powers of the boxes' volumes.
     pub fn left_by(&self, point: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (weight, sides) in self.weights.iter().zip(self.sides.chunks_exact(self.dims)) {

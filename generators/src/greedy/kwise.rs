@@ -71,7 +71,7 @@ struct LargeHoles<'a> {
     of_coordinate: Vec<Vec<usize>>,
 }
 
-/// The tests so far, and the holes that they leave in any k parameters.
+/// The greedy choice of tests for k-wise dispersion, with the holes in any k parameters that the tests so far leave.
 pub(crate) struct KwiseGreedy {
     dims: usize,
     rules: Rules,
@@ -80,7 +80,7 @@ pub(crate) struct KwiseGreedy {
 }
 
 impl KwiseGreedy {
-    /// Prepares tests that fill the holes that `existing` tests leave in any `k` of the parameters.
+    /// Makes the greedy choice of tests that fill the holes of `existing` tests in any `k` parameters.
     ///
     /// # Errors
     /// `k` is not in 1 to the number of parameters, or there are too many views.

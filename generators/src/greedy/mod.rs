@@ -43,7 +43,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// Points that each break the largest empty boxes.
+    /// The strategy "greedy", which puts each test into the largest empty boxes.
     pub const GREEDY: Self = Self::of(&Descriptor {
         name: "greedy",
         about: "puts every test into the largest holes: the lowest dispersion, for some milliseconds a test",
@@ -69,7 +69,7 @@ const SHORTER: f64 = 0.93;
 /// The share of the largest box, around its middle, in which points are placed.
 const ROOM: f64 = 0.7;
 
-/// The points so far, and the holes between them.
+/// The greedy choice of points, with the empty boxes between the points so far.
 pub(crate) struct Greedy {
     dims: usize,
     boxes: EmptyBoxes,
@@ -77,7 +77,7 @@ pub(crate) struct Greedy {
 }
 
 impl Greedy {
-    /// Prepares points of `[0,1)^dims` that fill the holes that `existing` points leave.
+    /// Makes the greedy choice of points in `[0,1)^dims` that fill the holes of the `existing` points.
     ///
     /// # Errors
     /// `dims` is 0, or an existing point has another number of coordinates or a coordinate that is not in `[0,1]`.
@@ -93,7 +93,7 @@ impl Greedy {
         Ok(Self { dims, boxes, rng })
     }
 
-    /// The next point.
+    /// Chooses the next point, and adds the point to the points so far.
     pub(crate) fn next(&mut self) -> Vec<f64> {
         let largest = self.boxes.largest();
         let room = room(largest);

@@ -6,7 +6,7 @@ use crate::sequence::RowSet;
 use std::collections::HashMap;
 use std::sync::Mutex;
 
-/// Greedy points for every discrete row, which are found when they are asked for, and then remembered.
+/// The greedy points of every discrete row. A point is computed at its first request, and then remembered.
 pub(crate) struct GreedyRows {
     dims: usize,
     seed: u64,
@@ -21,7 +21,8 @@ struct Row {
 }
 
 impl GreedyRows {
-    /// Prepares the points of all rows. `existing` holds the existing points of each row, by the row's number.
+    /// Makes the greedy points of all rows, without computing a point. `existing` holds the existing points of each
+    /// row, by the row's number.
     pub(crate) fn new(dims: usize, seed: u64, existing: HashMap<u64, Vec<Vec<f64>>>) -> Self {
         Self { dims, seed, existing, rows: Mutex::default() }
     }

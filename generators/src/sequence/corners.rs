@@ -8,7 +8,8 @@ use super::uniform::Uniform;
 use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// Independent random corners of the cube, which repeat, as a baseline for searches.
+    /// The strategy "random-corners", which takes random corners of the cube as a baseline for searches. Corners
+    /// repeat.
     pub const RANDOM_CORNERS: Self = Self::of(&Descriptor {
         name: "random-corners",
         about: "every parameter at a random end: the baseline that a search for failures should beat",
@@ -23,7 +24,7 @@ impl Strategy {
     });
 }
 
-/// The corners nearest to uniformly random points.
+/// A sequence of random corners, which are the corners nearest to uniformly random points.
 pub(crate) struct RandomCorners(Uniform);
 
 impl RandomCorners {

@@ -14,7 +14,7 @@ use super::{per_row::RowSet, radical::ratio, shift::Shift};
 use crate::strategy::{Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// The Fibonacci lattice in two dimensions; a seed shifts it.
+    /// The strategy "fibonacci", which takes the Fibonacci lattice in two dimensions; a seed shifts the lattice.
     pub const FIBONACCI: Self = Self::of(&Descriptor {
         name: "fibonacci",
         about: "the most even lattice for exactly two parameters, made for exactly the budget",
@@ -27,13 +27,14 @@ impl Strategy {
     });
 }
 
-/// The lattice, with both axes shifted or none.
+/// The Fibonacci lattice, with both axes shifted or unshifted.
 pub(crate) struct Fibonacci {
     seed: Option<u64>,
 }
 
 impl Fibonacci {
-    /// Makes the plain set with shifted copies for the rows after the first; with a seed all sets are shifted.
+    /// Makes the Fibonacci lattices of all rows. The lattice of the first row is unshifted without a seed; all other
+    /// lattices are shifted.
     pub(crate) fn new(seed: Option<u64>) -> Self {
         Self { seed }
     }

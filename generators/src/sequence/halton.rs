@@ -10,7 +10,8 @@ use super::{
 use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// The Halton sequence, the paper's choice; a seed shifts it modulo 1 by a random vector.
+    /// The strategy "halton", which takes the Halton sequence; a seed shifts the sequence modulo 1 by a random vector.
+    /// It is the paper's choice.
     pub const HALTON: Self = Self::of(&Descriptor {
         name: "halton",
         about: "low-dispersion sequence of any length: the default for up to about ten parameters",
@@ -26,14 +27,14 @@ impl Strategy {
     });
 }
 
-/// The Halton sequence in the first primes, shifted or not.
+/// The Halton sequence in the first primes, shifted or unshifted.
 pub(crate) struct Halton {
     bases: Vec<u64>,
     shift: Shift,
 }
 
 impl Halton {
-    /// Makes the plain sequence, or with a seed a shifted one.
+    /// Makes the Halton sequence, which is shifted if a seed is given.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         Self { bases: primes().take(dims).collect(), shift: Shift::of_row(dims, seed, 0) }
     }

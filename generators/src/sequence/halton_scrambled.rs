@@ -17,7 +17,7 @@ use crate::strategy::{Descriptor, Endless, Look, MarkShape, Method, MethodKind, 
 use rand::seq::SliceRandom;
 
 impl Strategy {
-    /// The Halton sequence with random permutations of its digits.
+    /// The strategy "halton-scrambled", which takes the Halton sequence with random permutations of its digits.
     pub const HALTON_SCRAMBLED: Self = Self::of(&Descriptor {
         name: "halton-scrambled",
         about: "halton with random digits: avoids halton's stripes in ten parameters and more",
@@ -32,10 +32,11 @@ impl Strategy {
     });
 }
 
-/// The greatest number of dimensions: its permutations take 37 MB, and twice as many dimensions take four times that.
+/// The greatest number of dimensions of the scrambled Halton sequence. The permutations take 37 MB, and twice as many
+/// dimensions take four times that memory.
 pub(crate) const MOST_DIMS: usize = 1000;
 
-/// The scrambled sequence of one seed.
+/// The scrambled Halton sequence of one seed.
 pub(crate) struct HaltonScrambled {
     axes: Vec<Axis>,
 }
@@ -51,7 +52,7 @@ struct Axis {
 }
 
 impl HaltonScrambled {
-    /// Makes the sequence of a seed in at most [`MOST_DIMS`] dimensions.
+    /// Makes the scrambled Halton sequence of a seed in at most [`MOST_DIMS`] dimensions.
     pub(crate) fn new(dims: usize, seed: u64) -> Self {
         Self { axes: primes().take(dims).enumerate().map(|(axis, base)| Axis::new(axis, base, seed)).collect() }
     }

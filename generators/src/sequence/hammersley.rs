@@ -12,7 +12,7 @@ use super::{
 use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// The Hammersley set; a seed shifts it.
+    /// The strategy "hammersley", which takes the Hammersley set; a seed shifts the set.
     pub const HAMMERSLEY: Self = Self::of(&Descriptor {
         name: "hammersley",
         about: "halton with one axis evenly spaced: more even than halton, but made for exactly the budget",
@@ -25,7 +25,7 @@ impl Strategy {
     });
 }
 
-/// The Hammersley set, with all axes shifted or none.
+/// The Hammersley set, with all axes shifted or unshifted.
 pub(crate) struct Hammersley {
     dims: usize,
     bases: Vec<u64>,
@@ -33,7 +33,8 @@ pub(crate) struct Hammersley {
 }
 
 impl Hammersley {
-    /// Makes the plain set with shifted copies for the rows after the first; with a seed all sets are shifted.
+    /// Makes the Hammersley sets of all rows. The set of the first row is unshifted without a seed; all other sets are
+    /// shifted.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         Self { dims, bases: primes().take(dims - 1).collect(), seed }
     }

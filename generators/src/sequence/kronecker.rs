@@ -15,7 +15,7 @@ use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodK
 use rand::Rng;
 
 impl Strategy {
-    /// The R-sequence, a Kronecker sequence; a seed starts it at a random point.
+    /// The strategy "kronecker", which takes the R-sequence; with a seed the sequence starts at a random point.
     pub const KRONECKER: Self = Self::of(&Descriptor {
         name: "kronecker",
         about: "golden steps on every axis: a sequence of any length, for few parameters",
@@ -30,14 +30,14 @@ impl Strategy {
     });
 }
 
-/// The sequence from a start on.
+/// The R-sequence, a Kronecker sequence, from a start point on.
 pub(crate) struct Kronecker {
     /// The start and the step of each axis.
     axes: Vec<(u64, u64)>,
 }
 
 impl Kronecker {
-    /// Makes the sequence from the centre of the cube, or with a seed from a random point.
+    /// Makes the R-sequence that starts at the centre of the cube, or with a seed at a random point.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         let mut rng = seed.map(|seed| seeded(seed, Purpose::Shift, 0));
         let mut start = || rng.as_mut().map_or(1 << 63, Rng::random);

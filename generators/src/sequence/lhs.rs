@@ -16,7 +16,7 @@ use crate::{
 use rand::{Rng, seq::SliceRandom};
 
 impl Strategy {
-    /// A random Latin hypercube.
+    /// The strategy "lhs", which takes a random Latin hypercube with random points in its cells.
     pub const LHS: Self = Self::of(&Descriptor {
         name: "lhs",
         about: "Latin hypercube: covers each single parameter evenly, made for exactly the budget",
@@ -30,7 +30,7 @@ impl Strategy {
 }
 
 impl Strategy {
-    /// A Latin hypercube whose points are at the centres of their cells.
+    /// The strategy "lhs-centred", which takes a random Latin hypercube with points at the centres of its cells.
     pub const LHS_CENTRED: Self = Self::of(&Descriptor {
         name: "lhs-centred",
         about: "Latin hypercube with tests in the middle of their cells: no two tests are close on any axis",
@@ -49,14 +49,14 @@ fn cells(dims: usize, seed: Option<u64>, deal: Deal, place: Place) -> Result<Box
 
 const MOST_COORDINATES: u64 = 10_000_000;
 
-/// The place of a point in its cell.
+/// The place of a point in its cell of a Latin hypercube.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     Random,
     Centre,
 }
 
-/// One Latin hypercube for each row, one after the other.
+/// The Latin hypercubes of all rows, one hypercube for each row.
 pub(crate) struct Lhs {
     dims: usize,
     /// The number of points from the start of one hypercube to the start of the next.
@@ -65,8 +65,8 @@ pub(crate) struct Lhs {
 }
 
 impl Lhs {
-    /// Makes hypercubes of exactly the sizes that the rows need: a larger hypercube with a missing point would leave
-    /// a cell of every axis empty.
+    /// Makes Latin hypercubes of exactly the sizes that the rows need. A larger hypercube with a missing point would
+    /// leave a cell of every axis empty.
     pub(crate) fn new(dims: usize, seed: u64, deal: &Deal, place: Place) -> Result<Self, GeneratorError> {
         let points = deal.indices();
         if points.saturating_mul(dims as u64) > MOST_COORDINATES {

@@ -25,7 +25,7 @@ pub(crate) use per_row::{PerRow, RowSet};
 
 use crate::strategy::Strategy;
 
-/// The strategies of this folder, in the order in which they are shown.
+/// The open-loop strategies of this folder, in the order in which lists show the strategies.
 pub(crate) const ALL: &[Strategy] = &[
     Strategy::RANDOM,
     Strategy::RANDOM_CORNERS,

@@ -16,7 +16,7 @@ const LEVELS: u32 = 6;
 /// The number of hashes that decide the 53 bits that a double keeps.
 const HASHES: u32 = 9;
 
-/// The word with its upper 54 bits scrambled and its other bits cleared; `key` selects the tree.
+/// Scrambles the upper 54 bits of a word and clears its lower bits; `key` selects the tree of random flips.
 pub(super) fn scramble(word: u64, key: u64) -> u64 {
     let mut scrambled = 0;
     for hash in 0..HASHES {

@@ -7,13 +7,13 @@
 use super::{Sequence, radical::INDICES};
 use crate::deal::Deal;
 
-/// A set of points for every size and every row.
+/// A family of point sets, with a set for every size and every row.
 pub(crate) trait RowSet: Send + Sync {
-    /// Point `index` of the `size` points of row `row`.
+    /// Returns the point at `index` of the set of `size` points that belongs to the row `row`.
     fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64>;
 }
 
-/// The rows' sets, one after the other.
+/// A sequence of the points of all rows' sets, one set after the other.
 ///
 /// The last point of a block stays unused if its row has one test fewer.
 pub(crate) struct PerRow<S> {

@@ -1,10 +1,11 @@
 //! Helpers for constructions in prime bases: the primes, and digits mirrored at the point.
 
-/// The number of indices that a double tells apart: base 2 needs a bit of the mantissa for every bit of the index.
+/// The number of indices whose radical inverses in base 2 fit in a double. Base 2 needs a bit of the mantissa for every
+/// bit of the index.
 pub(super) const INDICES: u64 = 1 << 53;
 
-/// The radical inverse: the number in `[0,1)` whose digits in `base` are the digits of `index`, mirrored at the
-/// point.
+/// Returns the radical inverse of `index`, which is the number in `[0,1)` whose digits in `base` are the digits of
+/// `index`, mirrored at the point.
 ///
 /// One division of two integers needs one rounding; a sum would need a rounding for every digit.
 pub(super) fn radical_inverse(base: u64, mut index: u64) -> f64 {
@@ -17,13 +18,13 @@ pub(super) fn radical_inverse(base: u64, mut index: u64) -> f64 {
     ratio(mirrored, scale)
 }
 
-/// `part / whole` for a part below the whole. The result is below 1 even if both, beyond 2^53, are rounded to the
-/// same.
+/// Divides a part by a whole, where the part is below the whole. The result is below 1 even if both, beyond 2^53, are
+/// rounded to the same.
 pub(super) fn ratio(part: u128, whole: u128) -> f64 {
     (part as f64 / whole as f64).min(1.0_f64.next_down())
 }
 
-/// The primes in order, by trial division, because dimensions are few.
+/// Iterates over the primes in ascending order. It uses trial division, because dimensions are few.
 pub(super) fn primes() -> impl Iterator<Item = u64> {
     let mut found: Vec<u64> = Vec::new();
     (2..).filter(move |&n| {

@@ -7,7 +7,7 @@
 use crate::seeded::{Purpose, seeded};
 use rand::Rng;
 
-/// The vector of a shift. A vector of zeros leaves every coordinate unchanged, to the last bit.
+/// A vector by which points are shifted modulo 1. A vector of zeros leaves every coordinate unchanged, to the last bit.
 pub(super) struct Shift(Vec<f64>);
 
 impl Shift {
@@ -15,13 +15,13 @@ impl Shift {
         Self(vec![0.0; dims])
     }
 
-    /// Makes the random shift of this seed and, within it, of this number.
+    /// Makes the random shift for a seed and a number.
     pub(super) fn random(dims: usize, seed: u64, number: u64) -> Self {
         let mut rng = seeded(seed, Purpose::Shift, number);
         Self((0..dims).map(|_| rng.random()).collect())
     }
 
-    /// The shift of a row's copy of a set: its own random shift, but none for the first row without a seed.
+    /// Makes the shift of a row's copy of a set. It is a random shift, but no shift for the first row without a seed.
     pub(super) fn of_row(dims: usize, seed: Option<u64>, row: u64) -> Self {
         match (seed, row) {
             (None, 0) => Self::none(dims),
@@ -29,7 +29,7 @@ impl Shift {
         }
     }
 
-    /// The shifted point.
+    /// Returns the shifted point.
     pub(super) fn apply(&self, point: impl IntoIterator<Item = f64>) -> Vec<f64> {
         point.into_iter().zip(&self.0).map(|(u, &shift)| rotate(u, shift)).collect()
     }

@@ -16,7 +16,7 @@ use rand::Rng;
 use sobol::params::{JoeKuoD6, JoeKuoD6Dim};
 
 impl Strategy {
-    /// The Sobol sequence; a seed shifts it digitally.
+    /// The strategy "sobol", which takes the Sobol sequence; a seed shifts the sequence digitally.
     pub const SOBOL: Self = Self::of(&Descriptor {
         name: "sobol",
         about: "digital sequence for many parameters; best with a power of two of tests",
@@ -32,7 +32,7 @@ impl Strategy {
 }
 
 impl Strategy {
-    /// The Sobol sequence with Owen's nested uniform scrambling.
+    /// The strategy "sobol-owen", which takes the Sobol sequence with Owen's nested uniform scrambling.
     pub const SOBOL_OWEN: Self = Self::of(&Descriptor {
         name: "sobol-owen",
         about: "sobol with Owen's nested scrambling: repetitions that are as even as sobol",
@@ -47,7 +47,7 @@ impl Strategy {
     });
 }
 
-/// The number of dimensions for which there are direction numbers.
+/// The greatest number of dimensions of the Sobol sequence, for which direction numbers are known.
 pub(crate) const MOST_DIMS: usize = 21_201;
 
 /// The number of bits of an index.
@@ -56,7 +56,7 @@ const BITS: usize = 53;
 /// For each bit of an index, the bits that it flips in a coordinate.
 type Directions = [u64; BITS];
 
-/// The sequence, randomised or not.
+/// The Sobol sequence, with or without a random change.
 pub(crate) struct Sobol {
     axes: Vec<Directions>,
     randomisation: Randomisation,
@@ -71,13 +71,13 @@ enum Randomisation {
 }
 
 impl Sobol {
-    /// Makes the plain sequence in at most [`MOST_DIMS`] dimensions, or with a seed a digitally shifted one.
+    /// Makes the Sobol sequence in at most [`MOST_DIMS`] dimensions, which is digitally shifted if a seed is given.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         let shift = seed.map_or_else(|| vec![0; dims], |seed| words(dims, seed, Purpose::Shift));
         Self { axes: directions(dims), randomisation: Randomisation::Shift(shift) }
     }
 
-    /// Makes the scrambled sequence of a seed in at most [`MOST_DIMS`] dimensions.
+    /// Makes the Sobol sequence with Owen scrambling of a seed in at most [`MOST_DIMS`] dimensions.
     pub(crate) fn owen(dims: usize, seed: u64) -> Self {
         Self { axes: directions(dims), randomisation: Randomisation::Owen(words(dims, seed, Purpose::Scramble)) }
     }

@@ -9,7 +9,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// Independent uniformly random points.
+    /// The strategy "random", which takes independent uniformly random points.
     pub const RANDOM: Self = Self::of(&Descriptor {
         name: "random",
         about: "independent uniform points: the baseline, and what statistics assume",
@@ -24,7 +24,7 @@ impl Strategy {
     });
 }
 
-/// Uniformly random points of 53 bits per coordinate.
+/// A sequence of uniformly random points with 53 bits per coordinate.
 pub(crate) struct Uniform {
     dims: usize,
     start: Pcg64,

@@ -35,7 +35,7 @@ const MOST_SETS: u64 = 1 << 14;
 /// The length of a row's block if the budget does not determine it.
 const LONG: u64 = 1 << 20;
 
-/// Tests that go where the largest hole is, until no hole is above epsilon.
+/// A generator that adds tests to the row with the largest hole, until no hole is above epsilon.
 pub(crate) struct Spread {
     /// The work to be planned; `None` once it is planned.
     plan: Option<Plan>,
@@ -51,8 +51,8 @@ struct Planned {
 }
 
 impl Spread {
-    /// Prepares points of `strategy` for the rows of `family`, which are all different. Points of `existing` tests
-    /// count.
+    /// Makes the generator from the points of `strategy` and the rows of `family`, which are all different. Points of
+    /// `existing` tests count.
     ///
     /// # Errors
     /// Epsilon is not in (0, 1), or the strategy makes sets of a size that must be known beforehand, or it has no

@@ -19,7 +19,7 @@ const MOST_FACES: usize = 500_000_000;
 /// The greatest number of boxes of a row's sets while more than two sets are compared.
 const MOST_COMPARED: usize = 20_000;
 
-/// The limits of a row: when it is done, and the memory that it may take.
+/// The limits of a row, which are its epsilon, its deadline and its memory.
 pub(super) struct Limits {
     pub(super) epsilon: f64,
     pub(super) deadline: Deadline,
@@ -35,7 +35,7 @@ impl Limits {
     }
 }
 
-/// The points of a sequence from an index on.
+/// A set of points, which are the points of a sequence from an index on.
 pub(super) struct Set {
     pub(super) sequence: Arc<dyn Sequence>,
     pub(super) first: u64,
@@ -71,7 +71,7 @@ impl Candidate {
     }
 }
 
-/// A row with the points that it has so far.
+/// A row of discrete values with the points that the row has so far.
 pub(super) struct Row {
     discrete: Vec<usize>,
     existing: Vec<Vec<f64>>,
@@ -97,17 +97,17 @@ impl Row {
         self.candidates.get(self.best).map_or(&self.boxes, |best| &best.boxes)
     }
 
-    /// The largest hole of the best set.
+    /// Returns the volume of the largest hole of the row's best set.
     pub(super) fn hole(&self) -> f64 {
         self.boxes().dispersion().lower
     }
 
-    /// The number of points that the row was given.
+    /// Returns the number of new points that the row has so far.
     pub(super) fn points(&self) -> usize {
         self.candidates.first().map_or(0, |candidate| candidate.holes.len())
     }
 
-    /// Checks that no hole is above epsilon.
+    /// Returns `true` if it is proved that no hole of the row is above epsilon.
     pub(super) fn is_enough(&mut self, limits: &Limits) -> bool {
         let hole = self.boxes().dispersion();
         let points = self.existing.len() + self.points();
@@ -123,13 +123,13 @@ impl Row {
         is_at_most(&points, limits.epsilon, limits.deadline) == Some(true)
     }
 
-    /// Gives the row the sets that it chooses from, its own block first.
+    /// Gives the row the sets from which the row chooses, with the row's own block first.
     pub(super) fn choose_from(&mut self, sets: Vec<Set>) {
         let candidate = |set| Candidate { set, boxes: self.boxes.clone(), holes: Vec::new() };
         self.candidates = sets.into_iter().map(candidate).collect();
     }
 
-    /// Gives the row a point. Returns `true` if it needs another point, and there is one.
+    /// Adds a point to the row. Returns `true` if the row needs another point and a point is available.
     pub(super) fn grow(&mut self, limits: &Limits) -> bool {
         let number = self.points() as u64;
         if !self.candidates.iter().any(|candidate| candidate.set.has(number)) {
@@ -158,7 +158,8 @@ impl Row {
         }
     }
 
-    /// The row with its chosen set and the largest hole before each point; `None` instead of these if it has no set.
+    /// Returns the discrete values of the row, its chosen set, and the largest hole before each point. The last two are
+    /// `None` if the row has no set.
     pub(super) fn chosen(mut self) -> (Vec<usize>, Option<(Set, Vec<f64>)>) {
         let chosen = (!self.candidates.is_empty()).then(|| self.candidates.swap_remove(self.best));
         (self.discrete, chosen.map(|candidate| (candidate.set, candidate.holes)))

@@ -1,38 +1,38 @@
 //! The look of a strategy in a figure, which tells it from other strategies.
 
-/// The shape of a mark.
+/// The shape of a mark in a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MarkShape {
-    /// A circle.
+    /// The mark is a circle.
     Circle,
-    /// A square on its side.
+    /// The mark is a square that stands on its side.
     Square,
-    /// A square on its corner.
+    /// The mark is a square that stands on its corner.
     Diamond,
-    /// A triangle with its tip upwards.
+    /// The mark is a triangle with its tip upwards.
     Triangle,
-    /// A triangle with its tip downwards.
+    /// The mark is a triangle with its tip downwards.
     Tip,
 }
 
-/// The mark and the colour of a curve.
+/// The look of a strategy's curve in a figure, with the colour and the marks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Look {
-    /// Red, green and blue.
+    /// The colour of the curve as red, green and blue, each from 0 to 255.
     pub colour: (u8, u8, u8),
-    /// The shape of the marks.
+    /// The shape of the marks on the curve.
     pub shape: MarkShape,
-    /// `true` if the marks are filled.
+    /// `true` if the marks on the curve are filled.
     pub filled: bool,
 }
 
 impl Look {
-    /// Makes filled marks of a colour such as `0xd5_5e00`.
+    /// Makes a look with filled marks and a colour such as `0xd5_5e00`.
     pub const fn filled(colour: u32, shape: MarkShape) -> Self {
         Self { colour: ((colour >> 16) as u8, (colour >> 8) as u8, colour as u8), shape, filled: true }
     }
 
-    /// Makes hollow marks of a colour such as `0xd5_5e00`.
+    /// Makes a look with hollow marks and a colour such as `0xd5_5e00`.
     pub const fn hollow(colour: u32, shape: MarkShape) -> Self {
         Self { filled: false, ..Self::filled(colour, shape) }
     }

@@ -14,99 +14,101 @@ use paracosm_space::rules::Rules;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-/// A method that chooses tests, as a handle to the [`Descriptor`] of a strategy. Two strategies with the same name
-/// are equal.
+/// A strategy that chooses tests, as a handle to the strategy's [`Descriptor`]. Two strategies with the same name are
+/// equal.
 #[derive(Clone, Copy)]
 pub struct Strategy(&'static Descriptor);
 
-/// The description of a strategy.
+/// The description of a strategy, with the name, the use, the abilities, the look and the method of the strategy.
 #[derive(Debug)]
 pub struct Descriptor {
     /// The name by which users ask for the strategy. No two strategies have the same name.
     pub name: &'static str,
-    /// The use of the strategy, in one line.
+    /// The use of the strategy, described in one line.
     pub about: &'static str,
-    /// The numbers of continuous coordinates that the strategy covers, if the space has continuous coordinates.
+    /// The range of the number of continuous coordinates that the strategy can cover. It does not count if the space
+    /// has no continuous coordinates.
     pub dims: RangeInclusive<usize>,
     /// The look of the strategy's curves in figures.
     pub look: Look,
-    /// The method that makes the tests.
+    /// The method by which the strategy makes tests.
     pub method: Method,
 }
 
-/// The method by which a strategy makes tests.
+/// The method by which a strategy makes tests, such as a sequence, a search, or a generator of another crate.
 #[derive(Debug, Clone, Copy)]
 pub struct Method(pub(crate) MethodKind);
 
-/// Any number of coordinates, but at least one.
+/// The range of all numbers of coordinates, from one coordinate on.
 pub(crate) const ANY: RangeInclusive<usize> = 1..=usize::MAX;
 
-/// Builds the sets of all rows from the number of dimensions, a seed, and the number of tests of each row.
+/// A function that builds the sets of all rows from the number of dimensions, a seed, and the number of tests of each
+/// row.
 pub(crate) type BuildSets = fn(usize, Option<u64>, Deal) -> Result<Box<dyn Sequence>, GeneratorError>;
 
-/// Builds a generator that learns. `Rules` are the rules of the request's space.
+/// A function that builds a generator that learns from results. `Rules` are the rules of the request's space.
 pub(crate) type BuildSearch = fn(&Descriptor, &Request, Rules) -> Result<Box<dyn Generator>, GeneratorError>;
 
-/// A function that builds a custom generator, which is not of this crate.
+/// A function that builds a custom generator of another crate from a request.
 pub type BuildOwn = fn(&Request) -> Result<Box<dyn Generator>, GeneratorError>;
 
-/// The kind of a method.
+/// The kind of a method by which a strategy makes tests.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MethodKind {
-    /// A sequence, which computes each point from its index.
+    /// The method is a sequence, which computes each point from its index.
     Sequence(Endless),
-    /// Sets that are made for the number of tests of a row.
+    /// The method makes sets of points for the number of tests of a row.
     Sets {
-        /// `true` if there is a set without chance.
+        /// `true` if the method makes a set without random numbers when there is no seed.
         plain: bool,
-        /// Builds the sets of all rows, one after the other.
+        /// The function that builds the sets of all rows, one set after the other.
         build: BuildSets,
     },
-    /// Points in the largest holes between the existing points.
+    /// The method puts points into the largest holes between the existing points.
     Holes,
-    /// Tests that follow the robustness of the tests so far.
+    /// The method is a search, which follows the robustness of the tests so far.
     Search {
-        /// `true` if the search looks for one failure of any requirement.
+        /// `true` if the search looks for a single failure of any requirement.
         seeks_a_failure: bool,
-        /// Builds the search as a generator.
+        /// The function that builds the search as a generator.
         build: BuildSearch,
     },
-    /// A custom generator, which is not of this crate.
+    /// The method is a custom generator of another crate.
     Own(BuildOwn),
 }
 
-/// A sequence without a fixed end.
+/// The description of a sequence of points without a fixed end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Endless {
-    /// The default index of the first point; `None` if the sequence has no order in which points can be skipped.
+    /// The default index of the first point of the sequence; `None` if the points of the sequence cannot be skipped.
     pub first: Option<u64>,
-    /// `true` if there is a sequence without chance.
+    /// `true` if the sequence uses no random numbers when there is no seed.
     pub plain: bool,
-    /// `true` if enough points leave no hole.
+    /// `true` if every hole between points shrinks to nothing as the number of points grows.
     pub fills: bool,
-    /// Builds the sequence from the number of dimensions and a seed.
+    /// The function that builds the sequence from the number of dimensions and a seed.
     pub build: fn(usize, Option<u64>) -> Box<dyn Sequence>,
 }
 
-/// Points of `[0,1)^d`, numbered from 0.
+/// A sequence of points of `[0,1)^d`, numbered from 0.
 pub(crate) trait Sequence: Send + Sync {
-    /// The number of points.
+    /// Returns the number of points of the sequence.
     fn len(&self) -> u64;
 
-    /// The point at `index`, which is below [`Sequence::len`].
+    /// Returns the point at `index`, which must be below [`Sequence::len`].
     fn point(&self, index: u64) -> Vec<f64>;
 }
 
 impl Method {
-    /// Makes the method of a custom generator, which counts as open loop. The generator must handle all parameters of
-    /// a request itself, including the discrete ones.
+    /// Makes a method from a function that builds a custom generator, which counts as open loop. The generator must
+    /// handle all parameters of a request itself, including the discrete ones.
     pub const fn own(build: BuildOwn) -> Self {
         Self(MethodKind::Own(build))
     }
 }
 
 impl Strategy {
-    /// Makes the strategy of a descriptor.
+    /// Makes a strategy from its descriptor.
     pub const fn of(descriptor: &'static Descriptor) -> Self {
         Self(descriptor)
     }
@@ -116,28 +118,29 @@ impl Strategy {
         self.0.name
     }
 
-    /// Returns one line about when to use the strategy.
+    /// Returns a line of text about the use of the strategy.
     pub fn about(self) -> &'static str {
         self.0.about
     }
 
-    /// Returns the numbers of continuous coordinates that the strategy covers, if a space has continuous coordinates.
+    /// Returns the range of the number of continuous coordinates that the strategy can cover. It does not count if a
+    /// space has no continuous coordinates.
     pub fn dims(self) -> RangeInclusive<usize> {
         self.0.dims.clone()
     }
 
-    /// Returns the look of the strategy's curves, which is the same in every figure.
+    /// Returns the look of the strategy's curves in figures, which is the same in every figure.
     pub fn look(self) -> Look {
         self.0.look
     }
 
-    /// Returns `true` if the strategy has a plain set without chance, which a [`Request`] without a seed gives.
+    /// Returns `true` if the strategy uses no random numbers for a [`Request`] without a seed.
     pub fn has_plain_set(self) -> bool {
         matches!(self.kind(), MethodKind::Sequence(Endless { plain: true, .. }) | MethodKind::Sets { plain: true, .. })
     }
 
-    /// Returns `true` if the tests of a request have rows of the discrete family. Adaptive strategies have none, and
-    /// `greedy` may treat discrete and continuous parameters together instead.
+    /// Returns `true` if the strategy takes the discrete values of its tests from the rows of the discrete family.
+    /// Adaptive strategies do not, and `greedy` may treat discrete and continuous parameters together instead.
     pub fn has_rows(self, request: &Request) -> bool {
         let &Request { space, k, aim, .. } = request;
         let (dims, parameters) = (space.dims(), space.levels().len());
@@ -153,24 +156,23 @@ impl Strategy {
         }
     }
 
-    /// Returns `true` if the strategy learns from the robustness of the tests, so that it must be told the results.
+    /// Returns `true` if the strategy learns from the robustness of the tests, and so needs the results.
     pub fn is_adaptive(self) -> bool {
         matches!(self.kind(), MethodKind::Search { .. })
     }
 
-    /// Returns `true` if the strategy looks for a failure of any requirement. Other adaptive strategies map where
-    /// tests fail.
+    /// Returns `true` if the strategy looks for a single failure of any requirement. Other adaptive strategies map
+    /// where tests fail.
     pub fn seeks_a_failure(self) -> bool {
         matches!(self.kind(), MethodKind::Search { seeks_a_failure: true, .. })
     }
 
-    /// Returns `true` if the strategy puts tests into the largest holes of the existing tests, and so extends them.
+    /// Returns `true` if the strategy puts new tests into the largest holes between the existing tests.
     pub fn fills_holes(self) -> bool {
         matches!(self.kind(), MethodKind::Holes)
     }
 
-    /// Returns the default index of the strategy's first point; `None` if it has no sequence in which points can be
-    /// skipped.
+    /// Returns the default index of the strategy's first point; `None` if the strategy cannot skip points.
     pub fn first_index(self) -> Option<u64> {
         match self.kind() {
             MethodKind::Sequence(endless) => endless.first,
@@ -186,8 +188,7 @@ impl Strategy {
         self.0.method.0
     }
 
-    /// The strategy as a sequence without a fixed end; `None` if it makes sets of a given size or looks at existing
-    /// tests.
+    /// Builds the strategy's sequence without a fixed end; `None` if the strategy has no such sequence.
     pub(crate) fn sequence(self, dims: usize, seed: Option<u64>) -> Option<Box<dyn Sequence>> {
         match self.kind() {
             MethodKind::Sequence(endless) => Some((endless.build)(dims, seed)),
@@ -195,8 +196,8 @@ impl Strategy {
         }
     }
 
-    /// Returns `true` if the points can be asked for one by one, without a number known beforehand, and leave no hole
-    /// in the end.
+    /// Returns `true` if the strategy makes points one by one, without a known number of points, and leaves no hole in
+    /// the end.
     pub(crate) fn goes_on(self) -> bool {
         matches!(self.kind(), MethodKind::Sequence(Endless { fills: true, .. }) | MethodKind::Holes)
     }

@@ -80,20 +80,29 @@ fn what_cannot_be_extended_or_aimed_is_refused_by_name() {
             refused(Strategy::SOBOL, &test(0.5, 1), None, None),
             "`sobol` does not look at existing tests and cannot extend them; use greedy",
         ),
-        (refused(Strategy::GREEDY, &test(1.5, 1), None, None), "existing test 0 is none of the space"),
-        (refused(Strategy::GREEDY, &test(0.5, 2), None, None), "existing test 0 is none of the space"),
-        (refused(Strategy::LHS, &[], Some(Aim::Dispersion), None), "`lhs` aims at no measure; greedy does"),
+        (
+            refused(Strategy::GREEDY, &test(1.5, 1), None, None),
+            "existing test 0 does not belong to the space; give each parameter of the space a valid value",
+        ),
+        (
+            refused(Strategy::GREEDY, &test(0.5, 2), None, None),
+            "existing test 0 does not belong to the space; give each parameter of the space a valid value",
+        ),
+        (
+            refused(Strategy::LHS, &[], Some(Aim::Dispersion), None),
+            "`lhs` cannot aim at a measure; use greedy, or give no measure to aim at",
+        ),
         (
             refused(Strategy::CMAES, &test(0.5, 1), None, None),
             "`cmaes` does not look at existing tests and cannot extend them; use greedy",
         ),
         (
             refusal(Strategy::BAYES, &Request { epsilon: Some(0.1), ..Request::new(&space, 5) }).to_string(),
-            "`bayes` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy",
+            "`bayes` goes where tests fail and leaves holes elsewhere; epsilon forbids holes: use halton or greedy",
         ),
         (
             refused(Strategy::GREEDY, &[], None, Some(4)),
-            "k is 4, but the space has 3 parameters; k must be from 1 to their number",
+            "k is 4, but the space has 3 parameters; expected k from 1 to that number",
         ),
         (
             "k-wise".parse::<Aim>().expect_err("no aim").to_string(),

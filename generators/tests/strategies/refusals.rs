@@ -15,15 +15,16 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(Strategy::HALTON, Request::new(&cube, 0), "the budget is 0 tests; a budget must be at least 1");
     let sequences = "halton, halton-scrambled, sobol, sobol-owen, kronecker";
     for strategy in [Strategy::RANDOM, Strategy::LHS, Strategy::FIBONACCI, Strategy::HAMMERSLEY] {
-        let message = format!("`{strategy}` is no sequence and cannot skip; the sequences are {sequences}");
+        let message =
+            format!("`{strategy}` is not a sequence and cannot skip points; use one of {sequences}, or do not skip");
         check(strategy, Request { skip: Some(3), ..Request::new(&cube, 5) }, &message);
     }
-    let none = "k is 0, but the space has 2 discrete parameters; k must be from 1 to their number";
+    let none = "k is 0, expected a number from 1 to the number of discrete parameters, which is 2";
     check(Strategy::HALTON, Request { k: Some(0), ..Request::new(&rows, 5) }, none);
-    let all = "k is 4, but the space has 3 parameters; k must be from 1 to their number";
+    let all = "k is 4, but the space has 3 parameters; expected k from 1 to that number";
     check(Strategy::HALTON, Request { k: Some(4), ..Request::new(&rows, 5) }, all);
     for delta in [0.0, 1.0, f64::NAN, -0.5] {
-        let message = format!("delta is {delta}; a probability of failure must be above 0 and below 1");
+        let message = format!("delta is {delta}; the probability of missing a combination must be above 0 and below 1");
         check(Strategy::HALTON, Request { discrete: random(delta), ..Request::new(&rows, 5) }, &message);
     }
     check(
@@ -41,7 +42,7 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(
         Strategy::HALTON,
         Request { k: Some(7), ..Request::new(&huge, 5) },
-        "at least 19487171 tests are needed, more than 10000000; lower the strength",
+        "the covering array needs at least 19487171 tests, more than 10000000; lower the strength",
     );
     check(
         Strategy::LHS,
@@ -52,7 +53,7 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(
         Strategy::HALTON,
         Request { skip: Some(1 << 53), ..Request::new(&cube, 5) },
-        "`halton` has indices below 9007199254740992; asked for index 9007199254740996; ask for fewer or skip fewer",
+        "`halton` has 9007199254740992 points, but the request needs index 9007199254740996; lower the budget or the skip",
     );
     for strategy in [Strategy::SOBOL, Strategy::KRONECKER] {
         let message = format!(

@@ -62,13 +62,14 @@ struct Step<'f> {
 
 /// The parts of a formula, each with its worth over time.
 pub(super) struct Causes<'f> {
-    /// The time of the last sample.
+    /// The time of the last sample of the trace, in seconds.
     pub end: f64,
     pub parts: Vec<(&'f Formula, Wave)>,
 }
 
 impl<'f> Causes<'f> {
-    /// Returns the part of the formula that gives it this worth at time 0, and the time at which the part counts.
+    /// Returns the part of a formula that gives the formula the robustness `worth` at time 0, and the time at which the
+    /// part counts.
     pub fn of(&self, formula: &'f Formula, worth: f64) -> (&'f Formula, f64) {
         let mut step = Step { part: formula, moment: Moment::at(0.0), worth };
         while let Some(next) = self.after(&step) {
@@ -77,8 +78,8 @@ impl<'f> Causes<'f> {
         (step.part, step.moment.time)
     }
 
-    /// Returns the operand that gives a part its worth, and the moment at which it counts. `None` if the part has no
-    /// operands or sees none.
+    /// Returns the operand that gives a part of the formula its worth, and the moment at which the operand counts.
+    /// `None` if the part has no operands or sees none.
     fn after(&self, step: &Step<'f>) -> Option<Step<'f>> {
         let Step { moment, worth, .. } = *step;
         match step.part {
@@ -118,7 +119,7 @@ impl<'f> Causes<'f> {
         Reader { points, same: same(self.end), place: 0, is_plain: is_plain(part) }
     }
 
-    /// Returns the time from which the search looks at a moment.
+    /// Returns the time from which the search looks, which is a hair beside the moment or at the moment.
     fn eye(&self, moment: Moment) -> f64 {
         let hair = hair(self.end);
         let aside = match moment.side {
@@ -141,13 +142,13 @@ struct View {
     eye: f64,
     end: f64,
     past: bool,
-    /// The factor that converts operands and operator for the counterpart.
+    /// The factor, 1 or -1, that turns a minimum over time into a maximum.
     sign: f64,
 }
 
 impl View {
-    /// Returns the moment from which the operator gets its worth. The boolean is `true` if the worth comes from the
-    /// goal, and `false` if it comes from the operand that has to hold before.
+    /// Returns the moment at which an operand gives the operator its worth. The boolean is `true` if the worth comes
+    /// from the goal, and `false` if it comes from the operand that has to hold before.
     fn responsible(&self, hold: Option<Reader>, goal: Reader, worth: f64) -> Option<(bool, Moment)> {
         let [from, to] = self.window();
         if from > to {
@@ -254,7 +255,7 @@ impl Scan<'_> {
         [hold, self.sign * self.goal.at(moment)]
     }
 
-    /// Visits an instant. The goal may be reached before the other operand has to hold here.
+    /// Visits an instant during the search. The goal may be reached before the other operand has to hold here.
     fn be(&mut self, moment: Moment) {
         let [hold, goal] = self.worths(moment);
         self.reach(goal, moment, self.goal.is_plain);

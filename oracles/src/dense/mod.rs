@@ -131,7 +131,7 @@ impl<'a> Dense<'a> {
         })
     }
 
-    /// Computes the expression over time. `None` if it is not piecewise linear.
+    /// Computes the values of an expression over time. `None` if it is not piecewise linear.
     fn number(&self, expression: &Expression) -> Result<Option<Wave>, EvaluationError> {
         // `min` and `max` would hide a NaN.
         let finite = |number: f64| {
@@ -210,12 +210,12 @@ struct Scope {
     asked: f64,
     /// `true` if nothing is in sight beyond the end of the trace.
     ends: bool,
-    /// The worth of the operands beyond the end, or `None` if nothing lies there.
+    /// The worth of the operands beyond the end of the trace, or `None` if nothing lies there.
     outside: Option<f64>,
 }
 
 impl Scope {
-    /// Computes the operator. `apply` computes its counterpart.
+    /// Computes the worth of the operator over time. `apply` computes its counterpart.
     fn track<const N: usize>(self, operands: [Track; N], apply: impl Fn(Self, [Wave; N]) -> Wave) -> Track {
         let operator = |scope: Self, waves: [Wave; N]| scope.back(apply(scope, waves.map(|wave| scope.ahead(wave))));
         let known = operands.iter().map(|track| track.settled).fold(f64::INFINITY, f64::min);

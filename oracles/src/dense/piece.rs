@@ -20,7 +20,8 @@ pub(super) struct Piece<const N: usize> {
 }
 
 impl<const N: usize> Piece<N> {
-    /// Appends the breakpoints of the joined lines, except the first, with a breakpoint wherever two lines cross.
+    /// Appends the breakpoints of the function that `join` makes from the lines, except the first breakpoint. Wherever
+    /// two lines cross there is a breakpoint.
     #[inline]
     pub fn push(self, points: &mut Vec<(f64, f64)>, join: impl Fn([f64; N]) -> f64) {
         let Self { from, to, lines } = self;

@@ -9,23 +9,24 @@ pub(super) fn reaches(time: f64, other: f64) -> bool {
 
 /// The worth of a formula over time.
 pub(super) struct Track {
-    /// The worth for the recorded samples.
+    /// The robustness of the formula over time, for the recorded samples only.
     pub recorded: Wave,
-    /// The time up to which the continuation has no influence. It is negative if the continuation always has
-    /// influence.
+    /// The time up to which samples after the end of the trace have no influence on the robustness. It is negative if
+    /// such samples always have influence.
     pub settled: f64,
-    /// The worth for the worst and the best continuation, from `settled` on (or from time 0 on). Times are counted
-    /// from there.
+    /// The robustness over time for the worst and the best continuation of the trace, from `settled` on (or from time 0
+    /// on). Times are counted from this time.
     pub open: Option<[Wave; 2]>,
 }
 
 impl Track {
-    /// Makes a track that depends on recorded samples only, up to the time `needed`.
+    /// Makes the track of a robustness that depends on recorded samples only, up to the time `needed`.
     pub fn settled(recorded: Wave, needed: f64) -> Self {
         Self { recorded, settled: needed, open: None }
     }
 
-    /// Returns the worth at time 0: for the recorded samples, the worst possible, and the best possible.
+    /// Returns the robustness at time 0 for the recorded samples, for the worst continuation and for the best
+    /// continuation.
     pub fn first(&self) -> [f64; 3] {
         let recorded = self.recorded.first();
         match &self.open {
@@ -51,7 +52,8 @@ impl Track {
         Self { recorded: join(&self.recorded, &other.recorded), settled, open }
     }
 
-    /// Returns the worst or the best worth from a time on, with times counted from this time.
+    /// Returns the robustness from the given time on, for the worst (`side` 0) or the best continuation (`side` 1).
+    /// Times are counted from the given time.
     pub fn after(&self, side: usize, time: f64) -> Wave {
         match &self.open {
             None => self.recorded.after(time),

@@ -18,12 +18,12 @@ pub(super) const TOLERANCE: f64 = 1e-9;
 pub(super) struct Wave(Vec<(f64, f64)>);
 
 impl Wave {
-    /// Makes the function through these points. One point is at time 0.
+    /// Makes the piecewise linear function through the given breakpoints. One breakpoint is at time 0.
     pub fn new(points: Vec<(f64, f64)>) -> Self {
         Self(points)
     }
 
-    /// Makes the function with the same value from time 0 to `end`.
+    /// Makes the function that has the given value from time 0 to `end`.
     pub fn constant(value: f64, end: f64) -> Self {
         Self(vec![(0.0, value), (end, value)])
     }
@@ -32,7 +32,7 @@ impl Wave {
         &self.0
     }
 
-    /// Returns the time of the end and the value there.
+    /// Returns the time at which the function ends, and the value of the function at this time.
     pub fn last(&self) -> (f64, f64) {
         self.0[self.0.len() - 1]
     }
@@ -41,18 +41,18 @@ impl Wave {
         self.last().0
     }
 
-    /// Returns the value at time 0.
+    /// Returns the value of the function at time 0.
     pub fn first(&self) -> f64 {
         self.0[0].1
     }
 
-    /// Multiplies every value by a number.
+    /// Multiplies every value of the function by `factor`.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.0.iter_mut().for_each(|point| point.1 *= factor);
         self
     }
 
-    /// Returns the function run backwards from its end.
+    /// Returns the function reversed in time, so that its end becomes time 0.
     pub fn reversed(mut self) -> Self {
         let end = self.end();
         self.0.reverse();
@@ -60,7 +60,7 @@ impl Wave {
         self
     }
 
-    /// Returns the function up to an instant.
+    /// Returns the part of the function up to the time `end`.
     pub fn cut(mut self, end: f64) -> Self {
         let within = self.0.partition_point(|point| point.0 < end);
         if within < self.0.len() {
@@ -71,7 +71,7 @@ impl Wave {
         self
     }
 
-    /// Returns the function from an instant on, with times counted from this instant.
+    /// Returns the part of the function from the given time on, with times counted from this time.
     pub fn after(&self, time: f64) -> Self {
         let from = self.0.partition_point(|point| point.0 < time);
         let [_, value, above] = self.around(from, time);
@@ -82,8 +82,8 @@ impl Wave {
         Self(points)
     }
 
-    /// Continues the function with another one after its end. The other one gives only the limit from above at the
-    /// joint.
+    /// Continues the function after its end with the function `other`. At the joint, `other` gives only the limit from
+    /// above.
     pub fn followed_by(mut self, other: &Self) -> Self {
         let (end, value) = self.last();
         let before = self.0.partition_point(|point| point.0 < end);
@@ -106,18 +106,18 @@ impl Wave {
         [before.checked_sub(1).map_or(next.1, |last| between(self.0[last], next, time)); 3]
     }
 
-    /// Returns the greatest value.
+    /// Returns the greatest value that the function ever has.
     pub fn greatest_of_all(&self) -> f64 {
         self.0.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Adds a number to every value.
+    /// Adds the number `by` to every value of the function.
     pub fn raised(mut self, by: f64) -> Self {
         self.0.iter_mut().for_each(|point| point.1 += by);
         self
     }
 
-    /// Returns the sum of two functions.
+    /// Returns the sum of this function and the function `other`.
     pub fn sum(&self, other: &Self) -> Self {
         let mut result = Vec::with_capacity(self.0.len() + other.0.len());
         self.together(other, |Piece { to, lines: [a, b], .. }| push(&mut result, (to, a.1 + b.1)));
@@ -186,7 +186,8 @@ impl Wave {
         }
     }
 
-    /// Returns the greatest value in a window that moves from 0 to `needed`. Beyond the end the value is `outside`.
+    /// Returns the greatest value of the function in a window that moves from time 0 to `needed`. Beyond the end the
+    /// value is `outside`.
     pub fn greatest(mut self, window: Window, needed: f64, outside: f64) -> Self {
         let (last, value) = self.last();
         if needed + window.end > last + TOLERANCE * last.max(1.0) {
@@ -213,7 +214,8 @@ impl Wave {
         }
     }
 
-    /// Returns the greatest value from each instant on. The value beyond the end, `outside`, counts too.
+    /// Returns the function of the greatest values from each instant to the end. The value beyond the end, `outside`,
+    /// counts too.
     pub fn greatest_from_now(self, outside: f64) -> Self {
         let mut result = Vec::with_capacity(self.0.len());
         let (end, last) = self.last();
@@ -229,7 +231,8 @@ impl Wave {
         Self(result)
     }
 
-    /// Returns the worth of `hold until goal` at each instant, without a time bound. Beyond the end it is `outside`.
+    /// Returns the robustness of `hold until goal` at each instant, without a time bound. It is `outside` beyond the
+    /// end.
     pub fn until(hold: &Self, goal: &Self, outside: f64) -> Self {
         let mut pieces = Vec::with_capacity(hold.0.len() + goal.0.len());
         hold.together(goal, |piece| pieces.push(piece));

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 pub(super) struct Window {
     pub start: f64,
     pub end: f64,
-    /// `true` if the last instant itself is in sight.
+    /// `true` if the window includes its last instant.
     pub is_closed: bool,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Sliding<'w> {
 }
 
 impl<'w> Sliding<'w> {
-    /// Makes a window that is about to reach time 0.
+    /// Makes a window over the breakpoints `points` that stands just before time 0.
     pub fn new(points: &'w [(f64, f64)], window: Window) -> Self {
         let mut sliding = Self { points, window, wedge: VecDeque::new(), entered: 0, left: 0 };
         sliding.enter(points.partition_point(|point| point.0 - window.end < 0.0));
@@ -43,8 +43,8 @@ impl<'w> Sliding<'w> {
         sliding
     }
 
-    /// Passes the breakpoints at which an end of the window stands at this instant. If one of them is a jump, returns
-    /// the greatest value in sight at this instant, and the limit from above.
+    /// Moves the window past the breakpoints that an end of the window meets at the instant `now`. If these breakpoints
+    /// form a jump, returns the greatest value in the window at this instant, and the limit from above.
     pub fn pass(&mut self, now: f64) -> Option<[f64; 2]> {
         let Window { start, end, is_closed } = self.window;
         let due = |from: usize, by: f64| self.points[from..].iter().take_while(|point| point.0 - by <= now).count();
@@ -72,15 +72,15 @@ impl<'w> Sliding<'w> {
         Some([value, self.value(now)])
     }
 
-    /// Returns the greatest value in sight from an instant, after the breakpoints at the ends of the window were
-    /// passed.
+    /// Returns the greatest value in the window at the instant `now`, after [`pass`](Self::pass) has moved the window
+    /// past the breakpoints at its ends.
     pub fn value(&self, now: f64) -> f64 {
         let Window { start, end, .. } = self.window;
         self.highest().max(self.at(self.left, now + start)).max(self.at(self.entered, now + end))
     }
 
-    /// Returns the values at the ends of the window and the greatest value between them, until the next breakpoint or
-    /// `needed`.
+    /// Returns the values at both ends of the window and the greatest value inside the window, until the next
+    /// breakpoint or `needed`.
     pub fn piece(&self, from: f64, needed: f64) -> Piece<3> {
         let Window { start, end, .. } = self.window;
         let until = |next: usize, by: f64| self.points.get(next).map_or(needed, |point| point.0 - by);

@@ -4,7 +4,7 @@ use super::Formula;
 use crate::Comparison;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// An operation on two numbers.
+/// An arithmetic operation on two numbers, such as the sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arithmetic {
     /// The sum `a + b`.
@@ -42,33 +42,33 @@ impl Arithmetic {
 pub enum Expression {
     /// A number that is the same at every tick.
     Number(f64),
-    /// The sample of the signal with this name.
+    /// The sample of the signal with the given name at the current tick.
     Signal(String),
-    /// The negated number `-x`.
+    /// The negation `-x` of an expression.
     Negate(Box<Expression>),
-    /// The absolute value `abs(x)`.
+    /// The absolute value `abs(x)` of an expression.
     Absolute(Box<Expression>),
-    /// An operation on two expressions.
+    /// An arithmetic operation on two expressions.
     Binary(Arithmetic, Box<Expression>, Box<Expression>),
 }
 
-/// Makes an expression of the signal with this name.
+/// Makes the expression for the samples of the signal with the given name.
 pub fn signal(name: impl Into<String>) -> Expression {
     Expression::Signal(name.into())
 }
 
 impl Expression {
-    /// Makes the absolute value of the expression.
+    /// Makes the expression for the absolute value of this expression.
     pub fn abs(self) -> Self {
         Expression::Absolute(Box::new(self))
     }
 
-    /// Makes the lesser of the two expressions.
+    /// Makes the expression for the lesser of this expression and `other`.
     pub fn min(self, other: impl Into<Expression>) -> Self {
         self.binary(Arithmetic::Least, other)
     }
 
-    /// Makes the greater of the two expressions.
+    /// Makes the expression for the greater of this expression and `other`.
     pub fn max(self, other: impl Into<Expression>) -> Self {
         self.binary(Arithmetic::Greatest, other)
     }
@@ -107,7 +107,7 @@ impl Expression {
         self.compare(Comparison::Different, other)
     }
 
-    /// Makes the formula that compares the two expressions in this way.
+    /// Makes the formula that compares this expression with `other` by the given comparison.
     pub fn compare(self, comparison: Comparison, other: impl Into<Expression>) -> Formula {
         Formula::Compare(self, comparison, other.into())
     }

@@ -81,8 +81,8 @@ impl Decider {
         self.add(Operator::Any { operand, start, sight, yes: Runs::default(), no: Runs::default() }, dual)
     }
 
-    /// Takes the truths of the atoms at the next tick, `now`. Returns the truth of the formula at tick 0 if it is
-    /// decided now.
+    /// Takes the truths of the comparisons and flags at the next tick, `now`, and returns the truth of the formula at
+    /// tick 0 if this tick decides the truth.
     pub fn step(&mut self, now: usize, atoms: impl Fn(Id) -> Option<bool>) -> Option<bool> {
         for (id, node) in self.nodes.iter_mut().enumerate() {
             let (operands, own) = self.events.split_at_mut(id);

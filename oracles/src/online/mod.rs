@@ -15,7 +15,7 @@ use crate::{Evaluation, EvaluationError, Formula, Truth};
 use decider::Decider;
 use stream::Stream;
 
-/// A monitor that evaluates a formula while the samples come in.
+/// A monitor that evaluates a formula tick by tick, while a run records its samples.
 ///
 /// ```
 /// use paracosm_oracles::{Formula, Monitor, Truth};
@@ -46,7 +46,7 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// Makes a monitor for rows of these signals, `dt` seconds apart.
+    /// Makes a monitor of a formula, for rows of the given signals that are `dt` seconds apart.
     ///
     /// # Errors
     /// The formula names another signal, or has a time bound between two samples.
@@ -98,13 +98,13 @@ impl Monitor {
         Ok(self.truth)
     }
 
-    /// Returns the truth of the formula so far.
+    /// Returns the truth of the formula on the trace so far.
     pub fn truth(&self) -> Truth {
         self.truth
     }
 
-    /// Returns bounds of the robustness that hold for every continuation. Once the truth is decided, they lie on its
-    /// side of 0.
+    /// Returns a lower and an upper bound of the robustness, which are valid for every continuation of the trace. Once
+    /// the truth is decided, both bounds lie on its side of 0.
     ///
     /// They are not always the closest bounds. The time for those is proportional to the time that the formula looks
     /// ahead; call [`finish`](Self::finish) on a clone of the monitor to get them.
@@ -118,8 +118,8 @@ impl Monitor {
         (lower.robustness(), upper.robustness())
     }
 
-    /// Returns the evaluation of the formula on the trace so far. It is exactly the result of [`Formula::evaluate`] on
-    /// this trace, which is either `complete` or cut short.
+    /// Ends the trace, and returns the evaluation of the formula on the trace. It is exactly the result of
+    /// [`Formula::evaluate`] on this trace, which is either `complete` or cut short.
     pub fn finish(self, complete: bool) -> Evaluation {
         if self.ticks == 0 {
             return Evaluation::UNKNOWN;

@@ -10,7 +10,7 @@ pub(super) type Run = (usize, usize);
 pub(super) struct Runs(VecDeque<Run>);
 
 impl Runs {
-    /// Adds the ticks of a run, and returns the run that they are part of now.
+    /// Adds the ticks of a run to the set, and returns the run of the set that then contains these ticks.
     pub fn insert(&mut self, (from, to): Run) -> Run {
         // The usual case: the new run follows the last one.
         if let Some(last) = self.0.back_mut()
@@ -30,32 +30,32 @@ impl Runs {
         joined
     }
 
-    /// Returns the run that contains this tick.
+    /// Returns the run of the set that contains the given tick, or `None` if the set does not have the tick.
     pub fn containing(&self, tick: usize) -> Option<Run> {
         let run = *self.0.get(self.0.partition_point(|run| run.1 < tick))?;
         (run.0 <= tick).then_some(run)
     }
 
-    /// Returns the common ticks of a run and the first run of the set that has some.
+    /// Returns the first run of ticks that the set and the given run have in common.
     pub fn first_within(&self, (from, to): Run) -> Option<Run> {
         let run = *self.0.get(self.0.partition_point(|run| run.1 < from))?;
         (run.0 <= to).then_some((run.0.max(from), run.1.min(to)))
     }
 
-    /// Returns the last tick that the set and a run have in common.
+    /// Returns the last tick that the set and the given run have in common.
     pub fn last_within(&self, (from, to): Run) -> Option<usize> {
         let run = *self.0.get(self.0.partition_point(|run| run.0 <= to).checked_sub(1)?)?;
         (run.1 >= from).then_some(run.1.min(to))
     }
 
-    /// Returns the ticks that the set and a run have in common, as runs in order.
+    /// Returns the ticks that the set and the given run have in common, as runs in ascending order.
     pub fn within(&self, (from, to): Run) -> impl Iterator<Item = Run> {
         let first = self.0.partition_point(|run| run.1 < from);
         let overlapping = self.0.range(first..).take_while(move |run| run.0 <= to);
         overlapping.map(move |run| (run.0.max(from), run.1.min(to)))
     }
 
-    /// Adds the ticks of a run. Calls `new` for each run of ticks that the set did not have.
+    /// Adds the ticks of a run to the set, and calls `new` for each run of ticks that the set did not have.
     pub fn complete(&mut self, (from, to): Run, mut new: impl FnMut(Run)) {
         // Again the usual case: the new run does not begin before the last one.
         let mut next = match self.0.back() {
@@ -89,7 +89,7 @@ impl Runs {
         self.0.front().filter(|run| run.0 == 0).map_or(0, |run| run.1 + 1)
     }
 
-    /// Drops the runs that end before this tick.
+    /// Removes all runs that end before the tick `before` from the set.
     pub fn forget(&mut self, before: usize) {
         while self.0.front().is_some_and(|run| run.1 < before) {
             self.0.pop_front();

@@ -8,11 +8,11 @@ use std::collections::VecDeque;
 /// The values in sight, in the form in which they are stored.
 #[derive(Debug, Clone)]
 enum Seen<T> {
-    /// A single fold. The operator sees all values before it, or only its first tick is needed.
+    /// A single fold of the values in sight. The operator sees all values before it, or only its first tick is needed.
     All(T),
-    /// A window of values.
+    /// A window over the last values.
     Last(Window<T>),
-    /// All values, until the end of the trace is known.
+    /// All values so far, until the end of the trace is known.
     Kept(Vec<T>),
 }
 
@@ -46,7 +46,7 @@ impl<T: Fold> Scan<T> {
         Self { past: sight.past, start, span, needed, values: 0, results: 0, delayed: VecDeque::new(), seen }
     }
 
-    /// Takes the operand's value at the next tick. Returns the operator's result at its next tick if it is complete.
+    /// Takes the operand's value at the next tick, and returns the operator's next result if this result is complete.
     pub fn push(&mut self, value: T) -> Option<T> {
         if self.results == self.needed {
             return None;
@@ -80,7 +80,7 @@ impl<T: Fold> Scan<T> {
         if self.delayed.len() <= self.start { T::NEUTRAL } else { self.delayed.pop_front().expect("just pushed") }
     }
 
-    /// Returns the first result for the values so far, if only this result is needed.
+    /// Returns the operator's result at the first tick for the values so far, if no result at another tick is needed.
     pub fn first(&self) -> Option<T> {
         match self.seen {
             Seen::All(fold) if !self.past => Some(fold),
@@ -88,8 +88,8 @@ impl<T: Fold> Scan<T> {
         }
     }
 
-    /// Returns the results that are not complete, on a trace of `ticks` ticks. All values beyond its end are
-    /// `outside`.
+    /// Returns the operator's results that are not complete yet, for a trace that ends after `ticks` ticks. All values
+    /// beyond the end are `outside`.
     pub fn rest(&mut self, ticks: usize, outside: T) -> Vec<T> {
         let missing = ticks.min(self.needed).saturating_sub(self.results);
         match &mut self.seen {
@@ -103,7 +103,7 @@ impl<T: Fold> Scan<T> {
     }
 }
 
-/// Returns the first `count` folds: each from a value to the last value and `outside`.
+/// Returns the first `count` folds, each from a value to the last value and `outside`.
 fn folded<T: Fold>(values: &[T], count: usize, outside: T) -> Vec<T> {
     let mut values = values.to_vec();
     suffixes(&mut values, outside);

@@ -33,7 +33,8 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// Makes a stream for a formula. `needed` has the number of ticks that are needed of each node.
+    /// Makes a stream that computes the robustness of a formula. `needed` has the number of ticks that are needed of
+    /// each node.
     pub fn new(core: &Core, needed: &[usize]) -> Self {
         let state = |(node, needed): (&Node, &usize)| match node.kind {
             CoreKind::Atom(_) => State::Atom,
@@ -52,7 +53,7 @@ impl Stream {
         }
     }
 
-    /// Takes the worth of the atoms at the next tick.
+    /// Takes the robustness of the comparisons and flags at the next tick, and updates the robustness of all nodes.
     pub fn step(&mut self, core: &Core, atoms: &[Option<Worth>]) {
         for (id, node) in core.nodes.iter().enumerate() {
             let value = |operand: Id| self.values[operand].map(|worth| worth.flipped(node.dual));
@@ -70,7 +71,8 @@ impl Stream {
         }
     }
 
-    /// Returns bounds of a node's worth at its first tick, from the values of its parts that are certain.
+    /// Returns a lower and an upper bound of a node's robustness at the first tick, from the values that are already
+    /// certain.
     pub fn bounds(&self, core: &Core, id: Id) -> (Worth, Worth) {
         if let Some(worth) = self.firsts[id] {
             return (worth, worth);
@@ -92,7 +94,7 @@ impl Stream {
         })
     }
 
-    /// Returns the worth of the formula on the trace so far, if the trace ends after this many ticks.
+    /// Returns the robustness of the formula on the trace so far, if the trace ends after `ticks` ticks.
     pub fn finish(mut self, core: &Core, needed: &[usize], ticks: usize, complete: bool, beyond: Beyond) -> Worth {
         let root = core.nodes.len() - 1;
         let mut rests: Vec<Vec<Worth>> = Vec::with_capacity(core.nodes.len());

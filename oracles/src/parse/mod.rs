@@ -70,7 +70,8 @@ fn is_reserved(word: &str) -> bool {
 }
 
 impl Formula {
-    /// Parses a formula over these signals. If it names another signal, the error suggests the nearest of them.
+    /// Parses a formula that may name only the given signals. If it names another signal, the error suggests the
+    /// nearest given signal.
     ///
     /// # Errors
     /// The text is not a formula, or names another signal.
@@ -140,7 +141,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Returns the error that something else was expected instead of the next token.
+    /// Returns the error that the next token is not the expected token.
     fn unexpected(&self, expected: &str) -> ParseError {
         self.refuse(expected, self.misspelt())
     }
@@ -150,7 +151,8 @@ impl Parser<'_> {
         ParseError { column: *column, found: token.to_string(), expected: expected.to_owned(), help }
     }
 
-    /// Suggests a word of the language if the previous name is probably a mistyped word: a value follows it.
+    /// Suggests a word of the language if the previous name is probably a mistyped word, since a value follows the
+    /// name.
     fn misspelt(&self) -> Option<String> {
         let Token::Word(previous) = &self.tokens[self.at.checked_sub(1)?].1 else { return None };
         let value = matches!(self.next(), Token::Symbol("(" | "[" | "~") | Token::Word(_) | Token::Number(_));
@@ -352,7 +354,7 @@ impl Parser<'_> {
         self.number(value)
     }
 
-    /// Parses the interval behind a temporal operator, if there is one.
+    /// Parses the interval behind a temporal operator, or returns the unbounded interval if the text has none.
     fn interval(&mut self) -> Result<Interval, ParseError> {
         let outward = self.is_next("~");
         if outward {

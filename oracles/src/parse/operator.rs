@@ -26,7 +26,7 @@ pub(super) enum Infix {
 }
 
 impl Infix {
-    /// Finds the operator that a token stands for.
+    /// Returns the operator that a token stands for, or `None` if the token is no operator between two values.
     pub fn of(token: &Token) -> Option<Self> {
         let symbol = match token {
             Token::Word(word) => word.as_str(),
@@ -48,7 +48,7 @@ impl Infix {
         })
     }
 
-    /// Returns how strongly the operator binds.
+    /// Returns the strength with which the operator binds, as one of the numbers in [`strength`].
     pub fn strength(self) -> u8 {
         match self {
             Infix::Join(Connective::Implies) => strength::IMPLIES,
@@ -61,7 +61,7 @@ impl Infix {
         }
     }
 
-    /// Returns advice for a user who chained the operator.
+    /// Returns the advice for a user who chained the operator, as in `a < b < c`.
     pub fn unchained(self) -> &'static str {
         match self {
             Infix::Compare(_) => "comparisons do not chain: write `a < b and b < c`",

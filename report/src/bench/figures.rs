@@ -18,7 +18,7 @@ pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
     figures
 }
 
-/// Returns the Kaplan-Meier curves of a scenario's strategies.
+/// Returns the chart of the Kaplan-Meier curves of all strategies in a scenario.
 fn survival(benched: &Benched, scenario: &str) -> Survivals {
     let (budget, seeds) = (benched.bench.budget, benched.bench.seeds);
     let curve = |cell: &BenchCell| {
@@ -50,7 +50,8 @@ fn survival(benched: &Benched, scenario: &str) -> Survivals {
     }
 }
 
-/// Returns a chart with a mark for every run; `None` if a run's recall or dispersion is unknown, or a dispersion is 0.
+/// Returns a chart of recall over dispersion, with a mark for every run; `None` if a value is unknown, or a dispersion
+/// is 0.
 fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     let mut range = (f64::INFINITY, 0.0_f64);
     let mut all = Vec::new();

@@ -7,9 +7,9 @@ use paracosm_campaign::Error;
 use paracosm_campaign::files::write_whole;
 use std::path::Path;
 
-/// Writes the results of a bench to a folder. The files are `summary.csv`, `correlations.csv`, `standings.csv`,
-/// `survival.csv`, `table.tex`, and for each scenario the Kaplan-Meier curves and recall over dispersion as SVG and
-/// PNG.
+/// Writes the results of a benchmark of strategies to a folder, as CSV, LaTeX and figures. The files are `summary.csv`,
+/// `correlations.csv`, `standings.csv`, `survival.csv`, `table.tex`, and for each scenario the Kaplan-Meier curves and
+/// recall over dispersion as SVG and PNG.
 ///
 /// # Errors
 /// A file cannot be written.

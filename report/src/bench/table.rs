@@ -8,8 +8,9 @@ use std::fmt::Write;
 /// A function that returns the number of a strategy that a column shows.
 type Value = fn(&BenchCell) -> Option<f64>;
 
-/// Returns the tables of a bench. They show for every scenario how soon each strategy finds a failure and what each
-/// strategy knows after all its tests, and then how the strategies compare over all scenarios.
+/// Returns the results of a benchmark of strategies as plain-text tables. The tables show for every scenario how soon
+/// each strategy finds a failure and what each strategy knows after all its tests, and then how the strategies compare
+/// over all scenarios.
 pub fn table(benched: &Benched) -> String {
     let mut text = String::new();
     for target in &benched.bench.targets {

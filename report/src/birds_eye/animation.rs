@@ -14,29 +14,29 @@ const WAY: Paint = Paint { colour: UNDER_TEST, opacity: 0.55 };
 /// The size in pixels of the letters of the clock.
 const CLOCK: f64 = 17.0;
 
-/// A run as a sequence of frames. Every frame lies over one of the scenes; all scenes have the same size.
+/// A bird's-eye film of a run. Every frame lies over one of the scenes; all scenes have the same size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Animation {
-    /// The parts that stand still: the ground and the bodies on it that do not move.
+    /// The backgrounds of the film, with the ground and the bodies that do not move.
     pub scenes: Vec<Drawing>,
-    /// The parts that change.
+    /// The foregrounds of the film in the order of time, with the bodies that move.
     pub frames: Vec<Frame>,
 }
 
-/// A moment of an animated run.
+/// A moment of a bird's-eye film.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// The index of the scene under the frame.
+    /// The index of the background scene behind the frame.
     pub scene: usize,
-    /// The time of the run in seconds.
+    /// The time of the moment, in seconds since the run began.
     pub time: f64,
-    /// The picture that lies over the scene.
+    /// The foreground of the frame, which is drawn over the background scene.
     pub drawing: Drawing,
 }
 
 impl MotionRecord {
-    /// Draws the run as a sequence of frames, this many pixels wide: a frame for every tenth of a second, or fewer if
-    /// there would be more than 300. `None` if nothing was recorded.
+    /// Returns a bird's-eye film of the run with a width in pixels and a caption; `None` if nothing was recorded.
+    /// A frame shows every tenth of a second, or fewer moments if there would be more than 300 frames.
     pub fn film(&self, width: f64, caption: &str) -> Option<Animation> {
         let scene = self.scene.as_ref().filter(|_| !self.is_empty())?;
         let pages = pages(self, scene, width);
@@ -67,7 +67,7 @@ impl MotionRecord {
         Some(Animation { scenes: pages.iter().map(still).collect(), frames })
     }
 
-    /// Draws the parts that lie over a scene at a moment.
+    /// Draws the foreground of a scene at a moment.
     fn moving(&self, scene: &Scene, page: &Page, moment: usize) -> Vec<PictureItem> {
         let mut marks = Vec::new();
         if self.moves(0, page.moments.clone()) {
@@ -91,7 +91,7 @@ impl MotionRecord {
         marks
     }
 
-    /// Draws the bodies that move on a page, or those that stand still; the ego vehicle lies on top.
+    /// Draws the moving or the standing bodies of a page, with the ego vehicle on top.
     fn bodies(&self, scene: &Scene, page: &Page, moment: usize, moving: bool) -> Vec<PictureItem> {
         let these = (0..scene.bodies.len()).rev().filter(|i| self.moves(*i, page.moments.clone()) == moving);
         let poses = &self.moments[moment].poses;

@@ -106,7 +106,8 @@ pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share:
     }
 }
 
-/// Returns a rectangle with cut corners, longer in front. `l` and `w` are half its length and half its width.
+/// Returns a rectangle with cut corners, longer in front, that is the outline of a vehicle. `l` and `w` are half its
+/// length and half its width.
 fn hull(view: &View, pose: &Pose, l: f64, w: f64) -> Contour {
     let right = [(-l, -0.6 * w), (-0.85 * l, -w), (0.7 * l, -w), (l, -0.55 * w)];
     let left = right.iter().rev().map(|(x, y)| (*x, -y));

@@ -7,66 +7,66 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 pub use paracosm_engine::object::Colour;
 
-/// A position: pixels to the right of the upper left corner, and pixels below it.
+/// A position in a picture, in pixels to the right of the upper left corner and pixels below it.
 pub type Pixel = [f64; 2];
 
-/// A picture with its width and height in pixels. Parts beyond its edges are cut off.
+/// A vector picture with its width and height in pixels. Parts beyond its edges are cut off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
-    /// The width of the picture, a whole number.
+    /// The width of the picture in pixels, which is a whole number.
     pub width: f64,
-    /// The height of the picture, a whole number.
+    /// The height of the picture in pixels, which is a whole number.
     pub height: f64,
-    /// The marks of the picture, from the bottom to the top.
+    /// The elements of the picture, from the bottom to the top.
     pub marks: Vec<PictureItem>,
 }
 
-/// A mark of a picture.
+/// An element of a vector picture, such as an area, a line or a text.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PictureItem {
-    /// A filled area: all that is inside by the non-zero rule.
+    /// A filled area, whose inside is given by the non-zero rule.
     Fill {
         /// The outline of the area.
         contour: Contour,
-        /// The paint of the area.
+        /// The colour and the opacity of the area.
         paint: Paint,
     },
     /// A line with round ends and joins.
     Stroke {
-        /// The line that the pen follows.
+        /// The course of the line.
         contour: Contour,
-        /// The paint of the line.
+        /// The colour and the opacity of the line.
         paint: Paint,
         /// The width of the line in pixels.
         width: f64,
-        /// The pixels of dash and of gap, for a broken line.
+        /// The lengths in pixels of a dash and of a gap; `None` for an unbroken line.
         dash: Option<[f64; 2]>,
     },
     /// A line of text.
     Text {
-        /// The place of the beginning, the middle or the end of the text's baseline.
+        /// The position in the picture of the text's anchor, on the baseline of the text.
         at: Pixel,
-        /// The part of the text that is at that place.
+        /// The part of the text that is at the position `at`.
         anchor: Anchor,
-        /// The font size of the letters.
+        /// The font size in pixels.
         size: f64,
         /// The colour of the text.
         colour: Colour,
-        /// The colour of a rim that makes the text stand out from its background.
+        /// The colour of a rim around the letters, which separates the text from its background.
         halo: Option<Colour>,
-        /// The words of the text.
+        /// The characters of the text.
         text: String,
     },
-    /// A picture within the picture. Parts beyond its edges are cut off.
+    /// A smaller picture within the picture. Parts beyond its edges are cut off.
     Inset {
-        /// The place of the inset's upper left corner.
+        /// The position of the upper left corner of the smaller picture.
         at: Pixel,
-        /// The picture in the inset.
+        /// The smaller picture.
         drawing: Drawing,
     },
 }
 
-/// The part of a text that is at the text's place.
+/// The part of a text that is at the given position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// The beginning of the text.
@@ -80,9 +80,9 @@ pub enum Anchor {
 /// A colour with its opacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paint {
-    /// The colour.
+    /// The colour without the opacity.
     pub colour: Colour,
-    /// The opacity, from 0 (invisible) to 1 (hides all behind it).
+    /// The opacity of the colour, from 0 (invisible) to 1 (hides everything behind it).
     pub opacity: f64,
 }
 
@@ -99,23 +99,23 @@ impl Paint {
     }
 }
 
-/// A line that a pen follows; the pen may be lifted.
+/// A path of lines and curves, which may have several separate parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contour {
-    /// The movements of the pen, in their order.
+    /// The lines, curves and jumps of the path, in their order.
     pub segments: Vec<PathSegment>,
 }
 
-/// A movement of the pen.
+/// A step of a path, drawn by a pen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PathSegment {
-    /// The pen is lifted and moves to a place.
+    /// A jump of the pen to a position, without a line.
     Move(Pixel),
-    /// The pen draws a straight line to a place.
+    /// A straight line to a position.
     Line(Pixel),
-    /// The pen draws a cubic Bézier curve by two control points to a place.
+    /// A cubic Bézier curve with two control points and an end position.
     Cubic(Pixel, Pixel, Pixel),
-    /// The pen draws a straight line to the place where it was last put down.
+    /// A straight line back to the start of the current part of the path, which closes the part.
     Close,
 }
 

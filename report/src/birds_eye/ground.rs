@@ -2,9 +2,9 @@
 
 use super::drawing::{Colour, Contour, Paint, PathSegment, PictureItem};
 use super::view::View;
+use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::{Lane, LaneKind, RoadNetwork, Strip, Surface};
-use nalgebra::Vector2;
 
 /// The least width in pixels of a strip. Thinner strips are left out.
 const THINNEST: f64 = 0.2;
@@ -16,7 +16,7 @@ const ARROWS: f64 = 40.0;
 const GROUND: Colour = [0xe4, 0xea, 0xdb];
 const ARROW: Paint = Paint { colour: [0xff, 0xff, 0xff], opacity: 0.3 };
 
-/// Returns the colour of a surface.
+/// Returns the colour in which a surface of the ground is drawn.
 fn colour(surface: Surface) -> Colour {
     match surface {
         Surface::Sidewalk => [0xd6, 0xd2, 0xca],
@@ -91,13 +91,13 @@ pub(super) fn lanes(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     marks.collect()
 }
 
-/// Adds a polygon whose corners are metres ahead of a pose and to its left.
+/// Adds a polygon whose corners are given in metres ahead and to the left of a pose.
 fn arrow(contour: &mut Contour, view: &View, here: &Pose, corners: impl IntoIterator<Item = (f64, f64)>) {
     let corner = |(x, y)| view.at(seen_from(here, x, y));
     contour.segments.extend(Contour::polygon(corners.into_iter().map(corner)).segments);
 }
 
-/// Returns the colour of a lane's middle.
+/// Returns the colour in which the middle of a lane is drawn.
 fn lane_colour(lane: &Lane) -> Colour {
     match lane.kind {
         LaneKind::Road => [0x8e, 0xca, 0xe6],

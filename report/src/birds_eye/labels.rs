@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 /// The places of a picture where no further label may be.
 #[derive(Debug)]
 pub(super) struct Labels {
-    /// The width and height of the picture in pixels.
+    /// The width and the height of the picture in pixels.
     size: [f64; 2],
     taken: Vec<[f64; 4]>,
 }
@@ -16,17 +16,18 @@ pub(super) struct Labels {
 const SIZE: f64 = 13.0;
 
 impl Labels {
-    /// Starts without labels on a picture of this width and height.
+    /// Makes an empty set of labels for a picture with a width and a height in pixels.
     pub fn on(size: [f64; 2]) -> Self {
         Self { size, taken: Vec::new() }
     }
 
-    /// Keeps labels out of a square around a place, `by` pixels to each side.
+    /// Reserves a square around a position, so that no label covers it; the square extends `by` pixels to each side.
     pub fn keep_off(&mut self, [x, y]: Pixel, by: f64) {
         self.taken.push([x - by, y - by, x + by, y + by]);
     }
 
-    /// Places a label `gap` pixels beside a place, in the first of these directions that has room. `None` if none has.
+    /// Returns a label `gap` pixels beside a position, in the first of the given directions that has room. `None` if
+    /// no direction has room.
     pub fn place(
         &mut self,
         text: &str,

@@ -3,10 +3,10 @@
 use super::body::{UNDER_TEST, body, class_colour};
 use super::drawing::{Anchor, Colour, Contour, Drawing, PictureItem, Pixel};
 use super::view::View;
+use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::object::{Body, Class};
 use paracosm_engine::road::Bounds;
-use nalgebra::Vector2;
 
 /// The colour of texts.
 pub(super) const INK: Colour = [0x33, 0x33, 0x33];
@@ -105,7 +105,7 @@ fn name(entry: &Entry) -> String {
     }
 }
 
-/// Returns the width in pixels of the sample of an entry.
+/// Returns the width in pixels of the sample drawing of a legend entry.
 fn swatch_width(entry: &Entry) -> f64 {
     match entry {
         Entry::UnderTest(body) | Entry::Body(body) => {
@@ -117,7 +117,7 @@ fn swatch_width(entry: &Entry) -> f64 {
     }
 }
 
-/// Returns the body as the legend shows it, short enough for a line.
+/// Returns the body that the legend shows as a sample, which is short enough for a line.
 fn shown(body: &Body) -> Body {
     match body.class {
         Class::Car => Body::car(),
@@ -147,7 +147,7 @@ fn swatch(marks: &mut Vec<PictureItem>, entry: &Entry, [x, y]: Pixel) {
 /// The pixels of dash and of gap of a planned path.
 pub(super) const PLAN_DASH: [f64; 2] = [6.0, 6.0];
 
-/// Draws a body as a sample of its class.
+/// Draws a body as the legend's sample of its class.
 fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<PictureItem> {
     let [x, y] = middle.map(|pixels| pixels / SCALE);
     let view = View { bounds: Bounds { min: Vector2::new(-x, -SWATCH), max: Vector2::new(SWATCH, y) }, scale: SCALE };

@@ -59,7 +59,7 @@ pub(super) fn pages(record: &MotionRecord, scene: &Scene, width: f64) -> Vec<Pag
     stretches.into_iter().map(page).collect()
 }
 
-/// Returns as few pages as possible, each about as full as the others.
+/// Returns the least possible number of pages, each about equally full.
 fn several(record: &MotionRecord, scene: &Scene) -> Vec<Stretch> {
     let cut = |zoom: f64| with_company(record, scene, cut(record, scene, zoom));
     let mut zoom = 1.0;
@@ -92,7 +92,7 @@ fn fits(bounds: &Bounds, zoom: f64) -> bool {
     extent.x <= SPAN[0] * zoom && extent.y <= SPAN[1] * zoom
 }
 
-/// Cuts the run so that each page lasts as long as it fits.
+/// Cuts the run into pages, each of which lasts as long as its content fits.
 fn cut(record: &MotionRecord, scene: &Scene, zoom: f64) -> Vec<Stretch> {
     let mut pages: Vec<Stretch> = Vec::new();
     for i in 0..record.moments.len() {
@@ -109,7 +109,7 @@ fn cut(record: &MotionRecord, scene: &Scene, zoom: f64) -> Vec<Stretch> {
     pages
 }
 
-/// Returns the pages on which other actors come near; all pages if there is no such page.
+/// Returns the pages on which other actors are near the ego vehicle; all pages if there is no such page.
 fn with_company(record: &MotionRecord, scene: &Scene, pages: Vec<Stretch>) -> Vec<Stretch> {
     let met = |(_, moments): &Stretch| {
         record.moments[moments.clone()].iter().any(|moment| {

@@ -3,11 +3,11 @@
 use super::body::{extent, is_actor};
 use super::view::MARGIN;
 use super::world::NEAR;
+use nalgebra::Vector2;
 use paracosm_engine::Pose;
+use paracosm_engine::Run;
 use paracosm_engine::object::Body;
 use paracosm_engine::road::{Bounds, RoadNetwork};
-use paracosm_engine::Run;
-use nalgebra::Vector2;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -16,8 +16,9 @@ const INTERVAL: f64 = 0.1;
 /// The least distance in metres that a moving body moves.
 const STIR: f64 = 0.3;
 
-/// The poses of all bodies of a run, every tenth of a second or as often as the driver is asked. [`MotionRecord::see`]
-/// records a moment of a run, for example from [`Run::watch`]. A run that is not recorded costs nothing.
+/// A record of the poses of all bodies in a run, for bird's-eye pictures of the run. A moment is recorded every tenth
+/// of a second, or as often as the driver is asked. [`MotionRecord::see`] records a moment of a run, for example from
+/// [`Run::watch`]. A run that is not recorded costs nothing.
 #[derive(Debug, Clone, Default)]
 pub struct MotionRecord {
     pub(super) scene: Option<Scene>,
@@ -41,7 +42,8 @@ pub(super) struct Moment {
 }
 
 impl MotionRecord {
-    /// Records a run as it stands now. A moment too soon after the last is skipped, except for the end of the run.
+    /// Records the present poses of all bodies in a run. A moment too soon after the last recorded moment is skipped,
+    /// except for the end of the run.
     pub fn see(&mut self, run: &Run) {
         let bodies = run.bodies();
         if self.scene.is_none() {
@@ -60,7 +62,7 @@ impl MotionRecord {
         }
     }
 
-    /// Returns `true` if nothing was recorded, because the world could not even be built.
+    /// Returns `true` if no pose was recorded, because the world of the run could not be built.
     pub fn is_empty(&self) -> bool {
         self.moments.is_empty()
     }

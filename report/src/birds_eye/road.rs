@@ -19,7 +19,7 @@ const FOOT: f64 = 34.0;
 /// The accuracy in metres of the edges of the picture.
 const FAITHFUL: f64 = 0.1;
 
-/// A picture of a road network from above, with the ways and bodies that it shows.
+/// A bird's-eye picture of a road network, with routes and bodies.
 #[derive(Debug, Clone)]
 pub struct RoadPicture<'a> {
     network: &'a RoadNetwork,
@@ -29,24 +29,24 @@ pub struct RoadPicture<'a> {
 }
 
 impl<'a> RoadPicture<'a> {
-    /// Makes a picture of the network alone.
+    /// Makes a bird's-eye picture of a road network without routes and bodies.
     pub fn of(network: &'a RoadNetwork) -> Self {
         Self { network, lanes: false, routes: Vec::new(), bodies: Vec::new() }
     }
 
-    /// Shows the middle of every lane with an arrow.
+    /// Adds the middle line of every lane to the picture, with an arrow.
     pub fn lanes(mut self) -> Self {
         self.lanes = true;
         self
     }
 
-    /// Shows a way.
+    /// Adds a route to the picture, as a line of the given colour.
     pub fn route(mut self, route: &Route, colour: Colour) -> Self {
         self.routes.push((route.clone(), colour));
         self
     }
 
-    /// Shows a vehicle of this length and width in metres, with its front marked.
+    /// Adds a vehicle with a length and a width in metres to the picture, with its front marked.
     pub fn body(mut self, pose: Pose, length: f64, width: f64, colour: Colour) -> Self {
         self.bodies.push((pose, Body::block(Class::Car, length, width, 1.0), colour));
         self
@@ -78,7 +78,7 @@ impl<'a> RoadPicture<'a> {
     }
 }
 
-/// Draws the way along the middles of its lanes. A change to a lane beside takes half of what is left of both lanes.
+/// Draws a route along the middles of its lanes. A change to a lane beside takes half of what is left of both lanes.
 fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
     let curve = |index: usize| &network.lane(route.lanes[index]).curve;
     let mut from = route.start / curve(0).length();
@@ -107,7 +107,8 @@ fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
     contour
 }
 
-/// Returns points of a lane change, straight at both ends: the share of its length, and of its lateral move there.
+/// Returns points of a lane change that is straight at both ends, each with its share of the length and of the lateral
+/// movement.
 fn sideways() -> impl Iterator<Item = (f64, f64)> {
     (1..=16).map(|i| f64::from(i) / 16.0).map(|share| (share, share * share * (3.0 - 2.0 * share)))
 }

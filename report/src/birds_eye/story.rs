@@ -10,8 +10,8 @@ use super::pages::{Page, pages};
 use super::record::{Moment, MotionRecord, Scene};
 use super::view::View;
 use super::world::framed;
-use paracosm_engine::object::Outline;
 use nalgebra::Vector2;
+use paracosm_engine::object::Outline;
 use std::ops::Range;
 
 /// The width of a picture in pixels.
@@ -35,7 +35,7 @@ const WAY: f64 = 2.0;
 const FAITHFUL: f64 = 0.2;
 
 impl MotionRecord {
-    /// Draws the run from beginning to end, with `caption` below the picture. `None` if nothing was recorded.
+    /// Returns one bird's-eye picture of the whole run with a caption below; `None` if nothing was recorded.
     pub fn story(&self, caption: &str) -> Option<Drawing> {
         let scene = self.scene.as_ref().filter(|_| !self.is_empty())?;
         let pages = pages(self, scene, WIDTH);
@@ -82,7 +82,7 @@ impl MotionRecord {
         marks
     }
 
-    /// Returns the moving bodies that come nearest to the ego vehicle, including the car itself if it moves.
+    /// Returns the moving bodies that come nearest to the ego vehicle, including the ego vehicle if it moves.
     fn told(&self, page: &Page, moving: &[bool]) -> Vec<usize> {
         let nearest = |i: &usize| {
             let apart = |moment: &Moment| (moment.poses[*i].position - moment.poses[0].position).norm();
@@ -95,7 +95,7 @@ impl MotionRecord {
         told
     }
 
-    /// Returns the moments of ghosts, at round times.
+    /// Returns the indices of the moments at round times, at which the picture shows faint bodies.
     fn round_times(&self, page: &Page) -> Vec<usize> {
         let moments = &self.moments[page.moments.clone()];
         let (from, to) = (moments[0].time, moments[moments.len() - 1].time);
@@ -114,7 +114,7 @@ impl MotionRecord {
         times
     }
 
-    /// Draws dots with times on the ways, and the contact.
+    /// Draws dots with times along the ways of the bodies, and a star at the point of contact.
     fn time_marks(&self, scene: &Scene, page: &Page, times: &[usize], told: &[usize]) -> Vec<PictureItem> {
         let view = &page.view;
         let (mut dots, mut texts, mut labels) = (Vec::new(), Vec::new(), Labels::on(view.size()));
@@ -171,12 +171,13 @@ impl MotionRecord {
     }
 }
 
-/// Rounds a time to a tenth, without zeros at the end.
+/// Formats a time rounded to a tenth of a second, without trailing zeros.
 fn rounded(time: f64) -> String {
     format!("{}", (time * 10.0).round() / 10.0)
 }
 
-/// Adds the points after the first that an accurate line needs: the algorithm of Ramer (1972), Douglas and Peucker.
+/// Adds the points after the first point that an accurate line needs, by the algorithm of Ramer (1972), Douglas and
+/// Peucker.
 fn simplified(points: &[Pixel], kept: &mut Vec<Pixel>) {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
     let off = |p: &Pixel| {

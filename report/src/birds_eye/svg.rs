@@ -106,17 +106,17 @@ fn path(contour: &Contour) -> String {
     text
 }
 
-/// Formats a share or a width, to a hundredth.
+/// Formats a share or a width, rounded to a hundredth.
 fn number(value: f64) -> String {
     trimmed(format!("{value:.2}"))
 }
 
-/// Formats a place, to a tenth of a pixel.
+/// Formats a coordinate, rounded to a tenth of a pixel.
 fn place(value: f64) -> String {
     trimmed(format!("{value:.1}"))
 }
 
-/// Removes zeros at the end.
+/// Removes trailing zeros from a formatted number.
 fn trimmed(text: String) -> String {
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

@@ -1,15 +1,15 @@
 //! The part of the ground that a picture shows, and its scale.
 
 use super::drawing::{Contour, PathSegment, Pixel};
-use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Surface};
 use nalgebra::Vector2;
+use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Surface};
 use std::f64::consts::FRAC_PI_4;
 
 /// A part of the ground, from above.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct View {
     pub bounds: Bounds,
-    /// The scale in pixels per metre.
+    /// The scale of the view in pixels per metre.
     pub scale: f64,
 }
 
@@ -47,8 +47,8 @@ pub(super) fn across(network: &RoadNetwork, points: impl Iterator<Item = Vector2
 }
 
 impl View {
-    /// Makes a view of this width in pixels that shows all within some bounds, and enough around them to be neither too
-    /// flat nor too tall.
+    /// Makes a view with a width in pixels that shows the given bounds, enlarged if the picture would be too flat or
+    /// too tall.
     pub fn fit(bounds: &Bounds, width: f64) -> Self {
         let extent = bounds.max - bounds.min;
         let wide = extent.x.max(NARROWEST).max(extent.y / HEIGHTS[1]);
@@ -57,31 +57,30 @@ impl View {
         Self { bounds: Bounds { min: centre - half, max: centre + half }, scale: width / wide }
     }
 
-    /// Returns the width and height in pixels.
+    /// Returns the width and the height of the picture in pixels.
     pub fn size(&self) -> [f64; 2] {
         let extent = (self.bounds.max - self.bounds.min) * self.scale;
         [extent.x.round(), extent.y.round()]
     }
 
-    /// Returns the place of a point of the ground on the picture.
+    /// Returns the position in the picture of a point of the ground.
     pub fn at(&self, point: Vector2<f64>) -> Pixel {
         [(point.x - self.bounds.min.x) * self.scale, (self.bounds.max.y - point.y) * self.scale]
     }
 
-    /// Returns `true` if a point is inside the view or at most this many metres beyond its edge.
+    /// Returns `true` if a point is inside the view or at most `beyond` metres outside its edge.
     pub fn shows(&self, point: Vector2<f64>, beyond: f64) -> bool {
         Bounds { min: point, max: point }.meets(&self.bounds.grown(beyond))
     }
 
-    /// Returns the contour of a curve, `offset` metres to its left.
+    /// Returns the path of a line `offset` metres to the left of a curve.
     pub fn curve(&self, curve: &Curve, offset: f64) -> Contour {
         let mut contour = Contour { segments: vec![PathSegment::Move(self.at(curve.beside(0.0, offset)))] };
         self.along(&mut contour, curve, offset, [0.0, curve.length()]);
         contour
     }
 
-    /// Continues a contour beside a curve: with a line, or with arcs of an eighth of a circle at most, whose error is a
-    /// few millionths of the radius.
+    /// Extends a path along a line `offset` metres to the left of a curve.
     pub fn along(&self, contour: &mut Contour, curve: &Curve, offset: f64, [from, to]: [f64; 2]) {
         if curve.curvature() == 0.0 {
             return contour.segments.push(PathSegment::Line(self.at(curve.beside(to, offset))));

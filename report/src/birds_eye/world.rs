@@ -5,10 +5,10 @@ use super::drawing::{Contour, Drawing, Paint, PictureItem};
 use super::ground::{directions, ground, seen_from};
 use super::legend::{Entry, PAPER, PLAN_DASH, entries, legend};
 use super::view::{View, across, with_margin};
+use nalgebra::Vector2;
+use paracosm_engine::Run;
 use paracosm_engine::object::BodyState;
 use paracosm_engine::road::{Bounds, Path, RoadNetwork};
-use paracosm_engine::Run;
-use nalgebra::Vector2;
 
 /// The width of a picture in pixels.
 const WIDTH: f64 = 1200.0;
@@ -25,7 +25,7 @@ const STEP: f64 = 1.0;
 /// The opacity of a planned way.
 const FAINT: f64 = 0.9;
 
-/// Draws the world of a run from above, as it stands now.
+/// Returns a bird's-eye picture of the world of a run at the present tick, with a caption.
 pub fn world(run: &Run, caption: &str) -> Drawing {
     let bodies = run.bodies();
     let plans = run.plans();
@@ -75,7 +75,7 @@ pub(super) fn framed(view: &View, panels: Vec<Vec<PictureItem>>, entries: &[Entr
     Drawing { width, height: total, marks }
 }
 
-/// Returns the bounds of the actors and their planned ways, of the road across, and of bodies near them.
+/// Returns the bounds of the actors, their planned ways, the road across, and the other bodies nearby.
 fn around(network: &RoadNetwork, bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
     let actors = bodies.iter().enumerate().filter(|(i, state)| *i == 0 || is_actor(state.body.class));
     let actors: Vec<_> = actors.map(|(_, state)| state.pose.position).collect();
@@ -92,7 +92,7 @@ fn around(network: &RoadNetwork, bodies: &[BodyState], plans: &[(usize, Path)]) 
     views.find(|bounds| (bounds.max - bounds.min).max() <= WIDEST).unwrap_or_else(|| reaching(0.0))
 }
 
-/// Returns points along the first `length` metres of a path.
+/// Returns evenly spaced points along the first `length` metres of a path.
 fn points(path: &Path, length: f64) -> impl Iterator<Item = Vector2<f64>> {
     let count = (length / STEP).ceil().clamp(1.0, 10_000.0) as usize;
     (0..=count).map(move |i| path.at(length * i as f64 / count as f64).position)
@@ -113,7 +113,8 @@ fn plan(view: &View, path: &Path, paint: Paint) -> Vec<PictureItem> {
     vec![rim, contour.dashed(paint, 2.5, PLAN_DASH), Contour::polygon(head).fill(paint)]
 }
 
-/// Draws an arrow in front of the ego vehicle. Its driver decides where the car goes, so no way is drawn.
+/// Draws an arrow in front of the ego vehicle, which shows its heading. Its driver decides where the car goes, so no
+/// way is drawn.
 fn heading(view: &View, car: &BodyState) -> PictureItem {
     let front = car.body.outline.half_extent().x + 6.0 / view.scale;
     let size = 1.0 / view.scale;

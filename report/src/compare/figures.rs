@@ -21,7 +21,8 @@ pub(super) fn all(compared: &Compared) -> Vec<(String, Picture)> {
     figures
 }
 
-/// Returns a figure; `None` if nothing was measured, or if a value is 0 and so has no logarithm.
+/// Returns the figure of a measure in a dimension; `None` if nothing was measured, or if a value is 0 and has no
+/// logarithm.
 fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     let budgets = compared.budgets(measure, dims);
     let most = *budgets.last()?;
@@ -70,14 +71,14 @@ fn has_logarithms(cell: &ComparisonCell) -> bool {
     cell.quartiles.into_iter().chain(cell.plain).chain(versus).all(|value| value > 0.0 && value.is_finite())
 }
 
-/// Returns the medians with their quartiles, and the values of the plain sets as crosses.
+/// Returns the medians of a strategy with their quartiles, and the values of its sets without a seed as crosses.
 fn values((look, cells): &(Look, Vec<&ComparisonCell>)) -> LogLogCurve {
     let marks = cells.iter().map(|cell| (cell.budget as f64, cell.median, cell.quartiles)).collect();
     let crosses = cells.iter().filter_map(|cell| Some((cell.budget as f64, cell.plain?))).collect();
     LogLogCurve { look: *look, marks, crosses }
 }
 
-/// Returns the ratios to the baseline with their intervals.
+/// Returns the ratios of a strategy to the baseline, with their confidence intervals.
 fn ratios((look, cells): &(Look, Vec<&ComparisonCell>)) -> LogLogCurve {
     let versus =
         |cell: &&ComparisonCell| cell.versus.as_ref().map(|versus| (cell.budget as f64, versus.ratio, versus.interval));

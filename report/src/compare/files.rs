@@ -9,8 +9,9 @@ use paracosm_campaign::files::write_whole;
 use paracosm_coverage::Measure;
 use std::path::Path;
 
-/// Writes `sets.csv`, `summary.csv`, `slopes.csv`, `table.tex`, and for each measure in each dimension a figure as SVG
-/// and PNG, such as `dispersion-d2.svg`, to a folder that exists.
+/// Writes the results of a comparison of strategies to an existing folder, as CSV, LaTeX and figures. The files are
+/// `sets.csv`, `summary.csv`, `slopes.csv`, `table.tex`, and for each measure in each dimension a figure as SVG and
+/// PNG, such as `dispersion-d2.svg`.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -22,7 +23,8 @@ pub fn write(compared: &Compared, folder: &Path) -> Result<(), Error> {
     write_pictures(folder, &figures::all(compared))
 }
 
-/// Returns a row for every set. Plain sets have no seed. The columns of a measure that was not taken are empty.
+/// Returns a table with a row for every set of points. Plain sets have no seed. The columns of a measure that was not
+/// taken are empty.
 fn set_rows(compared: &Compared) -> Vec<Vec<String>> {
     let measures: Vec<Measure> =
         compared.comparison.all_measures().into_iter().filter(|m| *m != Measure::K_WISE).collect();

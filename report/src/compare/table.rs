@@ -6,8 +6,9 @@ use paracosm_coverage::Measure;
 use paracosm_space::plural;
 use std::fmt::Write;
 
-/// Returns a table for every measure and dimension. It shows the medians over the budgets, their slope, and how each
-/// strategy compares with the baseline at the largest budget.
+/// Returns the results of a comparison of strategies as plain-text tables, one table for each measure and dimension.
+/// Each table shows the medians over the budgets, their slope, and how each strategy compares with the baseline at the
+/// largest budget.
 pub fn table(compared: &Compared) -> String {
     let mut text = String::new();
     for measure in compared.measures() {

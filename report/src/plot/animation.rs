@@ -4,8 +4,8 @@
 //! Image Quantization for Frame Buffer Display", 1982), which suits pictures with few flat colours.
 
 use super::raster::{draw, opaque, rasterised};
-use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use crate::birds_eye::Animation;
+use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::collections::BTreeMap;
 use std::error::Error as StdError;
 use std::io::Write;
@@ -25,7 +25,7 @@ const BITS: u32 = 5;
 
 type Failure = Box<dyn StdError + Send + Sync>;
 
-/// Returns the film as the contents of a GIF file that repeats for ever.
+/// Returns a bird's-eye film as the contents of a GIF file that repeats for ever.
 ///
 /// # Errors
 /// Returns an error if the encoder fails, for example because the film is more than 65,535 pixels wide.
@@ -49,20 +49,20 @@ pub fn film_gif(film: &Animation) -> Result<Vec<u8>, Failure> {
     Ok(file)
 }
 
-/// A writer of a film that repeats for ever, frame by frame.
+/// A writer of a GIF file that repeats for ever, frame by frame.
 pub struct Reel<W: Write> {
     encoder: Encoder<W>,
     palette: Palette,
     width: usize,
-    /// The pixels of the last frame.
+    /// The colour indices of the pixels of the last frame.
     before: Option<Vec<u8>>,
-    /// The last frame, and its time in hundredths of a second. The frame is written when it is known for how long it is
-    /// shown.
+    /// The last frame that is not written yet, with its time in hundredths of a second. The frame is written when it is
+    /// known for how long it is shown.
     waiting: Option<(Frame<'static>, u64)>,
 }
 
 impl<W: Write> Reel<W> {
-    /// Begins a film of this width and height in pixels, in these colours.
+    /// Begins a GIF file with a width and a height in pixels and a palette of colours.
     ///
     /// # Errors
     /// Returns an error if the film is more than 65,535 pixels wide, or nothing can be written.
@@ -72,8 +72,8 @@ impl<W: Write> Reel<W> {
         Ok(Self { encoder, palette, width: width as usize, before: None, waiting: None })
     }
 
-    /// Adds a frame at this time, which is later than all earlier times. `pixels` holds red, green and blue of each
-    /// pixel. A frame that comes too soon after the last frame to be shown is left out.
+    /// Adds a frame with its time in seconds, which must be later than all earlier times. `pixels` holds red, green and
+    /// blue of each pixel. A frame that comes too soon after the last frame to be shown is left out.
     ///
     /// # Errors
     /// Returns an error if nothing can be written.
@@ -95,7 +95,7 @@ impl<W: Write> Reel<W> {
         Ok(())
     }
 
-    /// Writes the last frame, which is shown for longer than the others.
+    /// Ends the GIF file with the last frame, which is shown for a longer time than the other frames.
     ///
     /// # Errors
     /// Returns an error if nothing can be written.
@@ -109,8 +109,8 @@ impl<W: Write> Reel<W> {
     }
 }
 
-/// Returns a frame of the smallest rectangle that holds all changed pixels. Unchanged pixels in the rectangle are
-/// transparent.
+/// Returns a GIF frame of the smallest rectangle that contains all changed pixels. Unchanged pixels in the rectangle
+/// are transparent.
 fn changes(before: Option<&[u8]>, now: &[u8], width: usize) -> Frame<'static> {
     let same = |i: usize| before.is_some_and(|before| before[i] == now[i]);
     let changed = (0..now.len()).filter(|i| !same(*i)).map(|i| (i % width, i / width));
@@ -134,10 +134,10 @@ fn changes(before: Option<&[u8]>, now: &[u8], width: usize) -> Frame<'static> {
     }
 }
 
-/// A count of the colours of pictures.
+/// A histogram of the colours of pictures.
 #[derive(Default)]
 pub struct Colours {
-    /// For each bin of colours, the number of pixels and the sums of their red, green and blue.
+    /// The number of pixels of each bin of colours, and the sums of their red, green and blue.
     bins: BTreeMap<usize, (u64, [u64; 3])>,
 }
 
@@ -148,7 +148,7 @@ impl Colours {
         self.bins.is_empty()
     }
 
-    /// Counts the colours of a picture, given as red, green and blue of each pixel.
+    /// Adds the colours of a picture to the histogram, given as red, green and blue of each pixel.
     pub fn count(&mut self, picture: &[u8]) {
         for rgb in picture.chunks_exact(3) {
             let (count, sums) = self.bins.entry(bin([rgb[0], rgb[1], rgb[2]])).or_default();
@@ -157,7 +157,7 @@ impl Colours {
         }
     }
 
-    /// Returns the most frequent colours.
+    /// Returns the palette of the most frequent colours.
     pub fn palette(self) -> Palette {
         let mut bins: Vec<_> = self.bins.into_values().collect();
         bins.sort_by(|a, b| b.cmp(a));
@@ -167,11 +167,11 @@ impl Colours {
     }
 }
 
-/// The colours of a film.
+/// The colours of a GIF film, at most 255.
 pub struct Palette {
-    /// Red, green and blue of each colour; at most 255 colours.
+    /// The red, green and blue of each colour; at most 255 colours.
     colours: Vec<u8>,
-    /// For each bin, the index of the nearest colour if it has been searched for.
+    /// The index of the nearest colour for each bin; `None` if the nearest colour was not searched for yet.
     nearest: Vec<Option<u8>>,
 }
 
@@ -187,7 +187,7 @@ impl Palette {
     }
 }
 
-/// Returns the bin of a colour. Colours of one bin are not distinguished.
+/// Returns the histogram bin of a colour. Colours of one bin are not distinguished.
 fn bin(rgb: [u8; 3]) -> usize {
     rgb.into_iter().fold(0, |bin, part| bin << BITS | usize::from(part >> (8 - BITS)))
 }

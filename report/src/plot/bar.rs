@@ -8,9 +8,9 @@ use plotters::prelude::*;
 /// The bar's label, steps and numbers.
 pub(super) struct Bar<'a> {
     pub label: &'a str,
-    /// The number of rectangles that form the bar.
+    /// The number of coloured rectangles that form the bar.
     pub steps: usize,
-    /// The numbers with their places, from 0 at the bottom to 1 at the top.
+    /// The labels along the bar, each with its position from 0 at the bottom to 1 at the top.
     pub ticks: Vec<(f64, String)>,
 }
 

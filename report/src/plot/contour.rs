@@ -46,7 +46,7 @@ pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(us
     joined(pieces)
 }
 
-/// Joins pieces to lines that are as long as possible.
+/// Joins line segments into lines that are as long as possible.
 fn joined(mut pieces: Vec<[Place; 2]>) -> Vec<Vec<Place>> {
     let mut lines = Vec::new();
     while let Some([a, b]) = pieces.pop() {

@@ -16,26 +16,26 @@ pub(super) const TEXT: f64 = 16.0;
 /// The title, the note and the legend of a chart.
 #[derive(Debug, Clone)]
 pub struct PlotFrame {
-    /// The first line above the planes.
+    /// The title of the chart, which is the first line.
     pub title: String,
-    /// The second line above the planes, in smaller letters.
+    /// The note below the title of the chart, in smaller letters.
     pub note: String,
-    /// The headings of the two columns of the legend.
+    /// The headings of the two columns of the chart's legend.
     pub legend: [String; 2],
-    /// The lines of the legend.
+    /// The lines of the legend, from top to bottom.
     pub entries: Vec<Entry>,
-    /// The meaning of a cross; `None` if there are no crosses.
+    /// The text in the legend that explains the crosses; `None` if the chart has no crosses.
     pub cross: Option<String>,
 }
 
-/// A line of the legend.
+/// A line of the legend of a chart.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// The mark and colour of the curve.
+    /// The shape of the mark and the colour of the curve.
     pub look: Look,
     /// The name of the curve.
     pub name: String,
-    /// The number beside the name.
+    /// The text of the number beside the name of the curve.
     pub number: String,
 }
 

@@ -8,20 +8,21 @@ use super::{INK, ink};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// An image with a number for each of its pixels.
+/// A chart of an image with a number for each pixel, shown by colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    /// The first line above the image.
+    /// The title of the image, which is the first line above the image.
     pub title: String,
-    /// The second line above the image, in smaller letters.
+    /// The note below the title of the image, in smaller letters.
     pub note: String,
     /// The width of the image in pixels.
     pub width: u32,
-    /// Red, green and blue of each pixel, row by row from the top left.
+    /// The red, green and blue of each pixel, row by row from the top left.
     pub rgb: Vec<u8>,
-    /// A number for each pixel. If the list is empty, the image is shown in its own colours.
+    /// The number of each pixel, which determines the pixel's colour. If the list is empty, the image is shown in its
+    /// own colours.
     pub values: Vec<f64>,
-    /// The absolute value from which on a pixel has the full colour.
+    /// The least absolute value of a pixel's number that gives the full colour.
     pub most: f64,
 }
 
@@ -45,7 +46,7 @@ impl HeatMap {
         (self.rgb.len() / 3) as u32 / self.width
     }
 
-    /// Returns the colour of a pixel.
+    /// Returns the colour in which a pixel is drawn.
     fn colour(&self, pixel: usize) -> RGBColor {
         let [red, green, blue] = [0, 1, 2].map(|channel| self.rgb[3 * pixel + channel]);
         let Some(value) = self.values.get(pixel) else { return RGBColor(red, green, blue) };

@@ -7,18 +7,19 @@ use super::{GRID, HPos, INK, ink, level};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// A chart of curves.
+/// A chart of curves over two linear axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lines {
-    /// The first line above the curves.
+    /// The title of the chart, which is the first line.
     pub title: String,
-    /// The second line above the curves, in smaller letters.
+    /// The note below the title of the chart, in smaller letters.
     pub note: String,
-    /// The horizontal axis.
+    /// The label and the range of the horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
+    /// The label and the range of the vertical axis.
     pub y: Axis,
-    /// The curves with their names, at most six. A value that is not finite leaves a gap in its curve.
+    /// The curves with their names and points; at most six curves. A value that is not finite leaves a gap in its
+    /// curve.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
 }
 

@@ -13,8 +13,8 @@ pub(super) struct Log {
 }
 
 impl Log {
-    /// Makes an axis over sizes, which are the numbers written along it. `room` is the share of the axis left free at
-    /// each end.
+    /// Makes a logarithmic axis over the given values, which are also the numbers along it. `room` is the share of the
+    /// axis left free at each end.
     pub fn over(sizes: &[f64], room: f64) -> Self {
         let (least, most) = (sizes[0], sizes[sizes.len() - 1]);
         let mut axis = Self::from_to(least, most, room);
@@ -28,8 +28,8 @@ impl Log {
         axis
     }
 
-    /// Makes an axis from one value to another, with round numbers between. `room` is the share of the axis left free
-    /// at each end.
+    /// Makes a logarithmic axis from the least to the greatest value, with round numbers between. `room` is the share
+    /// of the axis left free at each end.
     pub fn from_to(least: f64, most: f64, room: f64) -> Self {
         // A single value stands in the middle.
         let widened = if most > least { (least, most) } else { (least / 2.0, most * 2.0) };
@@ -38,25 +38,25 @@ impl Log {
         Self { lo, hi, numbers: round_numbers(lo, hi) }
     }
 
-    /// Returns the place of a value along the axis, from 0 at the lower end to 1 at the upper end.
+    /// Returns the position of a value along the axis, from 0 at the lower end to 1 at the upper end.
     fn share(&self, value: f64) -> f64 {
         libm::log(value / self.lo) / libm::log(self.hi / self.lo)
     }
 
-    /// Returns the value that is a share of the axis further along.
+    /// Returns the value whose position is a share of the axis above the position of the given value.
     pub fn moved(&self, value: f64, share: f64) -> f64 {
         value * libm::pow(self.hi / self.lo, share)
     }
 
-    /// Returns the smallest distance of two neighbouring numbers, as a share of the axis.
+    /// Returns the least distance between two neighbouring numbers along the axis, as a share of the axis.
     pub fn least_gap(&self) -> f64 {
         let gaps = self.numbers.windows(2).map(|pair| self.share(pair[1]) - self.share(pair[0]));
         gaps.fold(1.0, f64::min)
     }
 }
 
-/// Returns at least four round numbers, but not too many to be read. They are powers of ten if they are enough,
-/// otherwise some numbers between them as well, or even steps if the ends are not far apart.
+/// Returns round numbers for an axis, at least four but not too many to be read. They are powers of ten if they are
+/// enough, otherwise some numbers between them as well, or even steps if the ends are not far apart.
 fn round_numbers(lo: f64, hi: f64) -> Vec<f64> {
     const ENOUGH: RangeInclusive<usize> = 4..=9;
     let powers = libm::floor(libm::log10(lo)) as i32..=libm::ceil(libm::log10(hi)) as i32;

@@ -16,36 +16,36 @@ use plotters::prelude::*;
 /// The width of a plane, in pixels of the SVG.
 pub(super) const PLANE: u32 = 500;
 
-/// A chart of planes side by side, with one legend for all of them.
+/// A chart of curves in plotting areas side by side, all with logarithmic axes, and one legend.
 #[derive(Debug, Clone)]
 pub struct LogLog {
-    /// The text and the legend around the planes.
+    /// The title, the note and the legend of the chart.
     pub frame: PlotFrame,
-    /// The planes, at least one.
+    /// The plotting areas from left to right; at least one area.
     pub planes: Vec<Plane>,
 }
 
-/// A plane with two logarithmic axes and curves over the same sizes.
+/// A plotting area with two logarithmic axes and several curves.
 #[derive(Debug, Clone)]
 pub struct Plane {
     /// The label of the horizontal axis.
     pub x: String,
-    /// The label of the vertical axis, written above it.
+    /// The label of the vertical axis, which is written above the axis.
     pub y: String,
-    /// A value at which a horizontal line is drawn.
+    /// The value on the vertical axis at which a horizontal line is drawn, if any.
     pub level: Option<f64>,
-    /// The curves. Later curves are drawn over earlier ones.
+    /// The curves in the plotting area. Later curves are drawn over earlier curves.
     pub curves: Vec<LogLogCurve>,
 }
 
-/// A curve, with values above 0.
+/// A curve of values above 0, with the spread of each value.
 #[derive(Debug, Clone)]
 pub struct LogLogCurve {
-    /// The mark and colour of the curve.
+    /// The shape of the marks and the colour of the curve.
     pub look: Look,
-    /// The marks, each with its size, its value, and the two ends of its whisker.
+    /// The horizontal position, the value and the two ends of the whisker of each mark.
     pub marks: Vec<(f64, f64, [f64; 2])>,
-    /// The crosses, each with its size and its value. No line joins them.
+    /// The horizontal position and the value of each cross. No line joins the crosses.
     pub crosses: Vec<(f64, f64)>,
 }
 
@@ -125,7 +125,7 @@ impl Plane {
         Ok(())
     }
 
-    /// Returns axes with room around everything that is drawn.
+    /// Returns the two axes of the plane, with room around the curves.
     fn axes(&self) -> (Log, Log) {
         let marks = || self.curves.iter().flat_map(|curve| &curve.marks);
         let crosses = || self.curves.iter().flat_map(|curve| &curve.crosses);

@@ -16,17 +16,17 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// The label and the range of an axis.
+/// The label and the range of a linear axis of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// The name of the axis, with the unit.
+    /// The name of the quantity along the axis, with the unit.
     pub label: String,
     /// The least and the greatest value of the axis.
     pub range: (f64, f64),
 }
 
 impl Axis {
-    /// Returns the axis of a continuous coordinate; `None` if the coordinate is discrete.
+    /// Returns the axis of a continuous coordinate; `None` for a discrete coordinate.
     fn of(coordinate: &Coordinate) -> Option<Self> {
         match coordinate.parameter.domain {
             Domain::Interval { lo, hi } => Some(Self { label: coordinate.label(), range: (lo, hi) }),
@@ -35,24 +35,25 @@ impl Axis {
     }
 }
 
-/// A failure map, which shows tests as marks in a plane. Failing tests are red crosses, passing tests are blue dots.
+/// A failure map, which shows the tests of a campaign as marks in a plane of two coordinates. Failing tests are red
+/// crosses, passing tests are blue dots.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailureMap {
-    /// The first line above the map.
+    /// The title of the map, which is the first line.
     pub title: String,
-    /// The text below the title, in smaller letters, in up to three lines.
+    /// The note below the title of the map, in smaller letters and at most three lines.
     pub note: String,
-    /// The names of the coordinates that vary too, although the map does not show them.
+    /// The names of the coordinates that vary between the tests but are not axes of the map.
     pub others: Vec<String>,
-    /// The horizontal axis.
+    /// The label and the range of the horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
+    /// The label and the range of the vertical axis.
     pub y: Axis,
-    /// The tests, each with its two coordinates and its mark.
+    /// The tests on the map, each with its two coordinates and its mark.
     pub marks: Vec<(f64, f64, Mark)>,
-    /// The estimated probability of failure, if the map shows it behind the tests.
+    /// The estimated probability of failure behind the marks; `None` if the map does not show a probability.
     pub estimate: Option<FailureEstimate>,
-    /// A number of each test, if the map colours the dots by it.
+    /// The numbers of the tests, which colour the tests' dots; `None` if the map does not show numbers.
     pub tints: Option<Tints>,
 }
 
@@ -66,12 +67,14 @@ const LINE: f64 = 1.2;
 const NOTE_LINES: usize = 3;
 
 impl FailureMap {
-    /// Makes the map of a campaign over its first two continuous coordinates. `None` if there are fewer.
+    /// Makes the failure map of a campaign over its first two continuous coordinates; `None` if the campaign has fewer
+    /// continuous coordinates.
     pub fn of(log: &Log) -> Option<Self> {
         Self::at(log, [0, 1], |trial| Mark::Verdict(trial.verdict))
     }
 
-    /// Makes the map of a campaign over two continuous coordinates by name, with the probability of failure.
+    /// Makes the failure map of a campaign over two named continuous coordinates, with the estimated probability of
+    /// failure.
     ///
     /// # Errors
     /// Returns an error if a name is not the name of a continuous coordinate, if both names are the same, or if a trial
@@ -83,8 +86,7 @@ impl FailureMap {
         Ok(Self { estimate: FailureEstimate::of(log, axes)?, ..map })
     }
 
-    /// Makes the map of a campaign over the two continuous coordinates with these names; it shows whose fault each
-    /// failure is.
+    /// Makes the map of the blame for the failures of a campaign, over two named continuous coordinates.
     ///
     /// # Errors
     /// Returns an error if a name is not the name of a continuous coordinate, or if both names are the same.
@@ -118,14 +120,14 @@ impl FailureMap {
         })
     }
 
-    /// Returns the text below the title. It names the contents of the map, and the coordinates that vary although the
-    /// map does not show them.
+    /// Returns the lines of text below the title of the map. The text names the contents of the map, and the
+    /// coordinates that vary although the map does not show them.
     fn note(&self) -> String {
         let others = self.others.join(", ");
         match (self.others.is_empty(), &self.estimate) {
             (true, _) => self.note.clone(),
-            (false, None) => format!("{}; these coordinates vary too, but are not shown: {others}", self.note),
-            (false, Some(_)) => format!("{}; averaged over the coordinates that vary too: {others}", self.note),
+            (false, None) => format!("{}; other open parameters, not shown: {others}", self.note),
+            (false, Some(_)) => format!("{}; averaged over the other open parameters: {others}", self.note),
         }
     }
 
@@ -193,7 +195,7 @@ impl FailureMap {
         Ok(())
     }
 
-    /// Draws the title, the note, and the legend with counts.
+    /// Draws the title and the note of the map, and the legend with the number of tests for each mark.
     fn draw_header<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,

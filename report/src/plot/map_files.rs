@@ -4,12 +4,12 @@ use super::{FailureMap, Picture};
 use paracosm_campaign::{Artefact, Error, Failure};
 use std::path::PathBuf;
 
-/// A map as pictures, and as a table of numbers if a probability was estimated.
+/// The files of a map, which are pictures and, with an estimated probability, a table of numbers.
 #[derive(Debug, Clone, Copy)]
 pub enum MapFiles<'m> {
-    /// The map that shows where tests fail.
+    /// The failure map, which shows the verdict of each test.
     Failures(&'m FailureMap),
-    /// The map that shows whose fault the failures are.
+    /// The blame map, which shows the blame for each failure.
     Blame(&'m FailureMap),
 }
 

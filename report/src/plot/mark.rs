@@ -15,12 +15,12 @@ const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
 const MAGENTA: RGBColor = RGBColor(0xee, 0x33, 0x77);
 const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
-/// The property of a test that a map shows.
+/// The property of a test that determines its mark on a failure map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// The verdict of the test.
     Verdict(Verdict),
-    /// The blame for the failure of the test, as the reference drivers tell it.
+    /// The blame for the failure of the test, according to the reference drivers.
     Fault(Preventability),
 }
 

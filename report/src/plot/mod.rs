@@ -58,22 +58,22 @@ const PNG_SCALE: u32 = 2;
 const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
 
-/// Returns the style of a text.
+/// Returns the style of a text of this size.
 fn ink(size: f64) -> TextStyle<'static> {
     TextStyle::from((FAMILY, size).into_font()).color(&INK)
 }
 
-/// Returns the style of a text that is centred vertically on its place, beside something on the same line.
+/// Returns the style of a text that is centred vertically on its position.
 fn level(size: f64, along: HPos) -> TextStyle<'static> {
     ink(size).pos(Pos::new(along, VPos::Center))
 }
 
-/// A picture of failure maps or images side by side in rows, or of a chart.
+/// A picture that consists of failure maps, charts or images in rows.
 #[derive(Debug, Clone)]
 pub struct Picture {
     panels: Vec<Panel>,
     columns: usize,
-    /// Width and height of each panel, in pixels of the SVG.
+    /// The width and the height of each panel, in pixels of the SVG.
     size: (u32, u32),
 }
 
@@ -91,29 +91,29 @@ enum Panel {
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
 
 impl Picture {
-    /// Makes a picture of one map.
+    /// Makes a picture of one failure map.
     pub fn of(map: FailureMap) -> Self {
         Self { panels: vec![Panel::Map(map)], columns: 1, size: (900, 680) }
     }
 
-    /// Makes a picture of values over sizes.
+    /// Makes a picture of a chart with logarithmic axes.
     pub fn of_log_log(chart: LogLog) -> Self {
         let size = (frame::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
         Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
     }
 
-    /// Makes a picture of shares over sizes.
+    /// Makes a picture of a chart of shares.
     pub fn of_shares(chart: Shares) -> Self {
         Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
     }
 
-    /// Makes a picture of survival curves, which show how many runs still wait for an event.
+    /// Makes a picture of a chart of survival curves, which show the share of runs that still wait for an event.
     pub fn of_survivals(chart: Survivals) -> Self {
         let size = (frame::LEGEND + survival::PLANE, frame::HEADER + chart.height());
         Self { panels: vec![Panel::Survivals(chart)], columns: 1, size }
     }
 
-    /// Makes a picture of charts of curves, one below the other.
+    /// Makes a picture of charts of curves, with the charts below each other.
     ///
     /// # Panics
     /// Panics if there is no chart.
@@ -122,7 +122,7 @@ impl Picture {
         Self { panels: charts.into_iter().map(Panel::Lines).collect(), columns: 1, size: (900, 420) }
     }
 
-    /// Makes a picture of several maps, `columns` in a row.
+    /// Makes a picture of several failure maps in rows of `columns` maps.
     ///
     /// # Panics
     /// Panics if there is no map or no column.
@@ -131,7 +131,7 @@ impl Picture {
         Self { panels: maps.into_iter().map(Panel::Map).collect(), columns, size: (480, 440) }
     }
 
-    /// Makes a picture of several images of one size, `columns` in a row.
+    /// Makes a picture of several images of equal size, in rows of `columns` images.
     ///
     /// # Panics
     /// Panics if there is no image or no column.
@@ -194,7 +194,7 @@ impl Picture {
     }
 }
 
-/// Registers the font of the program with the plotter.
+/// Registers the font that is part of the program with the plotter.
 fn with_font() {
     static REGISTERED: Once = Once::new();
     REGISTERED.call_once(|| {
@@ -203,7 +203,7 @@ fn with_font() {
     });
 }
 
-/// Returns the contents of a PNG file with these pixels, with red, green and blue of each.
+/// Returns the contents of a PNG file with the given pixels, each as red, green and blue.
 fn encode_png(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
     let mut file = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut file, width, height);

@@ -23,7 +23,7 @@ const HATCH: RGBColor = RGBColor(0xa8, 0xa8, 0xa8);
 /// The colour of places where most tests cannot be built.
 const INVALID: RGBColor = RGBColor(0xd4, 0xd4, 0xd4);
 
-/// Returns the colour of a probability.
+/// Returns the colour that represents a probability.
 fn colour(probability: f64) -> RGBColor {
     let shade = ((probability * SHADES as f64) as usize).min(SHADES - 1);
     let off = (shade as f64 + 0.5) / SHADES as f64 * 2.0 - 1.0;
@@ -52,27 +52,27 @@ impl<'a> Cells<'a> {
         self.estimate.y.len() - 1
     }
 
-    /// Returns the pixel of a place on the grid; the first row is at the bottom.
+    /// Returns the pixel of a position on the grid, whose first row is at the bottom.
     fn pixel(&self, (i, j): (f64, f64)) -> (i32, i32) {
         let x = i / self.columns() as f64 * self.size.0;
         let y = (1.0 - j / self.rows() as f64) * self.size.1;
         (x.round() as i32, y.round() as i32)
     }
 
-    /// Returns the estimates at a cell's corners; `None` if at most one corner is valid.
+    /// Returns the estimates at the corners of a grid cell; `None` if at most one corner is valid.
     fn corners(&self, i: usize, j: usize) -> Option<Vec<&FailingShare>> {
         let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         let known: Vec<_> = corners.iter().filter_map(|&(i, j)| self.estimate.at(i, j)).collect();
         (known.len() > 1).then_some(known)
     }
 
-    /// Returns the colour of the mean probability at a cell's corners.
+    /// Returns the colour of the mean probability at the corners of a grid cell.
     fn colour(&self, i: usize, j: usize) -> RGBColor {
         let mean = |known: Vec<&FailingShare>| known.iter().map(|share| share.mean).sum::<f64>() / known.len() as f64;
         self.corners(i, j).map_or(INVALID, |known| colour(mean(known)))
     }
 
-    /// Returns `true` if any corner of a cell is not decided.
+    /// Returns `true` if the estimate at a corner of a grid cell is not decided.
     fn is_open(&self, i: usize, j: usize) -> bool {
         self.corners(i, j).is_some_and(|known| known.iter().any(|share| decided(share).is_none()))
     }
@@ -122,8 +122,8 @@ pub(super) fn draw_lines<B: DrawingBackend>(
     Ok(())
 }
 
-/// Returns runs of equal values, each with its first place and the place after its last. Places without a value belong
-/// to no run.
+/// Returns the runs of equal values, each with its first index and the index after its last. Places without a value
+/// belong to no run.
 fn runs<T: PartialEq>(len: usize, value: impl Fn(usize) -> Option<T>) -> Vec<(usize, usize, T)> {
     let mut runs: Vec<(usize, usize, T)> = Vec::new();
     for at in 0..len {

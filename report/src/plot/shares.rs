@@ -11,25 +11,25 @@ use plotters::prelude::*;
 /// The width of the plane, in pixels of the SVG.
 pub(super) const PLANE: u32 = 640;
 
-/// A chart of shares over sizes.
+/// A chart of shares from 0 to 1 over sizes, such as recall over dispersion.
 #[derive(Debug, Clone)]
 pub struct Shares {
-    /// The text and the legend around the plane.
+    /// The title, the note and the legend of the chart.
     pub frame: PlotFrame,
-    /// The label of the horizontal axis.
+    /// The label of the horizontal axis, which shows the sizes.
     pub x: String,
-    /// The label of the vertical axis, which is written above the axis.
+    /// The label of the vertical axis, which shows the shares; the label is written above the axis.
     pub y: String,
-    /// The least and the greatest size, both above 0.
+    /// The least and the greatest size on the horizontal axis, both above 0.
     pub range: (f64, f64),
-    /// The series. Later series are drawn over earlier series.
+    /// The series of marks in the chart. Later series are drawn over earlier series.
     pub series: Vec<Series>,
 }
 
-/// A series of marks, which has a line in the legend.
+/// A series of marks in a chart of shares, with its line in the legend.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// The mark and colour of the series.
+    /// The shape and the colour of the marks.
     pub look: Look,
     /// The size and the share at which each mark is drawn.
     pub marks: Vec<(f64, f64)>,

@@ -27,32 +27,31 @@ const TICK: f64 = 6.0;
 /// The greatest number of steps of the axis.
 const STEPS: usize = 6;
 
-/// A chart of survival curves, with a table.
+/// A chart of survival curves, which show the share of runs that still wait for an event, with a table.
 #[derive(Debug, Clone)]
 pub struct Survivals {
-    /// The text and the legend around the plane.
+    /// The title, the note and the legend of the chart.
     pub frame: PlotFrame,
-    /// The labels of the horizontal axis and of the vertical axis; the label of the vertical axis is written above the
-    /// axis.
+    /// The label of the horizontal axis, and the label of the vertical axis, which is written above the axis.
     pub axes: [String; 2],
-    /// The heading of the table below the plane.
+    /// The heading of the table below the survival curves.
     pub numbers: String,
-    /// The greatest value of the horizontal axis.
+    /// The greatest value of the horizontal axis, which begins at 0.
     pub horizon: f64,
-    /// The curves, in the order of the legend.
+    /// The survival curves, in the order of the legend.
     pub curves: Vec<Waiting>,
 }
 
-/// A group of runs that wait for an event, with its curve.
+/// The survival curve of a group of runs that wait for an event.
 #[derive(Debug, Clone)]
 pub struct Waiting {
-    /// The mark and colour of the curve.
+    /// The shape of the mark and the colour of the curve.
     pub look: Look,
-    /// The times at which the share of waiting runs falls, in ascending order, each with the share from this time on.
+    /// The times at which the curve falls, in ascending order, each with the share of waiting runs from then on.
     pub steps: Vec<(f64, f64)>,
-    /// The time at which each run's waiting ends; infinite if the waiting does not end.
+    /// The time at which the wait of each run ends; infinite if the wait does not end.
     pub ends: Vec<f64>,
-    /// True if a run was stopped while it still waited, although its event might have come later.
+    /// True if a run was stopped before its event occurred, although the event might have occurred later.
     pub censored: bool,
 }
 
@@ -107,7 +106,7 @@ impl Survivals {
         self.frame.draw_legend(&legend, scale)
     }
 
-    /// Draws the table, which gives the number of runs of each curve that still wait at each tick of the axis.
+    /// Draws the table of the number of runs in each curve that still wait at each tick of the axis.
     fn draw_table<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, ticks: &[f64], scale: f64) -> Result<B> {
         let px = |length: f64| (length * scale).round() as i32;
         let size = 0.8 * TEXT * scale;
@@ -128,12 +127,12 @@ impl Survivals {
 }
 
 impl Waiting {
-    /// Returns the share of runs that still wait after this time.
+    /// Returns the share of runs that still wait after a time.
     fn at(&self, time: f64) -> f64 {
         self.steps.iter().take_while(|step| step.0 <= time).last().map_or(1.0, |step| step.1)
     }
 
-    /// Returns the curve with its corners. The curve ends where no run waits any more.
+    /// Returns the corners of the survival curve. The curve ends where no run waits any more.
     fn corners(&self, horizon: f64) -> Vec<(f64, f64)> {
         let mut corners = vec![(0.0, 1.0)];
         for &(time, share) in self.steps.iter().take_while(|step| step.0 <= horizon) {
@@ -146,7 +145,7 @@ impl Waiting {
         corners
     }
 
-    /// Returns the place of the curve's mark, which is where the curve falls to `height`. Every curve has a different
+    /// Returns the position of the curve's mark, at which the curve falls to `height`. Every curve has a different
     /// height, so that marks of equal curves stand beside each other. If the curve stays above the height, the place is
     /// towards its end.
     fn mark(&self, height: f64, horizon: f64) -> (f64, f64) {

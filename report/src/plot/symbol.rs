@@ -19,7 +19,7 @@ pub(super) fn rgb(look: Look) -> RGBColor {
 
 /// A mark of a curve, `side` pixels from its middle to its end.
 pub(super) struct Symbol {
-    /// The shape; `None` is a cross.
+    /// The shape of the mark; `None` for a cross.
     shape: Option<MarkShape>,
     colour: RGBColor,
     filled: bool,
@@ -35,7 +35,7 @@ impl Symbol {
         Self { shape: None, colour, filled: true, side: SIDE * scale }
     }
 
-    /// Fills the shape of the mark at a share of its size.
+    /// Fills the shape of the mark, scaled by a share of the mark's size.
     fn fill<B: DrawingBackend>(
         &self,
         backend: &mut B,

@@ -7,14 +7,14 @@ use plotters::coord::ranged1d::Ranged;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-/// A number for every test of a map, shown as the colour of its dot.
+/// The numbers of the tests on a failure map, which give the tests' dots their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tints {
-    /// The name of the number, with its unit.
+    /// The name of the quantity that the numbers measure, with its unit.
     pub label: String,
-    /// The numbers of the palest and of the darkest colour. A number beyond the range has the colour of that end.
+    /// The numbers that have the palest and the darkest colour. A number beyond the range has the colour of that end.
     pub range: (f64, f64),
-    /// The numbers, in the order of the map's marks.
+    /// The numbers of the tests, in the order of the map's marks.
     pub values: Vec<f64>,
 }
 

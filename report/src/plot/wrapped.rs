@@ -52,7 +52,7 @@ mod tests {
     use super::super::{ink, with_font};
     use super::*;
 
-    /// Returns the lines of a text in 200 pixels.
+    /// Returns the lines of a text that is wrapped at 200 pixels.
     fn lines(text: &str, most: usize) -> Vec<String> {
         with_font();
         let mut svg = String::new();

@@ -18,57 +18,57 @@ const TOP: [&str; 2] = ["seed", "camera"];
 /// The settings that cannot vary from test to test: all images of a data set have one size, and images come at ticks.
 const ALWAYS_THE_SAME: [&str; 2] = [RESOLUTION, "rate"];
 
-/// An error in a file of cameras.
+/// The reason why a file that describes cameras is not valid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CameraFileFlaw {
-    /// The file is not TOML.
+    /// The file is not valid TOML.
     #[error("{}", .0.message())]
     Syntax(toml::de::Error),
-    /// The file describes no camera.
+    /// The file does not describe any camera.
     #[error("the file describes no camera, expected at least one table [camera.NAME]")]
     NoCamera,
-    /// A key at the top level of the file is unknown.
+    /// The file has an unknown key at its top level.
     #[error("unknown key `{key}` in a file of cameras, expected `seed` or tables [camera.NAME]{}", did_you_mean(.nearest))]
     TopKey {
-        /// The unknown key.
+        /// The unknown key in the file.
         key: String,
-        /// The known key that is most similar, if any is similar.
+        /// The most similar known key, if any key is similar.
         nearest: Option<&'static str>,
     },
-    /// The name of a camera is not valid as the name of a folder on every system.
+    /// The name of a camera contains characters that the name of a folder cannot contain on every system.
     #[error("camera `{camera}`: expected a name of letters, digits, - and _, because a folder gets the same name")]
     Name {
-        /// The name of the camera.
+        /// The name of the camera with the flaw.
         camera: String,
     },
-    /// A camera lacks a key that every camera needs.
+    /// A camera does not have a key that every camera needs.
     #[error("camera `{camera}` has no `{key}`, expected {expected}")]
     Missing {
-        /// The name of the camera.
+        /// The name of the camera with the flaw.
         camera: String,
-        /// The missing key.
+        /// The key that the camera lacks.
         key: &'static str,
-        /// The meaning of the key, with an example.
+        /// A description of the missing key's value, with an example.
         expected: String,
     },
-    /// A value has the wrong type or the wrong form.
+    /// The value of a key has the wrong type or the wrong form.
     #[error("{what} is {found}, expected {expected}")]
     Value {
-        /// The key, with the camera that it belongs to.
+        /// The key with the wrong value, with the name of its camera.
         what: String,
-        /// The text of the value in the file.
+        /// The text of the wrong value in the file.
         found: String,
-        /// The form of value that is expected.
+        /// A description of the expected value.
         expected: String,
     },
-    /// A camera has an unknown key, or settings with which no camera can be built.
+    /// A camera has an unknown key, or settings with which the camera cannot be built.
     #[error(transparent)]
     Camera(#[from] NoCamera),
 }
 
 impl Reason for CameraFileFlaw {}
 
-/// An error in a file of cameras, with its line, counted from 1.
+/// The reason why a file that describes cameras is not valid, with the line of the file, counted from 1.
 #[derive(Debug, PartialEq)]
 pub(super) struct Flaw {
     pub line: Option<usize>,
@@ -108,9 +108,9 @@ pub(super) fn parse(text: &str) -> Result<VariedCameras, Flaw> {
 
 /// The value that a file gives to a setting.
 enum Given {
-    /// One number for all tests.
+    /// The fixed number of the setting in all tests.
     Once(f64),
-    /// The range or the values over which tests vary the setting.
+    /// The range or the list of the values of a setting that varies from test to test.
     Varied(Domain),
 }
 
@@ -128,7 +128,7 @@ impl Reader<'_> {
         Flaw { line: Some(self.line(span)), flaw }
     }
 
-    /// Returns the error that a value has the wrong type or form.
+    /// Returns the error for a value that has the wrong type or form.
     fn flaw(&self, value: &Entry<'_>, what: &str, expected: &str) -> Flaw {
         let found = self.text[value.span()].trim().to_owned();
         let (what, expected) = (what.to_owned(), expected.to_owned());
@@ -190,7 +190,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Splits the value of a key into the values of the settings that share this key.
+    /// Splits the value of a key into the values of the settings that the key sets.
     fn parts<'a>(
         &self,
         camera: &str,
@@ -257,12 +257,12 @@ fn no_camera(name: &str, flaw: CameraFlaw) -> CameraFileFlaw {
     NoCamera { camera: name.to_owned(), flaw }.into()
 }
 
-/// Returns `true` if every camera needs this key.
+/// Returns `true` if every camera needs the given key.
 fn is_required(key: &str) -> bool {
     key == RESOLUTION || camera_settings().iter().any(|setting| setting.key == key && setting.default.is_none())
 }
 
-/// Returns the meaning of a key, with an example.
+/// Returns a description of a key's value, with an example.
 fn expected(key: &str) -> String {
     if key == RESOLUTION {
         return format!("width and height in pixels, such as `{RESOLUTION} = [640, 480]`");
@@ -274,7 +274,7 @@ fn expected(key: &str) -> String {
     format!("{}, such as `{key} = {example}`", about.join(", "))
 }
 
-/// Reads the range `LO..HI` or the list of values `A,B,C` over which tests vary a setting.
+/// Reads the range `LO..HI` or the list `A,B,C` of the values of a setting that varies from test to test.
 fn domain(text: &str) -> Option<Domain> {
     let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite());
     if let Some((lo, hi)) = text.split_once("..") {

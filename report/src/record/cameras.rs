@@ -8,7 +8,7 @@ use paracosm_render::camera_settings;
 use std::fs;
 use std::path::Path;
 
-/// Returns the text of the standard file of cameras, which a recording uses if it is given no file. The file has one
+/// Returns the text of the standard camera file, which a recording uses if the user names no file. The file has one
 /// camera at the front with 200 x 66 pixels, the size that networks for driving commonly take, and ten images a second.
 /// It lists all settings of the lens with their defaults, so that users can change them.
 pub fn standard_cameras_file() -> String {
@@ -20,12 +20,12 @@ pub fn standard_cameras_file() -> String {
     of_lens.map(line).fold(include_str!("cameras.toml").to_owned(), |file, line| file + &line)
 }
 
-/// Returns the cameras of [`standard_cameras_file`], which a recording uses if it is given no file.
+/// Returns the cameras of the standard camera file that [`standard_cameras_file`] returns.
 pub fn standard_cameras() -> Cameras {
     toml::from_str(&standard_cameras_file()).expect("the file that comes with the program is sound")
 }
 
-/// Returns one camera at the front for people to look at, with 640 x 480 pixels.
+/// Returns a set of one camera at the front of the car, with images of 640 x 480 pixels for people to look at.
 pub fn cameras_for_people() -> Cameras {
     let mut cameras = standard_cameras();
     for camera in cameras.all.values_mut() {
@@ -34,7 +34,7 @@ pub fn cameras_for_people() -> Cameras {
     cameras
 }
 
-/// Reads and checks a file of cameras.
+/// Reads and checks a file that describes cameras.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, is not TOML, or describes a camera that cannot be built. The error

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// The destination of a clip, which is a file, or a folder that does not exist yet.
+/// The destination of a film of a test, which is a film file or a new folder of images.
 #[derive(Debug)]
 pub struct Clip {
     path: PathBuf,
@@ -36,7 +36,7 @@ pub struct Clip {
 enum Form {
     Mp4,
     Gif,
-    /// A folder of PNG files.
+    /// The format of separate PNG files in a folder.
     Images,
 }
 
@@ -62,33 +62,34 @@ impl Reel {
     }
 }
 
-/// The name of a clip has an ending that is not known.
+/// The error that the file name of a clip has an unknown ending.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "--camera {}: found the ending `.{ending}`, expected FILE.mp4, FILE.gif, or a FOLDER without an ending for PNG files{}",
     path.display(), did_you_mean(.nearest)
 )]
 pub struct UnknownEnding {
-    /// The path of the clip.
+    /// The path that was given for the clip.
     pub path: PathBuf,
-    /// The unknown ending.
+    /// The unknown ending of the file name.
     pub ending: String,
-    /// The known ending that is most similar, if any is similar.
+    /// The most similar known ending, if any ending is similar.
     pub nearest: Option<&'static str>,
 }
 
-/// A film would have no image.
+/// The error that the camera gave no image, so that there is no film to write.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the camera saw nothing: {why}")]
 pub struct NothingSeen {
-    /// The reason, in words.
+    /// The reason why the camera gave no image, in words.
     pub why: String,
 }
 
 impl Reason for UnknownEnding {}
 
 impl Clip {
-    /// Makes a clip in a file that ends in `.mp4` or `.gif`, or in a folder of images, whose name has no ending.
+    /// Makes the destination of a film, which is a file that ends in `.mp4` or `.gif`, or a folder of images whose name
+    /// has no ending.
     ///
     /// # Errors
     /// Returns an error if the folder exists already, or the name has another ending.
@@ -109,13 +110,13 @@ impl Clip {
         Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
     }
 
-    /// Returns the same clip, but the writing stops and leaves no file behind once `stop` is set.
+    /// Returns the destination with a flag that interrupts the writing and leaves no file behind.
     pub fn until(self, stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..self }
     }
 
-    /// Films a test of a worker's study with the first of these cameras. Returns lines of text that say what was
-    /// written and which images are missing.
+    /// Runs a test again and writes the film of the first camera. Returns lines of text that say what was written and
+    /// which images are missing.
     ///
     /// # Errors
     /// Returns an error if there is no adapter, the test is not the test that was logged, nothing was seen, or nothing
@@ -169,7 +170,7 @@ impl Clip {
         Ok(images)
     }
 
-    /// Chooses the colours of a film.
+    /// Returns a histogram of the colours of a film.
     fn colours(
         &self,
         film: &Film,
@@ -219,12 +220,12 @@ impl Clip {
         Ok(images)
     }
 
-    /// Returns an error if the writing has been interrupted.
+    /// Returns an error if the flag of [`until`](Self::until) interrupts the writing.
     fn go_on(&self) -> Result<(), Error> {
         if self.stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
     }
 
-    /// Fails with the reason why there is nothing to see.
+    /// Returns the error that the film has no image, with the reason.
     fn nothing(&self, film: &Film, missing: &mut Missing<'_>) -> Result<(), Error> {
         let thing = film.shots[0].first().map(|_| "the camera is inside something at all times".to_owned());
         let why = thing.or_else(|| missing.notes().into_iter().next()).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Writes boxes in the COCO format (Lin et al. 2014): images, annotations and categories. Two things that COCO does not
-//! define are added: the share of an object that is hidden, and the box in space.
+//! Writes boxes in the COCO format (Lin et al. 2014): images, annotations and categories. The files have two fields
+//! that COCO does not define: the hidden share of an object, and its box in space.
 
 use super::{Rendering, Shot};
 use paracosm_campaign::Error;
@@ -23,7 +23,7 @@ pub(super) struct Annotations {
 #[derive(Debug, Serialize, Deserialize)]
 struct Image {
     id: usize,
-    /// The colour image, or else another kind of image that is kept, if any.
+    /// The path of the colour image or, without a colour image, of another image that is kept, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     file_name: Option<String>,
     width: u32,
@@ -38,12 +38,12 @@ struct Annotation {
     id: usize,
     image_id: usize,
     category_id: u8,
-    /// The left edge, the top edge, the width and the height of the visible box, in pixels.
+    /// The left edge, the top edge, the width and the height of the box around the visible pixels, in pixels.
     bbox: [u32; 4],
-    /// The number of visible pixels.
+    /// The number of visible pixels of the object.
     area: u32,
     iscrowd: u8,
-    /// The id in the instance image; a thing has the same id in all images of a test.
+    /// The id of the object in the images of ids, which is the same in all images of a test.
     instance: u16,
     attributes: Attributes,
     #[serde(rename = "box3d")]
@@ -52,7 +52,7 @@ struct Annotation {
 
 #[derive(Debug, Serialize, Deserialize)]
 struct Attributes {
-    /// The hidden share, from 0 (the whole object is visible) to 1.
+    /// The hidden share of the object's pixels, from 0 (the whole object is visible) to 1.
     occlusion: Option<f64>,
 }
 
@@ -61,7 +61,7 @@ struct Attributes {
 struct InSpace {
     center: [f64; 3],
     size: [f64; 3],
-    /// The rotation as a unit quaternion w, x, y, z.
+    /// The rotation of the box as a unit quaternion w, x, y, z.
     rotation: [f64; 4],
 }
 
@@ -72,13 +72,14 @@ struct Category {
 }
 
 impl Annotations {
-    /// Makes a file without images that lists all classes.
+    /// Makes the contents of a COCO file that lists all classes and no image.
     pub fn new() -> Self {
         let categories = (0..).zip(Semantic::names()).map(|(id, name)| Category { id, name: (*name).to_owned() });
         Self { categories: categories.collect(), ..Self::default() }
     }
 
-    /// Adds an image of a camera, with its boxes. `file_name` is `None` if the image itself is not kept.
+    /// Adds an image of a camera to the COCO file, with the boxes of the visible objects. `file_name` is `None` if the
+    /// image itself is not kept.
     pub fn add(&mut self, camera: &str, file_name: Option<String>, shot: &Shot, picture: &Rendering) {
         let image_id = self.images.len() + 1;
         let (width, height) = (picture.frame.width(), picture.frame.height());
@@ -136,7 +137,7 @@ struct Lists<'a, W> {
 }
 
 impl<W: Write> Lists<'_, W> {
-    /// Writes the text between two lists. The next element is then the first element of its list.
+    /// Writes the text between two lists of the merged file. The next element is then the first element of its list.
     fn write(&mut self, text: &str) -> io::Result<()> {
         self.first = true;
         self.file.write_all(text.as_bytes())

@@ -26,26 +26,26 @@ use thiserror::Error;
 /// The file that describes the recording, beside the campaign's own files.
 const RECORDING: &str = "recording.json";
 
-/// The outputs that a recording keeps.
+/// The kinds of camera outputs that a recording keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Kept {
     /// True if the colour images are kept.
     pub rgb: bool,
-    /// True if the class of every pixel is kept.
+    /// True if the images of semantic classes are kept.
     pub semantic: bool,
-    /// True if the depth of every pixel is kept.
+    /// True if the images of depth are kept.
     pub depth: bool,
-    /// True if the id of the visible thing is kept for every pixel.
+    /// True if the images of object ids are kept.
     pub instance: bool,
-    /// True if the boxes around things are kept.
+    /// True if the boxes around visible objects are kept.
     pub boxes: bool,
 }
 
 impl Kept {
-    /// All outputs.
+    /// The choice that keeps all camera outputs.
     pub const ALL: Self = Self { rgb: true, semantic: true, depth: true, instance: true, boxes: true };
 
-    /// Returns the images that have to be drawn for these outputs.
+    /// Returns the images that the renderer has to draw for the outputs that are kept.
     pub fn outputs(self) -> WantedImages {
         WantedImages {
             rgb: self.rgb,
@@ -61,30 +61,30 @@ impl Kept {
 /// The names of the outputs.
 const NAMES: [&str; 5] = ["rgb", "semantic", "depth", "instance", "boxes"];
 
-/// An error in a list of outputs.
+/// The reason why a list of camera outputs is not valid.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OutputsFlaw {
-    /// The list is empty.
+    /// The list of outputs is empty.
     #[error("the list of outputs is empty, expected some of {}", NAMES.join(", "))]
     Nothing,
-    /// An output has an unknown name.
+    /// The list of outputs has an unknown name.
     #[error("unknown output `{name}`, expected some of {}{}", NAMES.join(", "), did_you_mean(.nearest))]
     Unknown {
-        /// The unknown name.
+        /// The unknown name of an output.
         name: String,
-        /// The known name that is most similar, if any is similar.
+        /// The most similar known name, if any name is similar.
         nearest: Option<&'static str>,
     },
 }
 
-/// The folder holds a recording with other cameras, outputs or colours, so that the recording cannot be continued.
+/// The error that a folder already has a recording with other cameras, outputs or colours.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "{} holds a recording with other cameras, outputs or colours; repeat the command that began the recording, or choose another folder \
      with --out", path.display()
 )]
 pub struct OtherRecording {
-    /// The file that describes the recording.
+    /// The path of the file that describes the existing recording.
     pub path: PathBuf,
 }
 
@@ -94,7 +94,7 @@ impl Reason for OtherRecording {}
 impl FromStr for Kept {
     type Err = OutputsFlaw;
 
-    /// Reads a list of some of the names `rgb,semantic,depth,instance,boxes`.
+    /// Reads a list of camera outputs, with names from `rgb,semantic,depth,instance,boxes`.
     fn from_str(list: &str) -> Result<Self, OutputsFlaw> {
         if list.trim().is_empty() {
             return Err(OutputsFlaw::Nothing);
@@ -115,22 +115,22 @@ impl FromStr for Kept {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Recording {
     kept: Kept,
-    /// The seed of the random colours, if colours are random.
+    /// The seed of the random colours of road users; `None` if colours are not random.
     colours: Option<u64>,
     /// The cameras. A setting that tests vary has the middle of its range here; the study holds the range.
     cameras: Cameras,
 }
 
-/// The result of recording a test.
+/// The result of recording the cameras in a test.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recorded {
-    /// The number of images of all cameras.
+    /// The number of recorded images of all cameras.
     pub images: usize,
-    /// A sentence for each kind of missing image, with the reason.
+    /// A sentence for each reason why images are missing.
     pub notes: Vec<String>,
 }
 
-/// A data set in the folder of its campaign.
+/// A data set of labelled camera images, in the folder of its campaign.
 #[derive(Debug)]
 pub struct Dataset {
     folder: PathBuf,
@@ -140,7 +140,7 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// Opens the data set in the folder of a campaign, and begins it if there is none. The tests vary the settings that
+    /// Opens the data set in the folder of a campaign, or begins a new data set. The tests vary the settings that
     /// [`VariedCameras::open`] opened.
     ///
     /// # Errors
@@ -170,12 +170,13 @@ impl Dataset {
         Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
     }
 
-    /// Returns `true` if a test is recorded.
+    /// Returns `true` if the data set has the recording of a test.
     pub fn has(&self, trial: &Trial) -> bool {
         self.path(trial).exists()
     }
 
-    /// Records a test. The projector must have the data set's cameras and outputs.
+    /// Runs a test again and records the images of its cameras in the data set. The projector must have the data set's
+    /// cameras and outputs.
     ///
     /// # Errors
     /// Returns an error if the test is not the test that was logged, its images cannot be drawn, or its folder cannot
@@ -204,7 +205,7 @@ impl Dataset {
         Ok(recorded)
     }
 
-    /// Writes one file with the boxes of all recorded tests among `trials`, beside the folders of the tests. Programs
+    /// Writes a COCO file of the boxes in all recorded tests among `trials`, beside the folders of the tests. Programs
     /// that read COCO files load this file.
     ///
     /// # Errors
@@ -276,7 +277,7 @@ impl Dataset {
 }
 
 impl Kept {
-    /// Returns the folders of a camera's images.
+    /// Returns the names of the folders for a camera's images.
     fn kinds(self) -> impl Iterator<Item = &'static str> {
         let kinds =
             [(self.rgb, "rgb"), (self.semantic, "semantic"), (self.depth, "depth"), (self.instance, "instance")];
@@ -308,7 +309,8 @@ fn write_images(camera: &Path, shot: &Shot, picture: &Rendering, kept: Kept) -> 
 const CONTROLS: &str =
     "camera,frame,time,arrival,x,y,heading,speed,travelled,steering,throttle,light,fog,rain,inside\n";
 
-/// Returns a line of `controls.csv`. Names of cameras never need quotes; names of things are quoted if necessary.
+/// Returns a line of the file `controls.csv` for an image. Names of cameras never need quotes; names of objects are
+/// quoted if necessary.
 fn control_line(camera: &str, shot: &Shot, latency: f64, inside: Option<&Inside>) -> String {
     let Shot { number, time, moment, control } = shot;
     let arrival = time + latency;
@@ -323,14 +325,14 @@ fn control_line(camera: &str, shot: &Shot, latency: f64, inside: Option<&Inside>
     )
 }
 
-/// Returns a field of a CSV file, quoted if necessary.
+/// Returns a text as a field of a CSV file, in quotes if necessary.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// Returns the contents of `calibration.json`. It holds each camera's matrix, which maps x to the right, y down and z
-/// forward to pixels, the place where the camera is mounted, and the values of the camera's settings that vary from
-/// test to test.
+/// Returns the contents of the file `calibration.json`. It holds each camera's matrix, which maps x to the right, y
+/// down and z forward to pixels, the place where the camera is mounted, and the values of the camera's settings that
+/// vary from test to test.
 fn calibration<'n>(
     cameras: &'n Cameras,
     varied: impl Fn(&'n str) -> BTreeMap<&'static str, f64>,

@@ -11,31 +11,31 @@ use paracosm_render::{Cast, Stage, Stages};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// An exposure of a camera, whose image is still to be drawn.
+/// The state of the world at a camera's exposure, from which the image is drawn later.
 #[derive(Debug, Clone)]
 pub struct Shot {
     /// The number of the image among the images of its camera.
     pub number: u64,
     /// The time at which the image was taken, in seconds since the run began.
     pub time: f64,
-    /// The state of the world when the image was taken.
+    /// The state of the world at the time of the exposure.
     pub moment: Moment,
-    /// The driver's last control when the image arrived, which is `latency` seconds after the image was taken.
+    /// The control that the driver last gave before the image arrived, `latency` seconds after the exposure.
     pub control: Control,
 }
 
-/// The exposures of all cameras in a test, with the world that they show.
+/// The exposures of all cameras during a test, from which images are drawn later.
 #[derive(Debug, Clone)]
 pub struct Film {
-    /// The roads and the scenery.
+    /// The roads and the scenery of the test, in the form in which they are drawn.
     pub stage: Arc<Stage>,
-    /// The bodies that are drawn as models from a user's own files.
+    /// The users' own models of bodies, by the indices of the bodies.
     pub cast: Cast,
-    /// The shots of each camera, in the order of the cameras' names.
+    /// The exposures of each camera, with the cameras sorted by name.
     pub shots: Vec<Vec<Shot>>,
-    /// The seed of the noise of the images, made from the cameras' seed and the values of the test.
+    /// The seed of the noise in the images, computed from the cameras' seed and the values of the test.
     pub seed: u64,
-    /// The name of each body.
+    /// The name of each body in the run.
     pub names: Arc<[String]>,
 }
 
@@ -46,13 +46,13 @@ const SAMPLES: usize = 12;
 #[derive(Default)]
 struct Notes {
     stage: Option<Arc<Stage>>,
-    /// The models of the bodies; an error if a model cannot be loaded.
+    /// The users' own models of bodies; an error if a model cannot be loaded.
     cast: Option<Result<Cast, ModelFlaw>>,
     names: Arc<[String]>,
     seed: u64,
-    /// The exposures of each camera.
+    /// The exposures that each camera has taken.
     taken: Vec<Vec<Sample<Moment>>>,
-    /// The driver's answers, each with the time at which the driver was asked.
+    /// The driver's controls, each with the time at which the driver was asked.
     answers: Vec<(f64, Control)>,
     /// The time at which the driver was asked last.
     asked: Option<f64>,
@@ -62,7 +62,7 @@ struct Notes {
 const WHISKER: f64 = 1e-9;
 
 impl Notes {
-    /// Takes notes each time the driver is asked, and at the end of the run.
+    /// Stores the exposures and the driver's last control, each time the driver is asked and at the end of the run.
     fn take(&mut self, run: &Run, stages: &Stages, appearances: &Appearances) {
         if self.stage.is_none() {
             self.stage = Some(stages.of(run.network()));
@@ -77,7 +77,7 @@ impl Notes {
         }
     }
 
-    /// Returns the driver's last answer at a time.
+    /// Returns the last control that the driver gave by the given time.
     fn answer_at(&self, time: f64) -> Control {
         let before = self.answers.partition_point(|(asked, _)| *asked <= time + WHISKER);
         before.checked_sub(1).map_or(Control::default(), |last| self.answers[last].1)
@@ -92,28 +92,28 @@ pub enum FilmFlaw {
         "test {index} ended as {verdict}, so there is nothing to film; choose a test that ended as pass, fail or inconclusive"
     )]
     Nothing {
-        /// The index of the test.
+        /// The index of the test in the campaign.
         index: usize,
         /// The verdict of the test.
         verdict: Verdict,
     },
-    /// The run differs from the run that was logged.
+    /// The run of the test differs from the logged run.
     #[error(
         "test {index} runs differently now than when it was logged: its trace has another hash; use the same software and the same driver as the campaign"
     )]
     Another {
-        /// The index of the test.
+        /// The index of the test in the campaign.
         index: usize,
     },
-    /// A camera has settings that are not possible.
+    /// The settings of a camera are not valid.
     #[error("camera {0}")]
     Camera(SensorError),
-    /// A camera takes more images a second than the world has ticks.
+    /// A camera takes more images a second than the simulation has ticks.
     #[error("camera `{camera}`: `rate` is {rate} Hz, expected at most {} Hz: a tick of `{scenario}` takes {dt} s", 1.0 / dt)]
     Rate {
-        /// The name of the camera.
+        /// The name of the camera that is too fast.
         camera: String,
-        /// The number of images a second.
+        /// The number of images that the camera takes in a second.
         rate: f64,
         /// The name of the scenario.
         scenario: String,
@@ -125,7 +125,7 @@ pub enum FilmFlaw {
 impl Reason for FilmFlaw {}
 
 impl Film {
-    /// Runs a test of a worker's study again and films it with these cameras, in addition to the cameras of the driver.
+    /// Runs a test of the worker's study again and stores the exposures of the given cameras.
     ///
     /// # Errors
     /// Returns an error if the study has no scenario, the test ended as invalid or in an error, or the run differs from
@@ -167,8 +167,8 @@ impl Film {
         Self { shots: self.shots.iter().map(sample).collect(), ..self.clone() }
     }
 
-    /// Paints all cars, trucks, bicycles and pedestrians except the ego vehicle in random colours. The colours
-    /// follow from the seed and the test. They should not matter to a driver.
+    /// Gives random colours to all cars, trucks, bicycles and pedestrians except the ego vehicle. The colours follow
+    /// from the seed and the test. They should not matter to a driver.
     pub fn repaint(&mut self, seed: u64, trial: usize) {
         let painted = |class| matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian);
         for shot in self.shots.iter_mut().flatten() {

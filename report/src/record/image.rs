@@ -10,11 +10,11 @@ pub(super) const DEPTH_STEPS: f32 = 256.0;
 /// The pixels of an image, in the form in which they are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pixels<'a> {
-    /// Red, green and blue of each pixel.
+    /// The red, green and blue of each pixel, with 8 bits each.
     Colours(&'a [u8]),
-    /// A number of up to 255 for each pixel.
+    /// A number with 8 bits for each pixel.
     Bytes(&'a [u8]),
-    /// A number of up to 65,535 for each pixel.
+    /// A number with 16 bits for each pixel.
     Words(&'a [u16]),
 }
 

@@ -9,18 +9,18 @@ use paracosm_space::plural;
 pub(super) struct Missing<'a> {
     camera: (&'a str, &'a CameraSpec),
     shots: usize,
-    /// The things that the camera was inside, each with its name, the time of the first such image, and the number of
-    /// images.
+    /// The objects that the camera was inside, each with its name, the time of the first such image and the number of
+    /// such images.
     inside: Vec<(String, f64, usize)>,
 }
 
 impl<'a> Missing<'a> {
-    /// Makes empty notes for the camera of this name.
+    /// Makes empty notes on the missing images of the camera with the given name.
     pub fn of(name: &'a str, camera: &'a CameraSpec) -> Self {
         Self { camera: (name, camera), shots: 0, inside: Vec::new() }
     }
 
-    /// Notes the result of a shot.
+    /// Adds the result of drawing an image to the notes.
     pub fn see(&mut self, shot: &Shot, seen: &Result<Rendering, Inside>) {
         self.shots += 1;
         if let Err(Inside(thing)) = seen {
@@ -31,7 +31,7 @@ impl<'a> Missing<'a> {
         }
     }
 
-    /// Returns the notes, a sentence each.
+    /// Returns a sentence for each reason why images of the camera are missing.
     pub fn notes(&self) -> Vec<String> {
         let (name, CameraSpec { dropped, latency, .. }) = self.camera;
         if self.shots == 0 {
@@ -42,7 +42,7 @@ impl<'a> Missing<'a> {
         }
         let note = |(thing, from, images): &(String, f64, usize)| {
             let images = plural(*images, "image");
-            format!("camera `{name}` was inside `{thing}` from {from:.3} s on: {images} show nothing")
+            format!("{images} of camera `{name}` left out: the camera was inside `{thing}`, first at {from:.3} s")
         };
         self.inside.iter().map(note).collect()
     }

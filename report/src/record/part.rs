@@ -14,7 +14,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Creates a temporary file that is to become the file `to`.
+    /// Creates a temporary file that gets the name `to` when it is complete.
     ///
     /// # Errors
     /// Returns an error if nothing can be written there.
@@ -22,7 +22,7 @@ impl Part {
         Self::new(to, |path| File::create_new(path))
     }
 
-    /// Creates a temporary folder that is to become the folder `to`.
+    /// Creates a temporary folder that gets the name `to` when it is complete.
     ///
     /// # Errors
     /// Returns an error if nothing can be written there.
@@ -33,7 +33,7 @@ impl Part {
         Self::new(to, |path| fs::create_dir(path)).map(|(part, ())| part)
     }
 
-    /// Tries one temporary name after the other until a name is free.
+    /// Tries temporary names one after another until a name is free.
     fn new<T>(to: &Path, make: impl Fn(&Path) -> io::Result<T>) -> Result<(Self, T), Error> {
         let name = to.file_name().unwrap_or_default().to_string_lossy();
         let mut number = 0_u64;
@@ -47,12 +47,12 @@ impl Part {
         }
     }
 
-    /// Returns the temporary path.
+    /// Returns the temporary path of the file or folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Gives the file or the folder its final name.
+    /// Renames the temporary file or folder to its final name.
     ///
     /// # Errors
     /// Returns an error if the name cannot be given, for example because somebody else has made a folder of this name

@@ -8,42 +8,42 @@ use paracosm_render::{
 };
 use thiserror::Error;
 
-/// The camera was inside the thing of this name, which the car ran into, so that there was nothing to see.
+/// The error that a camera was inside an object and saw nothing, with the name of the object.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Inside(pub String);
 
-/// A shot with its image, or with the thing that the camera was inside.
+/// An exposure with its image, or with the object that hid everything from the camera.
 pub type Developed<'f> = (&'f Shot, Result<Rendering, Inside>);
 
-/// The reason why images cannot be drawn.
+/// The reason why the images of a recording cannot be drawn.
 #[derive(Debug, Clone, Error)]
 pub enum DrawingFlaw {
-    /// There is no graphics adapter.
+    /// The machine has no usable graphics adapter.
     #[error(transparent)]
     Nothing(RenderError),
-    /// The images of a camera are too large for the adapter.
+    /// The images of a camera are too large for the graphics adapter.
     #[error("camera `{camera}`: {source}")]
     TooLarge {
         /// The name of the camera.
         camera: String,
-        /// The limit that the images exceed.
+        /// The limit of the graphics adapter that the images exceed.
         source: ViewError,
     },
-    /// An image cannot be drawn.
+    /// An image of a camera cannot be drawn.
     #[error("camera `{camera}`, image {number}: {why}")]
     Undrawn {
         /// The name of the camera.
         camera: String,
         /// The number of the image among the images of the camera.
         number: u64,
-        /// The reason.
+        /// The reason why the image cannot be drawn.
         why: Undrawn,
     },
 }
 
 impl Reason for DrawingFlaw {}
 
-/// A renderer for the films of one set of cameras.
+/// A renderer of the images that a set of cameras takes in tests.
 #[derive(Debug)]
 pub struct Projector {
     developer: Developer,
@@ -52,8 +52,8 @@ pub struct Projector {
 }
 
 impl Projector {
-    /// Makes a projector for the films of these cameras, on the best adapter of this machine. Colour images have
-    /// shadows.
+    /// Makes a renderer for the films of a set of cameras, on the best graphics adapter of this machine. Colour images
+    /// have shadows.
     ///
     /// # Errors
     /// Returns an error if there is no adapter, if a camera is not possible, or if its images are too large for the
@@ -66,7 +66,7 @@ impl Projector {
         projector.take(optics).map(|()| projector)
     }
 
-    /// Changes to other cameras, whose films are drawn from now on.
+    /// Sets the cameras whose films are drawn from now on.
     ///
     /// # Errors
     /// Returns an error if a camera is not possible, or if its images are too large for the adapter.
@@ -83,13 +83,13 @@ impl Projector {
         Ok(())
     }
 
-    /// Returns the adapter that draws the images.
+    /// Returns the graphics adapter that draws the images.
     pub fn adapter(&self) -> &Adapter {
         self.developer.adapter()
     }
 
-    /// Draws all shots of a camera and passes them to `show` in order, a few at a time. `camera` is the place of the
-    /// camera among the sorted names.
+    /// Draws the images of a camera in a film, and passes them to `show` in their order, in batches. `camera` is the
+    /// place of the camera among the sorted names.
     ///
     /// # Errors
     /// Returns an error if a view cannot be drawn, the adapter is lost, or `show` fails.
@@ -127,7 +127,7 @@ impl Projector {
 }
 
 impl Film {
-    /// Returns the thing of this id, which a camera was inside; the ids of bodies begin with 1.
+    /// Returns the error that a camera was inside the object with this id, where the ids of bodies begin with 1.
     fn inside(&self, id: u16) -> Inside {
         let body = usize::from(id).checked_sub(1).and_then(|body| self.names.get(body));
         Inside(body.map_or("the scenery", String::as_str).to_owned())

@@ -251,7 +251,7 @@ fn files_of_cameras_say_what_is_wrong_with_them() {
     let error = "rgb,depht".parse::<Kept>().expect_err("there is none").to_string();
     assert!(error.contains("`depth`"), "{error}");
     let error = "".parse::<Kept>().expect_err("there is none").to_string();
-    assert_eq!(error, "found no output, expected some of rgb, semantic, depth, instance, boxes");
+    assert_eq!(error, "the list of outputs is empty, expected some of rgb, semantic, depth, instance, boxes");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
 use paracosm_space::{Domain, Parameter, Value, Values};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Cameras, and the settings of the cameras that the tests vary.
+/// A set of cameras with the settings that vary from test to test.
 #[derive(Debug, Clone)]
 pub struct VariedCameras {
     cameras: Cameras,
@@ -23,19 +23,19 @@ struct Varied {
 }
 
 impl From<Cameras> for VariedCameras {
-    /// Makes cameras that are the same in all tests.
+    /// Makes a set of cameras whose settings are the same in all tests.
     fn from(cameras: Cameras) -> Self {
         Self { cameras, varied: Vec::new() }
     }
 }
 
 impl VariedCameras {
-    /// Returns the cameras with each varied setting at the middle of its range, or at its first value.
+    /// Returns the cameras with each varied setting at the middle of its range, or at the first of its values.
     pub fn nominal(&self) -> &Cameras {
         &self.cameras
     }
 
-    /// Returns `true` if the tests vary a setting.
+    /// Returns `true` if a setting of a camera varies from test to test.
     pub fn vary(&self) -> bool {
         !self.varied.is_empty()
     }
@@ -80,13 +80,13 @@ impl VariedCameras {
         (0..most).filter_map(at).collect()
     }
 
-    /// Returns a study whose tests vary these settings as well.
+    /// Returns the study builder with the varied settings as parameters of the tests.
     pub fn open(&self, study: StudyBuilder) -> StudyBuilder {
         study.open_cameras(self.varied.iter().map(|varied| varied.parameter.clone()))
     }
 
-    /// Returns the cameras of a test, with a noise seed of their own. A setting that the test does not contain is as in
-    /// [`nominal`](Self::nominal).
+    /// Returns the cameras with the settings of a test and with a noise seed for the test. A setting that the test does
+    /// not contain is as in [`nominal`](Self::nominal).
     pub fn of_test(&self, test: &Values) -> Cameras {
         let mut cameras = self.cameras.clone();
         for Varied { camera, setting, parameter } in &self.varied {

@@ -5,24 +5,24 @@ use paracosm_analysis::statistics::Versus;
 /// The greatest corrected p-value at which a difference is marked as significant.
 pub const LEVEL: f64 = 0.05;
 
-/// Returns three columns of a table, namely a ratio with its interval, the probability of being better, and the
-/// corrected p-value.
+/// Returns three columns of a LaTeX table, which are a ratio with its interval, the probability of a better result, and
+/// the corrected p-value.
 pub fn ratio(versus: &Versus) -> String {
     let [low, high] = versus.interval;
     format!("${:.2}$ $[{low:.2}, {high:.2}]$ & ${:.2}$ & {}", versus.ratio, versus.better, p_value(versus.p_holm))
 }
 
-/// Formats a p-value.
+/// Formats a p-value for LaTeX.
 pub fn p_value(p: f64) -> String {
     if p < 1e-4 { "$<10^{-4}$".into() } else { format!("${p:.4}$") }
 }
 
-/// Formats a number for a formula, so that `1.23e-5` becomes `1.23 \cdot 10^{-5}`.
+/// Formats a number for a LaTeX formula, so that `1.23e-5` becomes `1.23 \cdot 10^{-5}`.
 pub fn in_math(number: &str) -> String {
     number.split_once('e').map_or_else(|| number.to_owned(), |(m, e)| format!("{m} \\cdot 10^{{{e}}}"))
 }
 
-/// Escapes all characters of a text that have a meaning in LaTeX.
+/// Escapes all characters of a text that have a special meaning in LaTeX.
 pub fn escaped(text: &str) -> String {
     let escape = |c: char| match c {
         '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),

@@ -17,24 +17,24 @@ pub fn three_digits(number: f64) -> String {
     format!("{number:.*}", (2 - exponent).max(0) as usize)
 }
 
-/// Formats a p-value for a table.
+/// Formats a p-value for a plain-text table.
 pub fn p_value(p: f64) -> String {
     if p < 0.001 { format!("{p:.1e}") } else { format!("{p:.3}") }
 }
 
-/// Writes rows as a CSV file; the first row is the header.
+/// Writes rows of a table as a CSV file, whose first row is the header.
 pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Result<(), Error> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().for_each(|row| csv.write_record(row).expect("rows of one length fit into memory"));
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
 }
 
-/// Formats a value; without a value, the result is an empty field.
+/// Formats a value for a table; a missing value gives an empty field.
 pub fn maybe(value: Option<impl ToString>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-/// Writes each picture as `NAME.svg` and `NAME.png`.
+/// Writes each picture to a folder, as the files `NAME.svg` and `NAME.png`.
 pub fn write_pictures(folder: &Path, pictures: &[(String, Picture)]) -> Result<(), Error> {
     for (name, picture) in pictures {
         let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));

@@ -50,7 +50,7 @@ fn literal(parameter: usize, marked: impl Iterator<Item = bool>) -> Literal {
     Literal { parameter, levels: marked.enumerate().filter_map(|(level, marked)| marked.then_some(level)).collect() }
 }
 
-/// Returns the clauses of a condition by distribution, or `None` if there are too many.
+/// Returns the clauses of a condition by distribution, or `None` if there are too many clauses.
 fn distribute(condition: &Condition, sizes: &[usize]) -> Option<Vec<Clause>> {
     match condition {
         Condition::Among { parameter, levels } => {
@@ -131,7 +131,8 @@ fn irredundant(clauses: Vec<Clause>) -> Vec<Clause> {
     kept
 }
 
-/// Returns `true` if `a` implies `b`: every literal of `a` is contained in the literal of `b` for the same parameter.
+/// Returns `true` if `a` implies `b`, so that every literal of `a` is contained in the literal of `b` for the same
+/// parameter.
 fn implies(a: &Clause, b: &Clause) -> bool {
     a.literals.iter().all(|literal| {
         let there = b.literals.binary_search_by_key(&literal.parameter, |other| other.parameter);
@@ -149,7 +150,7 @@ fn differing(a: &Clause, b: &Clause) -> Option<usize> {
     literal.filter(|_| differ.next().is_none())
 }
 
-/// Returns the clauses of a condition as the paths of a decision tree, or `None` if there are too many.
+/// Returns the clauses of a condition as the paths of a decision tree, or `None` if there are too many clauses.
 fn tree(condition: &Condition, sizes: &[usize]) -> Option<Vec<Clause>> {
     let mut tree = Tree { sizes, path: Vec::new(), clauses: Vec::new(), levels: 0, branches: 0 };
     tree.grow(condition)?;

@@ -15,7 +15,7 @@ pub(super) enum Condition {
     Among { parameter: usize, levels: Arc<[bool]> },
     /// The relation holds between the ranks of the levels of two parameters.
     Pair { left: usize, right: usize, ranks: [Arc<[usize]>; 2], relation: Relation },
-    /// All parts hold (`all`), or at least one part holds.
+    /// The parts of a conjunction (`all`) or of a disjunction.
     Many { all: bool, parts: Vec<Condition> },
 }
 
@@ -125,7 +125,7 @@ impl<'a> Resolver<'a> {
         self.condition(expression, true)
     }
 
-    /// Returns the condition that the expression holds, or that it does not hold, as `holds` says.
+    /// Returns the condition that the expression holds if `holds` is true, and otherwise the opposite condition.
     fn condition(&mut self, expression: &Expression, holds: bool) -> Result<Condition, ConstraintError> {
         match expression {
             Expression::Compare { parameter, relation, with } => self.comparison(parameter, *relation, with, holds),
@@ -198,7 +198,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Finds the discrete parameter of this name.
+    /// Finds the discrete parameter with the given name.
     fn side(&self, name: &str) -> Result<Side<'a>, ConstraintFlaw> {
         let owned = || name.to_owned();
         let Some(parameter) = self.parameters.iter().find(|parameter| parameter.name == name) else {

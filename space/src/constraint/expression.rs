@@ -3,7 +3,7 @@
 use crate::Value;
 use std::fmt;
 
-/// A statement about the discrete parameters of a test.
+/// A logical statement about the discrete parameters of a test.
 ///
 /// [`FromStr`](std::str::FromStr) reads the same expression from the text that [`Display`](fmt::Display) writes.
 ///
@@ -17,18 +17,19 @@ use std::fmt;
 pub enum Expression {
     /// A comparison, such as `lanes == 2`, `weather != 'fog'` or `front < rear`.
     Compare {
-        /// The name of the parameter on the left side.
+        /// The name of the parameter on the left side of the comparison.
         parameter: String,
-        /// The relation between the two sides.
+        /// The relation between the two sides of the comparison, such as `<`.
         relation: Relation,
         /// The right side of the comparison.
         with: Operand,
     },
-    /// A test for a list of values, such as `weather in ['rain', 'fog']`. It never holds if the list is empty.
+    /// The statement that a parameter has a value from a list, such as `weather in ['rain', 'fog']`. It never holds if
+    /// the list is empty.
     In {
-        /// The name of the parameter.
+        /// The name of the parameter on the left side of `in`.
         parameter: String,
-        /// The values in the list.
+        /// The values in the list after `in`.
         values: Vec<Value>,
     },
     /// The negation `not a`.
@@ -41,12 +42,12 @@ pub enum Expression {
     Implies(Box<Expression>, Box<Expression>),
 }
 
-/// The right side of a comparison.
+/// The right side of a comparison, which is a value or a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Operand {
-    /// A number or a quoted word.
+    /// A number or a quoted word on the right side of a comparison.
     Value(Value),
-    /// The name of another parameter.
+    /// The name of the parameter on the right side of a comparison.
     Parameter(String),
 }
 
@@ -80,12 +81,12 @@ impl Relation {
         }
     }
 
-    /// Returns `true` if the relation compares sizes, as `<`, `<=`, `>` and `>=` do.
+    /// Returns `true` if the relation is `<`, `<=`, `>` or `>=`, which compare sizes.
     pub fn orders(self) -> bool {
         !matches!(self, Relation::Equal | Relation::NotEqual)
     }
 
-    /// Returns the opposite relation. It holds exactly if this relation does not hold.
+    /// Returns the opposite relation, such as `>=` for `<`. It holds exactly if this relation does not hold.
     pub fn negated(self) -> Self {
         match self {
             Relation::Equal => Relation::NotEqual,
@@ -174,7 +175,8 @@ fn enclosed(f: &mut fmt::Formatter<'_>, open: char, text: &str, close: char) -> 
 }
 
 impl Expression {
-    /// Returns how tightly the expression binds its parts. It needs parentheses if its place requires a higher number.
+    /// Returns a number for the strength with which the expression binds its parts. The expression needs parentheses if
+    /// its place requires a higher number.
     fn tightness(&self) -> u8 {
         match self {
             Expression::Implies(..) => 0,

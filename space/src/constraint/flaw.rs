@@ -9,13 +9,13 @@ use thiserror::Error;
 /// The number of levels that a message lists at most.
 const LISTED: usize = 8;
 
-/// An error in a constraint: its place and its kind.
+/// An error in a constraint, with its place and its kind.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("{flaw}")]
 pub struct ConstraintError {
-    /// The place of the error in the text, as an offset in bytes.
+    /// The place of the error in the text of the constraint, as an offset in bytes.
     pub offset: usize,
-    /// The kind of error.
+    /// The kind of the error, with its details.
     pub flaw: Box<ConstraintFlaw>,
 }
 
@@ -25,50 +25,50 @@ impl ConstraintError {
     }
 }
 
-/// The kinds of errors in a constraint.
+/// A kind of error in a constraint.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ConstraintFlaw {
     /// Text that begins like a number is not a finite number.
     #[error("found `{written}`, expected a finite number; write a name that begins like a number in brackets")]
     NoNumber {
-        /// The text as it is written.
+        /// The text that begins like a number.
         written: String,
     },
     /// A quoted word has no closing quote.
     #[error("the word that begins here has no closing {quote}")]
     OpenWord {
-        /// The quote that opens the word.
+        /// The quotation mark that opens the word.
         quote: char,
     },
     /// A name in brackets has no closing bracket.
     #[error("the name that begins here has no closing `]`")]
     OpenName,
-    /// The constraint uses a sign of another language.
+    /// The constraint uses a sign of another language, such as `&&`.
     #[error("found `{sign}`, expected {meant}")]
     Foreign {
-        /// The foreign sign.
+        /// The sign of the other language.
         sign: &'static str,
-        /// The signs of this language with the same meaning.
+        /// The signs of the constraint language that replace the sign of the other language.
         meant: &'static str,
     },
-    /// A character belongs neither to this language nor to another known language.
+    /// A character of the constraint belongs neither to the constraint language nor to another known language.
     #[error(
         "found `{sign}`, which has no meaning here; names with other characters than letters, digits, `_` and `.` \
          stand in brackets: [road surface]"
     )]
     UnknownSign {
-        /// The unknown character.
+        /// The character that has no meaning.
         sign: char,
     },
-    /// Another token was expected at this place.
+    /// A token stands at a place where another token was expected.
     #[error("found {found}, expected {expected}{}", did_you_mean(.meant))]
     Unexpected {
-        /// The token at this place, or the end of the constraint.
+        /// The token that was found, or the end of the constraint.
         found: String,
-        /// The tokens that may stand at this place.
+        /// The tokens that may stand at the place of the error.
         expected: Expected,
-        /// The word of the language that the author probably meant.
+        /// The word of the constraint language that the author probably meant.
         meant: Option<&'static str>,
     },
     /// Comparisons are chained, as in `a < b < c`.
@@ -83,52 +83,52 @@ pub enum ConstraintFlaw {
     /// Parentheses, `not` and `implies` are nested too deeply.
     #[error("the constraint has more than {most} levels of nesting; divide it into several constraints")]
     TooDeep {
-        /// The greatest depth of nesting.
+        /// The greatest depth of nesting that is allowed.
         most: usize,
     },
     /// A value stands in front of `in`, where a parameter has to stand.
     #[error("found {found}, expected the name of a parameter before `in`")]
     ValueBeforeIn {
-        /// The value, as a token.
+        /// The value in front of `in`, as a token.
         found: String,
     },
     /// Both sides of a comparison are values.
     #[error("found values on both sides of the comparison, expected a parameter on one side")]
     OnlyValues,
-    /// No parameter has the given name.
+    /// A constraint names a parameter that does not exist.
     #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// The unknown name.
+        /// The given name, which is not the name of a parameter.
         name: String,
         /// The most similar name of a parameter, if a name is similar enough.
         nearest: Option<String>,
     },
-    /// The parameter is continuous, so it has no levels.
+    /// A constraint names a continuous parameter, which has no levels.
     #[error("`{name}` is continuous, expected a discrete parameter")]
     Continuous {
-        /// The name of the parameter.
+        /// The name of the continuous parameter.
         name: String,
     },
-    /// The parameter is a signal, so it has several values in a test.
+    /// A constraint names a signal, which has several values in a test.
     #[error("`{name}` varies over time, expected a parameter with one value")]
     Varies {
-        /// The name of the parameter.
+        /// The name of the parameter that is a signal.
         name: String,
     },
-    /// A name cannot be a parameter, but it is a level of the parameter on the other side.
+    /// The name on the right side of a comparison is no valid parameter, but a level of the parameter on the left side.
     #[error("{flaw}; to compare with the level of `{}`, write {}", Name(.parameter), Written(.level))]
     Level {
         /// The reason why the name cannot be a parameter.
         flaw: Box<ConstraintFlaw>,
-        /// The parameter on the other side.
+        /// The name of the parameter on the left side of the comparison.
         parameter: String,
-        /// The level with this name.
+        /// The level of the left parameter that equals the name on the right side of the comparison.
         level: Value,
     },
-    /// The parameter never takes this value.
+    /// A parameter is compared with a value that the parameter never takes.
     #[error("`{}` never has the value {}, expected one of {}{}", Name(.parameter), Written(.value), listed(.levels), hint(.meant))]
     Never {
-        /// The name of the parameter.
+        /// The name of the compared parameter.
         parameter: String,
         /// The value that the parameter never takes.
         value: Value,
@@ -140,17 +140,17 @@ pub enum ConstraintFlaw {
     /// A parameter is compared with a word by size.
     #[error("`{relation}` compares numbers, found {}", Written(.value))]
     Size {
-        /// The relation, such as `<`.
+        /// The relation that compares sizes, such as `<`.
         relation: Relation,
-        /// The word on the right side.
+        /// The word that the parameter is compared with.
         value: Value,
     },
     /// A parameter with words among its levels is compared by size.
     #[error("`{relation}` compares numbers, but `{}` takes the word {}", Name(.parameter), Written(.word))]
     SizeOfWord {
-        /// The relation, such as `<`.
+        /// The relation that compares sizes, such as `<`.
         relation: Relation,
-        /// The name of the parameter.
+        /// The name of the parameter that has a word among its levels.
         parameter: String,
         /// A word among the levels of the parameter.
         word: Value,
@@ -158,7 +158,7 @@ pub enum ConstraintFlaw {
     /// Two parameters are compared for equality, but have no value in common.
     #[error("`{}` and `{}` have no value in common, so they are never equal", Name(&.parameters[0]), Name(&.parameters[1]))]
     NothingInCommon {
-        /// The names of both parameters.
+        /// The names of the two parameters that are compared.
         parameters: [String; 2],
     },
     /// The constraint needs too many clauses, or clauses that are too large.
@@ -169,26 +169,26 @@ pub enum ConstraintFlaw {
     TooManyClauses,
 }
 
-/// The tokens that may stand at a place of a constraint.
+/// The tokens that may stand at the place of an error in a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Expected {
-    /// The tokens after a condition: `and`, `or`, `implies` or the end.
+    /// The tokens `and`, `or` and `implies`, or the end, which may follow a condition.
     Junction,
-    /// The tokens after a condition in parentheses: `and`, `or`, `implies` or `)`.
+    /// The tokens `and`, `or`, `implies` and `)`, which may follow a condition in parentheses.
     JunctionOrClose,
-    /// The beginning of a condition: a parameter, `not` or `(`.
+    /// The beginning of a condition, which is a parameter, `not` or `(`.
     Condition,
-    /// The token between the sides of a comparison.
+    /// The token between the two sides of a comparison, such as `==` or `in`.
     Comparison,
-    /// The token `in` after a `not` between the sides of a comparison.
+    /// The token `in`, which has to follow a `not` between the two sides of a comparison.
     In,
-    /// The right side of a comparison: a number, a quoted word or a parameter.
+    /// The right side of a comparison, which is a number, a quoted word or a parameter.
     Operand,
-    /// The list after `in`.
+    /// The list of values after `in`.
     List,
-    /// A value in a list: a number or a quoted word.
+    /// A value in a list, which is a number or a quoted word.
     Value,
-    /// The token after a value in a list: `,` or `]`.
+    /// The token after a value in a list, which is `,` or `]`.
     CommaOrClose,
 }
 

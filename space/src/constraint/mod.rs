@@ -38,7 +38,7 @@ use crate::Parameter;
 use crate::rules::Clause;
 use condition::{Condition, Resolver};
 
-/// A statement that every test of a [`Space`](crate::Space) has to keep.
+/// A condition on the discrete parameters that every test of a [`Space`](crate::Space) has to keep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constraint {
     text: String,
@@ -73,12 +73,12 @@ impl Constraint {
         &self.text
     }
 
-    /// Returns the constraint as an expression.
+    /// Returns the constraint in the form of a logical expression.
     pub fn expression(&self) -> &Expression {
         &self.expression
     }
 
-    /// Returns `true` if a test with these levels keeps the constraint. `row` has a level for each discrete
+    /// Returns `true` if a test with the levels in `row` keeps the constraint. `row` has a level for each discrete
     /// coordinate.
     ///
     /// # Panics
@@ -87,7 +87,7 @@ impl Constraint {
         self.condition.holds(row)
     }
 
-    /// Returns the clauses of the constraint. A test keeps all of them exactly if the constraint
+    /// Returns the clauses whose conjunction is the constraint. A test keeps all of them exactly if the constraint
     /// [holds](Constraint::holds).
     pub fn clauses(&self) -> &[Clause] {
         &self.clauses

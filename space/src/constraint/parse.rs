@@ -20,7 +20,7 @@ pub(super) struct Places {
 impl FromStr for Expression {
     type Err = ConstraintError;
 
-    /// Reads an expression. The names are not checked: only a space knows its parameters.
+    /// Reads the text of a constraint as an expression. The names are not checked: only a space knows its parameters.
     fn from_str(text: &str) -> Result<Self, ConstraintError> {
         parse(text).map(|(expression, _)| expression)
     }
@@ -96,7 +96,7 @@ impl Parser {
         Ok(expression)
     }
 
-    /// Parses parts joined by `word`: `or` joins conjunctions, and `and` joins negations.
+    /// Parses parts that `word` joins. The word `or` joins conjunctions, and `and` joins negations.
     fn joined(&mut self, word: &'static str) -> Result<Expression, ConstraintError> {
         let part = |parser: &mut Self| if word == "or" { parser.joined("and") } else { parser.negation() };
         let mut parts = vec![part(self)?];

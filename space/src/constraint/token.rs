@@ -11,7 +11,7 @@ pub(super) enum Token {
     Name(String),
     Value(Value),
     Relation(Relation),
-    /// A word of [`KEYWORDS`].
+    /// A reserved word of the language, as listed in [`KEYWORDS`].
     Keyword(&'static str),
     Open,
     Close,
@@ -121,7 +121,7 @@ fn token(rest: &str, listed: bool) -> Result<(Token, usize), ConstraintFlaw> {
     }
 }
 
-/// Returns the characters at the start of the text that belong.
+/// Returns the characters at the start of the text for which `belongs` is true.
 fn run(text: &str, belongs: impl Fn(char) -> bool) -> &str {
     &text[..text.find(|sign| !belongs(sign)).unwrap_or(text.len())]
 }

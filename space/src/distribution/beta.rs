@@ -7,8 +7,8 @@
 /// root of the larger shape.
 const MOST_TERMS: usize = 1_000_000;
 
-/// Returns the regularised incomplete beta function I_x(a, b): the probability that a beta-distributed number is at
-/// most `x`. The shapes `a` and `b` are above 0.
+/// Returns the probability that a beta-distributed number with the shapes `a` and `b` is at most `x`. This is the
+/// regularised incomplete beta function I_x(a, b). The shapes `a` and `b` are above 0.
 ///
 /// It is computed by the continued fraction of DLMF 8.17.22, evaluated as by Lentz (Applied Optics 15, 1976), and by
 /// the symmetry I_x(a, b) = 1 - I_(1-x)(b, a).
@@ -78,7 +78,7 @@ fn power(a: f64, b: f64, x: f64) -> f64 {
     libm::exp(exponent) * (a * b / (std::f64::consts::TAU * n)).sqrt()
 }
 
-/// Returns the error of Stirling's approximation of ln Γ(n + 1): the exact value less the approximation.
+/// Returns the error of Stirling's approximation of ln Γ(n + 1), which is the exact value less the approximation.
 fn stirling_error(n: f64) -> f64 {
     if n <= 15.0 {
         let half_log_tau = 0.5 * libm::log(std::f64::consts::TAU);

@@ -41,28 +41,28 @@ const WIDEST: f64 = 100.0;
 /// The reason why a text is not a distribution, or why a distribution does not fit a domain.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum DistributionError {
-    /// No distribution has this name.
+    /// No distribution has the given name.
     #[error("no distribution is called `{name}`{}; the distributions are {}", did_you_mean(.nearest), NAMES.map(|(name, _)| name).join(", "))]
     Unknown {
-        /// The unknown name.
+        /// The given name, which is not the name of a distribution.
         name: String,
         /// The most similar name of a distribution, if a name is similar enough.
         nearest: Option<&'static str>,
     },
-    /// A distribution has too many or too few numbers.
+    /// A distribution is given too many or too few numbers.
     #[error("the distribution {name} takes {takes}, found {found}")]
     Numbers {
         /// The name of the distribution.
         name: &'static str,
-        /// The numbers that it takes, in words.
+        /// The numbers that the distribution takes, in words.
         takes: &'static str,
-        /// The count of the numbers that were found.
+        /// The count of the numbers that are given to the distribution.
         found: usize,
     },
     /// A word stands in the place of a number.
     #[error("found `{found}` in {within}, expected a number")]
     NoNumber {
-        /// The word that was found.
+        /// The word that stands in the place of a number.
         found: String,
         /// The text or the entry that contains the word.
         within: String,
@@ -78,12 +78,12 @@ pub enum DistributionError {
         /// The number that is not finite.
         number: f64,
     },
-    /// The number of weights differs from the number of values.
+    /// The number of weights differs from the number of values of a choice.
     #[error("found {}, expected {expected}: a weight for each value", plural(*found, "weight"))]
     WeightCount {
-        /// The number of weights.
+        /// The number of weights that are given.
         found: usize,
-        /// The number of values.
+        /// The number of values of the choice.
         expected: usize,
     },
     /// A weight is below 0, or no weight is above 0, or the sum of the weights is not finite.
@@ -133,27 +133,29 @@ pub enum DistributionError {
     },
 }
 
-/// The distribution of a parameter's values over its domain. Each coordinate of a signal has this distribution on its
-/// own.
+/// The probability distribution of a parameter's values over the parameter's domain. Each coordinate of a signal has
+/// this distribution on its own.
 ///
 /// As a text, a distribution is written `uniform`, `beta:2,5`, `normal:1.4,0.3`, `triangular:1.4` or
 /// `weights:0.7,0.2,0.1`. In files it is written like `{ beta = [2.0, 5.0] }`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Entry", into = "Entry")]
 pub enum Distribution {
-    /// The uniform distribution. In an interval the probability is proportional to the length; in a choice all values
-    /// are equally probable.
+    /// The uniform distribution over the parameter's domain. In an interval the probability is proportional to the
+    /// length; in a choice all values are equally probable.
     #[default]
     Uniform,
-    /// The beta distribution of these two shapes, stretched from `[0,1]` to the interval.
+    /// The beta distribution with the given two shapes, stretched from `[0,1]` to the interval of the parameter.
     Beta(f64, f64),
-    /// The normal distribution with this mean and this standard deviation, in the parameter's unit, under the
-    /// condition that the value lies in the interval.
+    /// The normal distribution with the given mean and standard deviation, restricted to the interval of the parameter.
+    /// Both numbers are in the parameter's unit. The distribution is that of a normal number under the condition that
+    /// it lies in the interval.
     Normal(f64, f64),
-    /// The triangular distribution with this mode, in the parameter's unit. The density rises from the lower end of
-    /// the interval to the mode and falls to the upper end.
+    /// The triangular distribution with the given mode, in the parameter's unit. The density rises from the lower end
+    /// of the interval to the mode and falls to the upper end.
     Triangular(f64),
-    /// The weights of the values of a choice. The probability of a value is proportional to its weight.
+    /// The distribution of a choice with the given weight for each value. The probability of a value is proportional to
+    /// its weight.
     Weights(Vec<f64>),
 }
 

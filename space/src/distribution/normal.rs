@@ -4,12 +4,12 @@
 
 use std::f64::consts::SQRT_2;
 
-/// Returns the probability that a standard normal number is at most `z`.
+/// Returns the probability that a number from the standard normal distribution is at most `z`.
 pub fn normal_cdf(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
-/// Returns the standard normal number below which a share `p` of the distribution lies. It is infinite for 0 and 1.
+/// Returns the number below which a share `p` of the standard normal distribution lies. It is infinite for 0 and 1.
 ///
 /// The relative error is about 1e-16. The algorithm is PPND16 of Wichura (Algorithm AS 241: The percentage points of
 /// the normal distribution, Applied Statistics 37, 1988).
@@ -122,12 +122,12 @@ impl Truncated {
         Self { ends: if mirrored { [-to, -from] } else { [from, to] }, mirrored }
     }
 
-    /// Returns the share of the whole distribution that lies in the interval.
+    /// Returns the share of the unrestricted normal distribution that lies in the interval.
     pub fn mass(&self) -> f64 {
         normal_cdf(self.ends[1]) - normal_cdf(self.ends[0])
     }
 
-    /// Returns the quantile as a coordinate in `[0,1]` of the interval: a share `u` of the distribution lies below it.
+    /// Returns the coordinate in `[0,1]` of the interval below which a share `u` of the distribution lies.
     pub fn quantile(&self, u: f64) -> f64 {
         let [from, to] = self.ends;
         let (u, rest) = if self.mirrored { (1.0 - u, u) } else { (u, 1.0 - u) };

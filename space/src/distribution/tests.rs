@@ -156,13 +156,13 @@ fn what_cannot_be_is_refused_in_words() {
         ("beta:nan,1", &interval, "finite"),
         ("normal:0.5,0", &interval, "above 0"),
         ("normal:0.5,1000", &interval, "at most 100"),
-        ("normal:50,1", &interval, "next to nothing"),
+        ("normal:50,1", &interval, "almost nothing"),
         ("triangular:2", &interval, "[0, 1]"),
         ("weights:1,1", &interval, "choice"),
         ("beta:2,5", &choice, "weights"),
         ("weights:1", &choice, "each of the 2"),
         ("weights:1,-1", &choice, "at least 0"),
-        ("weights:0,0", &choice, "not all"),
+        ("weights:0,0", &choice, "a finite sum above 0"),
     ];
     for (text, domain, says) in cases {
         let refused =

@@ -63,17 +63,19 @@ use std::ops::Range;
 
 pub use flaw::{PictError, PictFlaw, Section};
 
-/// The content of a model file.
+/// The content of a model file of PICT.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
-    /// The space of the parameters, which are all discrete, with the constraints.
+    /// The space of the model's parameters, which are all discrete, with the model's constraints.
     pub space: Space,
-    /// The demand on the tests. It has the sub-models as groups, and the negative values.
+    /// The combinations that tests have to cover because of the sub-models and the negative values. The groups are the
+    /// sub-models.
     pub demand: Demand,
-    /// The statements of the file, each as the line, from 1, at which it begins and its text in one line. The first
-    /// constraints of the space belong to these statements, in order. The other constraints are about negative values.
+    /// The constraints of the model file, each with the number of its first line, from 1, and its text in one line. The
+    /// first constraints of the space come from these constraints, in the same order. The other constraints are about
+    /// negative values.
     pub statements: Vec<(usize, String)>,
-    /// Notes for people about parts of the file that are read differently from what the author may expect.
+    /// Notes for people about parts of the file whose meaning may differ from the author's expectation.
     pub notes: Vec<String>,
 }
 
@@ -88,7 +90,7 @@ fn fail<T>(offset: usize, flaw: PictFlaw) -> Result<T, Fault> {
 }
 
 impl Model {
-    /// Reads a model file.
+    /// Reads the text of a model file of PICT.
     ///
     /// ```
     /// use paracosm_space::pict::Model;
@@ -214,7 +216,7 @@ fn negatives(declared: &[Declared]) -> Vec<(usize, usize)> {
     declared.iter().enumerate().flat_map(of).collect()
 }
 
-/// Says that no test has two negative values: one expression for each parameter and the parameters after it.
+/// Returns expressions that exclude tests with two negative values, each for a parameter and the parameters after it.
 fn one_negative(declared: &[Declared]) -> Vec<Expression> {
     let negatives: Vec<&Declared> = declared.iter().filter(|parameter| parameter.has_negatives()).collect();
     let others = |i: usize| {

@@ -14,19 +14,20 @@ pub(super) struct Declared {
 /// A value of a parameter.
 #[derive(Clone)]
 pub(super) struct Listed {
-    /// The text of the value, without sign, aliases and weight.
+    /// The text of the value, without its sign, aliases and weight.
     pub text: String,
     pub value: Value,
     pub negative: bool,
 }
 
 impl Listed {
-    /// Returns `true` if a constraint means this value by `value`. The case of words is ignored.
+    /// Returns `true` if this value of a parameter is the same as `value` in a constraint, ignoring the case of words.
     pub fn is(&self, value: &Value) -> bool {
         self.related(Relation::Equal, value)
     }
 
-    /// Returns `true` if this value has the relation to a value of a constraint. Words are compared in lower case.
+    /// Returns `true` if the relation holds between this value of a parameter and `value` in a constraint. Words are
+    /// compared in lower case.
     pub fn related(&self, relation: Relation, value: &Value) -> bool {
         match value.word() {
             Some(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
@@ -36,7 +37,7 @@ impl Listed {
 }
 
 impl Declared {
-    /// Returns `true` if all values are numbers, so that constraints compare the parameter with numbers.
+    /// Returns `true` if all values of the parameter are numbers. Constraints then compare the parameter with numbers.
     pub fn numeric(&self) -> bool {
         self.values.iter().all(|listed| listed.value.number().is_some())
     }
@@ -84,7 +85,7 @@ pub(super) struct Parameters {
 }
 
 impl Parameters {
-    /// Reads the line of a parameter, which begins at this offset. `line` has no line end.
+    /// Reads the line of a parameter, which begins at `offset` in the file. `line` has no line end.
     pub fn read(&mut self, line: &str, offset: usize) -> Result<(), Fault> {
         let comma = line.split_once(',').filter(|(name, _)| !name.contains(['[', '{']));
         let Some((head, list)) = line.split_once(':').or(comma) else {
@@ -129,7 +130,8 @@ impl Parameters {
         Ok(())
     }
 
-    /// Returns the value between two commas, or the values of the parameter that it refers to.
+    /// Returns the value between two commas, or the values of the parameter to which the text between the commas
+    /// refers.
     fn piece(&mut self, piece: &str, at: usize) -> Vec<Listed> {
         let mut text = piece.trim();
         if let Some(other) = text.strip_prefix('<').and_then(|text| text.strip_suffix('>')) {
@@ -170,7 +172,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// Returns the parameters and all notes.
+    /// Checks all references to other parameters, and returns all parameters and notes.
     ///
     /// # Errors
     /// A reference stands above the parameter that it names, or its name is similar to the name of a parameter.

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// The bits of a group that remain with some fixed levels, or `None` if the fixed levels exclude each other.
 type Left = Option<Box<[u64]>>;
 
-/// A search for the levels that are valid together with fixed levels. It stores its results.
+/// A search for the levels that are valid together with fixed levels of other parameters. It stores its results.
 #[derive(Debug)]
 pub struct Companions<'r> {
     rules: &'r Rules,
@@ -24,8 +24,8 @@ pub struct Companions<'r> {
 }
 
 impl<'r> Companions<'r> {
-    /// Prepares the search. The bits follow the parameters in the given order: the first parameter has the lowest
-    /// bits.
+    /// Prepares a search that follows the given rules. The bits follow the parameters in the given order: the first
+    /// parameter has the lowest bits.
     ///
     /// # Panics
     /// `order` is not a permutation of the parameters.
@@ -57,7 +57,7 @@ impl<'r> Companions<'r> {
         companions
     }
 
-    /// Returns the bit of a parameter's first level.
+    /// Returns the position of the bit that stands for a parameter's first level.
     pub fn first(&self, parameter: usize) -> usize {
         self.first[parameter]
     }
@@ -78,8 +78,8 @@ impl<'r> Companions<'r> {
         supported[0].contains(&true).then(|| bits.into())
     }
 
-    /// Returns the bits of the levels that are valid together with the (parameter, level) pairs, or `None` if the
-    /// pairs are not valid themselves. The bits of fixed parameters have no meaning.
+    /// Returns the levels that are valid together with the fixed (parameter, level) pairs, as a set of bits, or `None`
+    /// if no test has all pairs. The bits of fixed parameters have no meaning.
     ///
     /// # Panics
     /// A parameter or a level does not exist, or a parameter is fixed twice.

@@ -25,9 +25,9 @@ const DIAGRAM: u64 = 1 << 16;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no test keeps the constraints {constraints:?} together{}", if *.smallest { "" } else { Self::CAVEAT })]
 pub struct Conflict {
-    /// The positions of the constraints, in ascending order.
+    /// The positions of the conflicting constraints in the list of constraints, in ascending order.
     pub constraints: Vec<usize>,
-    /// `true` if no conflict has fewer constraints. If proving this takes too long, it is `false`. Then a smaller
+    /// `true` if no other conflict has fewer constraints. If proving this takes too long, it is `false`. Then a smaller
     /// conflict may exist, even within this one.
     pub smallest: bool,
 }

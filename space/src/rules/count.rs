@@ -7,13 +7,13 @@
 use super::Rules;
 use super::group::Group;
 
-/// The number of valid combinations of levels of k parameters. Numbers beyond `u128` become `u128::MAX`.
+/// The numbers of valid combinations of levels of k parameters. Numbers beyond `u128` become `u128::MAX`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TupleCount {
-    /// The number of combinations of all choices of k parameters together.
+    /// The number of valid combinations of levels, added up over all choices of k parameters.
     pub valid: u128,
-    /// The number of combinations of the k parameters that have the most. A test has only one of these combinations,
-    /// so at least this many tests are needed to cover all.
+    /// The greatest number of valid combinations of levels that any k parameters have. A test has only one of these
+    /// combinations, so at least this many tests are needed to cover all.
     pub largest: u128,
 }
 
@@ -21,7 +21,7 @@ pub struct TupleCount {
 type Counts = Vec<TupleCount>;
 
 impl Rules {
-    /// Counts the valid combinations of levels of any `k` of these parameters.
+    /// Counts the valid combinations of levels of any `k` of the given parameters.
     ///
     /// # Panics
     /// A parameter does not exist.

@@ -1,4 +1,4 @@
-//! Rules: which combinations of levels the constraints of a discrete space allow.
+//! Rules: the combinations of levels that the constraints of a discrete space allow.
 //!
 //! A combination of levels is *valid* if a complete test contains it and keeps every constraint. Deriving all
 //! combinations that the constraints exclude together, as resolution does, takes exponential effort, so nothing is
@@ -31,13 +31,13 @@ use group::Group;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// The reason why constraints have no rules.
+/// The reason why no rules can be derived from constraints.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RulesError {
     /// No test keeps all constraints.
     #[error(transparent)]
     Conflict(#[from] Conflict),
-    /// The search for the levels that these parameters can have exceeded its bounds.
+    /// The search for the levels that the given parameters can have exceeded its greatest number of steps.
     #[error("the search for the levels that the constraints allow for the parameters {0:?} exceeded its bounds")]
     Undecided(Vec<usize>),
 }
@@ -51,8 +51,8 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// Derives the rules for parameters with these numbers of levels. Each constraint is the conjunction of its
-    /// clauses.
+    /// Derives the rules of the given constraints on parameters with the given numbers of levels. Each constraint is
+    /// the conjunction of its clauses.
     ///
     /// # Errors
     /// No test keeps all constraints, or the search for a test, or for the levels that tests can have, takes too long.
@@ -86,7 +86,7 @@ impl Rules {
         Ok(Self { levels: levels.to_vec(), groups: groups.into(), group_of })
     }
 
-    /// Makes the rules of parameters with these numbers of levels that have no constraints.
+    /// Makes the rules of parameters that have the given numbers of levels and no constraints.
     pub fn free(levels: &[usize]) -> Self {
         Self { levels: levels.to_vec(), groups: Arc::new([]), group_of: vec![None; levels.len()] }
     }
@@ -96,7 +96,7 @@ impl Rules {
         &self.levels
     }
 
-    /// Returns the number of groups of parameters that the constraints join.
+    /// Returns the number of groups of parameters that constraints join with each other.
     pub fn groups(&self) -> usize {
         self.groups.len()
     }
@@ -109,7 +109,7 @@ impl Rules {
         self.groups[group].members()
     }
 
-    /// Returns the group of a parameter, or `None` if no constraint restricts the parameter.
+    /// Returns the index of a parameter's group, or `None` if no constraint restricts the parameter.
     ///
     /// # Panics
     /// The parameter does not exist.
@@ -127,7 +127,7 @@ impl Rules {
         self.group_of[parameter].is_none_or(|group| self.groups[group].allows_at(parameter, test))
     }
 
-    /// Returns `true` if a test has all these (parameter, level) pairs and keeps all constraints.
+    /// Returns `true` if a test exists that has all given (parameter, level) pairs and keeps all constraints.
     pub fn is_valid(&self, tuple: &[(usize, usize)]) -> bool {
         let fixed = |parameter: usize| tuple.iter().find(|pair| pair.0 == parameter).map(|pair| pair.1);
         let agrees = |&(parameter, level): &(usize, usize)| fixed(parameter) == Some(level);
@@ -137,8 +137,7 @@ impl Rules {
                 .all(|group| self.holds(group, fixed))
     }
 
-    /// Returns `true` if the other parameters of a group can be chosen so that the levels that are `fixed` keep its
-    /// constraints.
+    /// Returns `true` if a test exists that has the `fixed` levels and keeps the constraints of a group.
     ///
     /// # Panics
     /// The group or a level does not exist.
@@ -146,8 +145,8 @@ impl Rules {
         self.groups[group].holds(fixed)
     }
 
-    /// Returns, for each member of a group and each of its levels, `true` if a test has this level and the levels that
-    /// are `fixed` and keeps the constraints.
+    /// Returns `true` for each level of each member of a group if a test exists that has the level and the `fixed`
+    /// levels and keeps the constraints.
     ///
     /// # Panics
     /// The group or a level does not exist.
@@ -155,7 +154,7 @@ impl Rules {
         self.groups[group].supported(fixed)
     }
 
-    /// Returns, for each level of a parameter, `true` if a test has this level and the levels that are `fixed` and
+    /// Returns `true` for each level of a parameter if a test exists that has the level and the `fixed` levels and
     /// keeps the constraints.
     ///
     /// # Panics
@@ -170,8 +169,8 @@ impl Rules {
         }
     }
 
-    /// Returns the first test in lexicographic order that has the fixed levels and keeps all constraints, or `None` if
-    /// there is no such test. In each group the order is that of the parameters.
+    /// Returns the first test in lexicographic order that has the levels in `partial` and keeps all constraints, or
+    /// `None` if no test does. In each group the order is that of the parameters.
     pub fn completes(&self, partial: &[Option<usize>]) -> Option<Vec<usize>> {
         let mut test: Vec<usize> = partial.iter().map(|level| level.unwrap_or(0)).collect();
         for group in self.groups.iter() {

@@ -6,7 +6,7 @@
 use super::Rules;
 use super::diagram::Chain;
 
-/// A source of random tests. All tests that keep all constraints are equally probable.
+/// A source of random tests that keep all constraints and are equally probable.
 #[derive(Debug)]
 pub struct UniformTests {
     levels: Vec<usize>,
@@ -23,19 +23,20 @@ struct RandomGroup {
     chain: Chain,
 }
 
-/// Combinations of levels of the same parameters that are equally probable.
+/// A set of equally probable combinations of levels of the same parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alike {
     /// The number of parameters that each combination has.
     pub parameters: usize,
-    /// The number of combinations.
+    /// The number of equally probable combinations in the set.
     pub combinations: f64,
-    /// The probability that a random test has a certain one of the combinations.
+    /// The probability that a random test has a given combination of the set.
     pub probability: f64,
 }
 
 impl Rules {
-    /// Makes a source of random tests, or returns `None` if a group of parameters is too entangled to be counted.
+    /// Makes a source of equally probable random tests, or returns `None` if the tests cannot be counted. The tests
+    /// cannot be counted if the diagram of a group would be too large.
     pub fn uniform(&self) -> Option<UniformTests> {
         let group = |group: &super::group::Group| {
             let (members, sizes) = (group.members().to_vec(), group.sizes.clone());
@@ -47,7 +48,7 @@ impl Rules {
 }
 
 impl UniformTests {
-    /// Draws a random test: a level for each parameter. `below(n)` has to give a uniformly random number below n.
+    /// Draws a random test, as a level for each parameter. `below(n)` has to give a uniformly random number below n.
     pub fn draw(&self, mut below: impl FnMut(usize) -> usize) -> Vec<usize> {
         let mut test: Vec<Option<usize>> = vec![None; self.levels.len()];
         for group in &self.groups {
@@ -62,8 +63,8 @@ impl UniformTests {
         free.map(|(level, &levels)| level.unwrap_or_else(|| below(levels))).collect()
     }
 
-    /// Calls `visit` with the valid combinations of 1 to `k` parameters of each group that constraints join, one group
-    /// after the other. `visit` gets the number of the group and combinations that are equally probable.
+    /// Calls `visit` with all valid combinations of levels of 1 to `k` parameters that constraints join in a group. One
+    /// group follows the other. `visit` gets the number of the group and combinations that are equally probable.
     pub fn combinations(&self, k: usize, visit: &mut impl FnMut(usize, Alike)) {
         for (number, group) in self.groups.iter().enumerate() {
             let mut fixed = vec![None; group.members.len()];

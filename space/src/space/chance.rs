@@ -18,7 +18,8 @@ impl Space {
         Ok(self)
     }
 
-    /// Returns the test at these quantiles: a number in `[0,1]` for each of [`Space::coordinates`], in their order.
+    /// Returns the test whose coordinates lie at the given quantiles of their distributions. `quantiles` has a number
+    /// in `[0,1]` for each of [`Space::coordinates`], in their order.
     ///
     /// If the quantiles are uniform and independent, the test follows the distributions of the parameters. Constraints
     /// are not checked.

@@ -41,8 +41,11 @@ fn numbers_of_a_choice_are_kept_as_they_are_written() {
     let twice = "[[parameter]]\nname = \"a\"\nchoice = [1.0, 1.00]\n";
     assert_eq!(Space::from_toml(twice).unwrap_err().to_string(), "parameter `a`: the choice names 1 twice");
     for (texts, message) in [
-        ("[\"1\"]", "parameter `a`: found 1 texts in `written`, expected the 2 of `choice`"),
-        ("[\"1\", \"2.1\"]", "parameter `a`: found `2.1` in `written`, expected the text of 2"),
+        (
+            "[\"1\"]",
+            "parameter `a`: the key `written` has length 1, expected length 2, a text for each value of `choice`",
+        ),
+        ("[\"1\", \"2.1\"]", "parameter `a`: found `2.1` in `written`, expected a text of the value 2"),
     ] {
         let toml = format!("[[parameter]]\nname = \"a\"\nchoice = [1, 2]\nwritten = {texts}\n");
         assert_eq!(Space::from_toml(&toml).unwrap_err().to_string(), message);
@@ -97,7 +100,7 @@ fn a_space_file_with_an_error_says_where_it_is() {
     assert!(message.contains("intervall") && message.contains("interval"), "{message}");
     assert_eq!(line, Some(3));
     let (message, _) = refuse("[[parameter]]\nname = \"a\"\ninterval = [0.0, 1.0]\nscale = \"log\"\n");
-    assert_eq!(message, "parameter `a`: `scale` is not supported by this version");
+    assert_eq!(message, "parameter `a`: the key `scale` is not supported by this version; remove the key");
     let (message, _) = refuse("[[parameter]]\nname = \"a\"\ninterval = [1.0, 0.0]\n");
     assert!(message.contains("interval [1, 0]"), "{message}");
     let (message, _) = refuse("[[parameter]]\nname = \"a\"\n");
@@ -192,7 +195,7 @@ fn values_that_make_no_signal_are_refused() {
     };
     assert_eq!(
         with("leader", [1.0, 2.0].into()),
-        "parameter `leader`: found 2 values, expected the 3 of a signal polynomial(2)"
+        "parameter `leader`: found 2 values, expected 3 for a signal of shape polynomial(2)"
     );
     assert_eq!(with("leader", [1.0, 2.0, 21.0].into()), "parameter `leader`: found 21, expected a number in [0, 20]");
     assert_eq!(with("gap", [6.0].into()), "parameter `gap`: found [6], expected a number in [5, 60]");
@@ -200,7 +203,7 @@ fn values_that_make_no_signal_are_refused() {
     let error = Space::new(vec![varying(weather, Shape::Polynomial { degree: 1 })]).unwrap_err().to_string();
     assert_eq!(
         error,
-        "parameter `weather`: a choice is piecewise constant where it varies, found the shape polynomial(1)"
+        "parameter `weather`: found a signal of the shape polynomial(1) for a choice, expected the shape piecewise-constant"
     );
     let taken = Parameter::new("light[1]", Domain::Interval { lo: 0.0, hi: 1.0 });
     let parameters = signals().parameters().iter().cloned().chain([taken]).collect();
@@ -216,7 +219,7 @@ fn shapes_are_read_as_they_are_written() {
     }
     let refused = |text: &str| text.parse::<Shape>().unwrap_err().to_string();
     assert!(refused("piecewise-liner:2").contains("(did you mean `piecewise-linear`?)"));
-    assert!(refused("polynomial").contains("expected `polynomial` with a number"));
+    assert!(refused("polynomial").contains("expected the shape `polynomial` with a number"));
     assert!(refused("polynomial:two").contains("polynomial:two"));
 }
 
@@ -323,7 +326,7 @@ fn distributions_are_read_written_and_checked() {
         ("{ beat = [2, 5] }", "`beta`"),
         ("{ beta = 2 }", "two numbers"),
         ("{ beta = [2, \"x\"] }", "`x`"),
-        ("{ beta = [2, 5], normal = [1, 1] }", "one distribution"),
+        ("{ beta = [2, 5], normal = [1, 1] }", "exactly one"),
         ("3", "{ beta = [2.0, 5.0] }"),
         ("{ weights = [1, 2] }", "choice"),
         ("{ triangular = 11 }", "[0.5, 10]"),

@@ -10,7 +10,8 @@ use std::ops::Range;
 use toml::Spanned;
 
 impl Space {
-    /// Reads a SPACE.toml. A table `[odd]`, which describes the tested operational design domain, is ignored.
+    /// Reads a space from the text of a SPACE.toml. A table `[odd]`, which describes the tested operational design
+    /// domain, is ignored.
     ///
     /// ```
     /// let space = paracosm_space::Space::from_toml(r#"
@@ -64,7 +65,7 @@ impl Space {
         constraint_spans(text).into_iter().map(|span| Position::of(text, span.start).line).collect()
     }
 
-    /// Writes the space as a SPACE.toml. [`Space::from_toml`] reads the same space from it.
+    /// Writes the space as the text of a SPACE.toml. [`Space::from_toml`] reads the same space from this text.
     pub fn to_toml(&self) -> String {
         #[derive(Serialize)]
         struct SpelledOut<'a> {

@@ -21,7 +21,7 @@ use std::time::Duration;
 pub(super) struct ArrayOptions {
     pub k: Option<usize>,
     pub seed: Option<u64>,
-    /// Seconds for making the array smaller.
+    /// The time in seconds for making the covering array smaller.
     pub optimise: Option<f64>,
 }
 

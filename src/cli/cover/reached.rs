@@ -15,7 +15,7 @@ use std::time::Duration;
 
 /// Tests that were generated in addition to existing tests, with the epsilon that all tests reach.
 pub(super) struct Reached {
-    /// All tests, the existing tests first.
+    /// All tests, with the existing tests before the new tests.
     pub tests: TestSet,
     pub existing: usize,
     /// The largest dispersion among the rows of discrete values; `None` in a space without continuous parameters.
@@ -23,7 +23,7 @@ pub(super) struct Reached {
 }
 
 impl Reached {
-    /// Measures the rows of tests within a time limit.
+    /// Measures the largest dispersion among the rows of tests within a time limit.
     pub fn of(tests: TestSet, existing: usize, limit: Duration) -> Self {
         let dims = tests.space.dims();
         let epsilon = (dims > 0).then(|| row_dispersion(dims, &tests.points, Deadline::after(limit)));
@@ -64,7 +64,7 @@ impl Reached {
         Ok(self.discrete(self.tests.k)?.map(covered))
     }
 
-    /// Describes the (k, epsilon) of the tests.
+    /// Describes the (k, epsilon)-coverage of the tests in words.
     pub fn words(&self) -> Result<String, Error> {
         let Some(rows) = self.epsilon else { return Ok("no continuous parameter to measure".to_owned()) };
         let epsilon = if rows.is_exact() { digits(rows.upper) } else { format!("at most {}", digits(rows.upper)) };

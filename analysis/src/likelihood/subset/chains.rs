@@ -6,18 +6,18 @@ use crate::statistics::random::SplitMix64;
 use paracosm_campaign::Error;
 use paracosm_space::distribution::normal_cdf;
 
-/// A test: independent standard normal coordinates and a robustness.
+/// A test with independent standard normal coordinates and a robustness.
 #[derive(Clone)]
 pub(super) struct Member {
     place: Vec<f64>,
     pub robustness: f64,
 }
 
-/// A set of judged tests.
+/// A set of tests that could be judged.
 pub(super) struct Population(pub Vec<Member>);
 
 impl Population {
-    /// Runs this number of independent tests. Returns the judged tests, and the counts of all tests.
+    /// Runs `size` independent tests at random places. Returns the judged tests, and the counts of all tests.
     pub fn independent(
         size: usize,
         dims: usize,
@@ -43,7 +43,7 @@ impl Population {
         self.0.len()
     }
 
-    /// Returns the tests that reach a level.
+    /// Returns the tests whose robustness is at most `threshold`.
     pub fn below(self, threshold: f64) -> Vec<Member> {
         self.0.into_iter().filter(|member| reaches(member.robustness, threshold)).collect()
     }
@@ -53,7 +53,8 @@ impl Population {
     }
 }
 
-/// Checks whether a test reaches a level. The sign of a zero matters here, because it decides the verdict.
+/// Returns `true` if a robustness is at most the threshold of a level. The sign of a zero matters here, because it
+/// decides the verdict.
 pub(super) fn reaches(robustness: f64, threshold: f64) -> bool {
     robustness.total_cmp(&threshold).is_le()
 }
@@ -63,7 +64,7 @@ fn judge(places: &[Vec<f64>], runs: &mut Runs) -> Result<Vec<Option<f64>>, Error
     runs.run(&points)
 }
 
-/// Makes a population of `size` tests at a level: the seeds, and for each of them a chain that stays at the level.
+/// Makes a population of `size` tests at a level from the seeds, each of which begins a chain that stays at the level.
 ///
 /// A chain steps by conditional sampling (Papaioannou, Betz, Zwirglmaier and Straub, MCMC algorithms for subset
 /// simulation, Probabilistic Engineering Mechanics 41, 2015). The proposed place is the sum of the current place and

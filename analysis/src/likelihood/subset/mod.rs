@@ -26,7 +26,7 @@ const SHARE: f64 = 0.1;
 /// The number of independent repetitions.
 const REPLICATES: usize = 10;
 
-/// The least budget: with less, a repetition has too few tests at a level to continue from.
+/// The least budget, because with a smaller budget a repetition has too few tests at a level to continue.
 pub(super) const LEAST_BUDGET: usize = 2000;
 
 /// A level of robustness on the way to a failure.

@@ -19,11 +19,12 @@ const ACCEPTED: f64 = 0.44;
 /// The least and the greatest step. Other steps never help: a step of 1 forgets the current place.
 const STEPS: [f64; 2] = [0.01, 1.0];
 
-/// The result of the pilot.
+/// The result of the pilot, which are the chosen levels.
 pub(super) struct Pilot {
-    /// The levels before the failure; empty if failures are common or the pilot found no way to them.
+    /// The levels of robustness on the way to a failure; empty if failures are common or the pilot found no way to a
+    /// failure.
     pub levels: Vec<Level>,
-    /// The reason why the pilot found no way to a failure, if it did not.
+    /// The reason why the pilot found no way to a failure; `None` if the pilot found a way.
     pub lost: Option<String>,
 }
 
@@ -62,9 +63,9 @@ impl Pilot {
 
 /// The way in which a population continues.
 enum Next {
-    /// Enough tests failed.
+    /// The population has enough failing tests.
     Failure,
-    /// The next level is at this robustness.
+    /// The population has a next level at this robustness.
     Level(f64),
     /// There is no next level: too many tests have this robustness, and no test is below it.
     Stuck(f64),

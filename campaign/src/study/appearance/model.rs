@@ -12,20 +12,20 @@ use thiserror::Error;
 /// A model that has been read, or that was not needed so far.
 pub(super) type Loaded = OnceLock<Arc<Model>>;
 
-/// The reason why a file cannot be used as a model.
+/// The reason why a file cannot be used as the 3D model of an actor.
 #[derive(Debug, Error)]
 pub enum ModelFlaw {
-    /// The file cannot be read, or is not a usable model.
+    /// The file cannot be read, or is not a usable 3D model.
     #[error(transparent)]
     Gltf(#[from] GltfError),
-    /// The model has changed since the campaign was run.
+    /// The 3D model has changed since the campaign was run.
     #[error("the model {file} has the hash {found}, expected {expected}: the campaign was run with another model")]
     Changed {
-        /// The file.
+        /// The path of the file with the 3D model.
         file: String,
-        /// The hash of the model now.
+        /// The present hash of the 3D model.
         found: String,
-        /// The hash of the model when the campaign was run.
+        /// The hash of the 3D model when the campaign was run.
         expected: String,
     },
 }
@@ -33,7 +33,7 @@ pub enum ModelFlaw {
 impl Reason for ModelFlaw {}
 
 impl Appearances {
-    /// Returns the bodies of a run that are shown as models.
+    /// Returns the 3D model of each body of a run that a model replaces in images.
     ///
     /// # Errors
     /// A file can no longer be read, or has changed since the study was made.
@@ -53,7 +53,7 @@ impl Appearances {
 }
 
 impl Appearance {
-    /// Reads the model in a file, for an actor of this class.
+    /// Reads the 3D model in a file, for an actor of the given class.
     pub fn read(file: &str, class: Class) -> Result<Self, ModelFlaw> {
         let (hash, model) = load(file, class)?;
         Ok(Self { file: file.to_owned(), hash, loaded: OnceLock::from(model) })

@@ -23,109 +23,109 @@ use thiserror::Error;
 /// The greatest depth of nodes within nodes; in a faulty file they may form circles.
 const DEPTH: usize = 64;
 
-/// The reason why a model cannot be used.
+/// The reason why a file cannot be used as a model of an object.
 #[derive(Debug, Error)]
 pub enum GltfError {
-    /// A file cannot be read.
+    /// The model file, or a file to which the model file refers, cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {
-        /// The model, or a file that the model names.
+        /// The path of the file that cannot be read.
         path: PathBuf,
-        /// The reason why the file cannot be read.
+        /// The operating system's error for the file.
         source: std::io::Error,
     },
-    /// The file is not glTF, or contains something that is not supported.
+    /// The file is not in the format glTF, or uses a feature of glTF that is not supported.
     #[error("`{}` cannot be used as a model: {problem}", path.display())]
     Format {
-        /// The file of the model.
+        /// The path of the model file.
         path: PathBuf,
-        /// The flaw of the file, with the found and the expected content.
+        /// The flaw of the model file, with the found and the expected content.
         problem: GltfFlaw,
     },
 }
 
-/// The flaw of a file that should be a model.
+/// The flaw of a file that was to be read as a glTF model.
 #[derive(Debug, Error)]
 pub enum GltfFlaw {
     /// The header of a binary file states a length that is shorter than the header.
     #[error("its header says that it has {bytes} bytes, expected at least 20")]
     Header {
-        /// The length that the header states.
+        /// The length in bytes that the header states.
         bytes: u32,
     },
-    /// The file is not glTF.
+    /// The file is not in the format glTF.
     #[error(transparent)]
     NoGltf(#[from] gltf::Error),
-    /// The file names an accessor that it does not have.
+    /// The file refers to a glTF accessor that the file does not contain.
     #[error("it names accessor {accessor}, but its number of accessors is {count}")]
     NoAccessor {
-        /// The index of the accessor.
+        /// The index of the accessor in the glTF file.
         accessor: usize,
-        /// The number of accessors in the file.
+        /// The number of accessors that the file contains.
         count: usize,
     },
-    /// The file names a binary part that it does not have.
+    /// The file refers to a binary part that the file does not contain.
     #[error("a buffer refers to the binary part of the file, but the file has none")]
     NoBinary,
-    /// A buffer is not written in base64.
+    /// The text of a buffer in the file is not valid base64.
     #[error("a buffer in it is not valid base64")]
     NoBase64,
-    /// An accessor is of a kind that is not supported.
+    /// A glTF accessor is sparse or has no buffer view, which is not supported.
     #[error("its accessor {accessor} is sparse or has no buffer view")]
     NoView {
-        /// The index of the accessor.
+        /// The index of the accessor in the glTF file.
         accessor: usize,
     },
-    /// An accessor has more elements than there are bytes for.
+    /// A glTF accessor needs more bytes than the file contains.
     #[error("the file has too few bytes for its accessor {accessor}: number of elements {elements}")]
     TooFewBytes {
-        /// The index of the accessor.
+        /// The index of the accessor in the glTF file.
         accessor: usize,
-        /// The number of elements of the accessor.
+        /// The number of elements that the accessor states.
         elements: usize,
     },
-    /// An accessor has vectors of another type than is needed.
+    /// The elements of a glTF accessor are not vectors of 32-bit floating-point numbers of the expected length.
     #[error("its accessor {accessor} has {shape:?} of {found:?}, expected vectors of {expected} F32 numbers")]
     NoFloats {
-        /// The index of the accessor.
+        /// The index of the accessor in the glTF file.
         accessor: usize,
         /// The shape of the accessor's elements.
         shape: Dimensions,
-        /// The type of the accessor's numbers.
+        /// The type of the numbers in the accessor.
         found: DataType,
-        /// The number of numbers that an element should have.
+        /// The expected number of components of each vector.
         expected: usize,
     },
-    /// An accessor of indices has numbers that are not unsigned integers.
+    /// A glTF accessor for indices has numbers that are not unsigned integers.
     #[error("its accessor {accessor} has indices of {found:?}, expected U8, U16 or U32")]
     NoIndices {
-        /// The index of the accessor.
+        /// The index of the accessor in the glTF file.
         accessor: usize,
-        /// The type of the accessor's numbers.
+        /// The type of the numbers in the accessor.
         found: DataType,
     },
-    /// Nodes lie within nodes without end, or too deep.
+    /// The glTF nodes are nested too deep or in a circle.
     #[error("its nodes lie more than {DEPTH} deep within each other")]
     TooDeep,
-    /// A part of the model is not made of triangles.
+    /// A glTF primitive of the model is not a list of triangles.
     #[error("a part of it is made of {found:?}, expected Triangles")]
     NoTriangleList {
-        /// The kind of primitive that the part is made of.
+        /// The kind of the glTF primitive, for example lines.
         found: Mode,
     },
-    /// A part of the model has no positions.
+    /// A glTF primitive of the model has no positions.
     #[error("a part of it has no positions")]
     NoPositions,
-    /// The corners of a part do not match its normals, texture coordinates or indices.
+    /// The normals, texture coordinates or indices of a glTF primitive do not match the number of its corners.
     #[error("the normals, texture coordinates or indices of a part do not match its corners ({corners})")]
     Corners {
-        /// The number of corners of the part.
+        /// The number of corners of the glTF primitive.
         corners: usize,
     },
-    /// A position is not finite.
+    /// A position in the model has a number that is not finite.
     #[error("a position in it is not a finite number")]
     NoPlace,
-    /// The file has nothing to draw.
+    /// The model has no triangles.
     #[error("it has no triangles")]
     NoTriangles,
 }
@@ -137,8 +137,8 @@ struct Found {
     indices: Vec<u32>,
 }
 
-/// Reads the mesh of a model, all of which gets one class. glTF has y up and z ahead; the mesh has z up and x ahead.
-/// Lengths stay as they are in the file: [`Stage::model`](crate::Stage::model) stretches the mesh to a body.
+/// Reads a glTF file as a mesh of one semantic class. glTF has y up and z ahead; the mesh has z up and x ahead. Lengths
+/// stay as they are in the file: [`Stage::model`](crate::Stage::model) stretches the mesh to a body.
 ///
 /// # Errors
 /// A file cannot be read, is not glTF 2.0, has no triangles, or needs an extension.
@@ -276,7 +276,7 @@ impl Found {
     }
 }
 
-/// Returns how a material reacts to light, and its colour.
+/// Returns the surface kind and the colour of a material.
 fn look(material: &Material<'_>) -> (SurfaceKind, [f32; 3]) {
     let [red, green, blue, _] = material.pbr_metallic_roughness().base_color_factor();
     let base = [red, green, blue];

@@ -1,7 +1,7 @@
 //! Kernels: the weights by which a lens spreads a point of light over the pixels around it.
 
-/// The way in which a lens spreads a point of light. A kernel is a list of pixels to the right of the point and down
-/// from it, with their shares of the point's light.
+/// A point spread function, which states how a lens distributes the light of a point over pixels. A kernel is a list of
+/// pixels to the right of the point and down from it, with their shares of the point's light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kernel {
     shares: Vec<(i32, i32, f32)>,
@@ -11,8 +11,8 @@ pub struct Kernel {
 const PLACES: i32 = 16;
 
 impl Kernel {
-    /// Makes a Gaussian with this standard deviation in pixels, cut off at four standard deviations. It consists of one
-    /// kernel along the rows and one along the columns. Apply the two kernels one after the other.
+    /// Makes a Gaussian point spread function with a standard deviation in pixels, cut off at four standard deviations.
+    /// It consists of one kernel along the rows and one along the columns. Apply the two kernels one after the other.
     pub fn gaussian(deviation: f64) -> [Self; 2] {
         let reach = libm::ceil(4.0 * deviation) as i32;
         let weight = |at: i32| libm::exp(-0.5 * f64::from(at * at) / (deviation * deviation));
@@ -20,7 +20,7 @@ impl Kernel {
         [along(|at| (at, 0)), along(|at| (0, at))]
     }
 
-    /// Makes an evenly bright disc with this radius in pixels.
+    /// Makes the point spread function of an evenly bright disc with a radius in pixels.
     pub fn disc(radius: f64) -> Self {
         let reach = libm::ceil(radius + 0.5) as i32;
         let places = || (0..PLACES).map(|place| (f64::from(place) + 0.5) / f64::from(PLACES) - 0.5);
@@ -40,8 +40,8 @@ impl Kernel {
         Self::normalised(weights)
     }
 
-    /// Makes an evenly bright line of this length in pixels, whose middle is on the point. The line runs along an angle
-    /// in radians, counter-clockwise from the right.
+    /// Makes the point spread function of an evenly bright line with a length in pixels, centred on the point. The line
+    /// runs along an angle in radians, counter-clockwise from the right.
     pub fn line(length: f64, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(angle);
         let steps = (f64::from(PLACES) * libm::ceil(length)).max(1.0) as i32;
@@ -66,8 +66,8 @@ impl Kernel {
         Self { shares: weights.into_iter().map(|((x, y), weight)| (x, y, (weight / sum) as f32)).collect() }
     }
 
-    /// Returns the offsets of pixels, to the right and down from a point, with the shares of the point's light that the
-    /// pixels get; the shares sum to 1.
+    /// Returns the shares of a point's light, each with the offset of its pixel to the right and down; the shares sum
+    /// to 1.
     pub fn shares(&self) -> &[(i32, i32, f32)] {
         &self.shares
     }

@@ -22,58 +22,59 @@ pub use rain::Rain;
 use crate::{Camera, Frame};
 use paracosm_engine::sensor::{CameraSetting, CameraSpec, Chance};
 
-/// All effects, in the order in which light passes them.
+/// All effects of lenses and sensors, in the order in which light passes them.
 pub const EFFECTS: &[&LensEffect] =
     &[&motion::EFFECT, &defocus::EFFECT, &blur::EFFECT, &exposure::EFFECT, &noise::EFFECT];
 
 /// The greatest reach of a kernel, in pixels.
 const FARTHEST: f64 = 64.0;
 
-/// An effect of a lens or a sensor on light.
+/// An effect of a lens or a sensor on the light of an image, for example a blur.
 #[derive(Debug)]
 pub struct LensEffect {
-    /// The name of the effect, under which its noise is drawn.
+    /// The name of the effect, which also determines the seed of the effect's noise.
     pub name: &'static str,
-    /// The description of the effect, in a few words.
+    /// A description of the effect in a few words.
     pub about: &'static str,
-    /// The settings of the effect.
+    /// The camera settings that control the effect.
     pub settings: &'static [CameraSetting],
-    /// Returns `true` if these values of the settings, in their order, leave the light unchanged.
+    /// The function that returns `true` if the effect leaves the light unchanged with the given values of its settings.
     pub is_idle: fn(&[f64]) -> bool,
-    /// Changes the light of an image. All noise comes from the [`Chance`], which differs from image to image.
+    /// The function that changes the light of an image, given the values of the effect's settings and a source of
+    /// randomness. All noise comes from the [`Chance`], which differs from image to image.
     pub apply: fn(&[f64], &mut Light<'_>, &mut Chance),
 }
 
-/// The light of an image on its way through a lens.
+/// The linear light of an image, which the effects of a lens change one after another.
 #[derive(Debug)]
 pub struct Light<'a> {
     /// The linear red, green and blue of each pixel, row by row; 1 is a white surface in full sun.
     pub values: Vec<f32>,
-    /// The camera that the light falls into.
+    /// The pinhole camera that takes the image.
     pub camera: &'a Camera,
 }
 
 impl Light<'_> {
-    /// Spreads every point by a kernel.
+    /// Spreads the light of every pixel by a point spread function.
     pub fn spread(&mut self, kernel: &Kernel) {
         self.values = kernel.apply(&self.values, self.camera.width() as usize);
     }
 }
 
-/// A lens with its sensor, as a list of effects with the values of their settings. The default has no effects.
+/// The effects of a camera's lens and sensor, with the values of their settings. The default has no effects.
 #[derive(Debug, Clone, Default)]
 pub struct Lens {
     effects: Vec<(&'static LensEffect, Vec<f64>)>,
 }
 
 impl Lens {
-    /// Makes the lens of a camera whose settings are in their ranges; see
+    /// Makes the lens and sensor of a camera whose settings are in their ranges; see
     /// [`CameraSettings::check`](crate::CameraSettings::check).
     pub fn of(camera: &CameraSpec) -> Self {
         Self::with(EFFECTS, camera)
     }
 
-    /// Makes a lens with these effects instead of [`EFFECTS`].
+    /// Makes the lens and sensor of a camera from the given effects instead of [`EFFECTS`].
     pub fn with(effects: &[&'static LensEffect], camera: &CameraSpec) -> Self {
         let values = |effect: &&'static LensEffect| {
             let values: Vec<_> = effect.settings.iter().map(|setting| setting.value(camera)).collect();
@@ -88,8 +89,8 @@ impl Lens {
         self.effects.is_empty()
     }
 
-    /// Returns the image that a camera with this lens gives of a frame, in sRGB with 8 bits a colour; `None` if the
-    /// frame has no linear light. `chance` returns the source of noise in this image for the name of an effect.
+    /// Applies the effects to the linear light of a frame and returns the image in sRGB with 8 bits a colour; `None` if
+    /// the frame has no linear light. `chance` returns the source of noise in this image for the name of an effect.
     pub fn develop(&self, frame: &Frame, chance: impl Fn(&str) -> Chance) -> Option<Vec<u8>> {
         let mut light = Light { values: frame.linear.clone()?, camera: &frame.camera };
         for (effect, values) in &self.effects {
@@ -99,7 +100,7 @@ impl Lens {
     }
 }
 
-/// Converts a linear value, cut off to 0 to 1, to sRGB (IEC 61966-2-1).
+/// Converts a linear value to sRGB after limiting it to 0 to 1 (IEC 61966-2-1).
 fn srgb(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 };

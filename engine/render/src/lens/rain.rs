@@ -18,7 +18,7 @@ const SMALLEST: f64 = 1.0;
 /// The time for which an image is exposed, in seconds.
 const EXPOSURE: f64 = 0.004;
 
-/// The rain in front of a camera.
+/// The falling rain in front of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rain {
     /// The rate of rainfall, in mm/h.
@@ -26,7 +26,7 @@ pub struct Rain {
     /// The upward direction, and the velocity of the camera in m/s, both in the camera's coordinates.
     up: Vector3<f64>,
     velocity: Vector3<f64>,
-    /// The colour of a drop, in linear light.
+    /// The red, green and blue of a drop, in linear light.
     light: [f32; 3],
 }
 
@@ -40,14 +40,14 @@ struct Streak {
 }
 
 impl Rain {
-    /// Makes the rain at `rate` mm/h in this air, for a camera with this pose in the world and this velocity in m/s.
+    /// Makes the rain for a rate in mm/h, an atmosphere, and the pose and the velocity in m/s of a camera.
     pub fn new(rate: f64, air: &Atmosphere, camera: &Isometry3<f64>, velocity: &Vector3<f64>) -> Self {
         let turned = |direction: &Vector3<f64>| camera.rotation.inverse() * direction;
         Self { rate, up: turned(&Vector3::z()), velocity: turned(velocity), light: air.colour() }
     }
 
-    /// Adds the streaks of rain to the linear light of a frame, if the frame has linear light. All drops are drawn from
-    /// `chance`.
+    /// Adds streaks of rain to the linear light of a frame; a frame without linear light stays unchanged. All drops are
+    /// drawn from `chance`.
     pub fn fall(&self, frame: &mut Frame, chance: &mut Chance) {
         let camera = &frame.camera;
         let Some(light) = frame.linear.as_mut().filter(|_| self.rate > 0.0) else { return };
@@ -60,7 +60,7 @@ impl Rain {
         }
     }
 
-    /// Draws the drops in front of the camera. A cubic metre has 8000 exp(-4.1 rate^-0.21 D) drops per millimetre of
+    /// Draws random drops in front of the camera. A cubic metre has 8000 exp(-4.1 rate^-0.21 D) drops per millimetre of
     /// diameter `D` in mm (Marshall and Palmer 1948).
     fn streaks(&self, camera: &Camera, chance: &mut Chance) -> Vec<Streak> {
         let fewer = 4.1 * libm::pow(self.rate, -0.21);

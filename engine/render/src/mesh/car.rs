@@ -17,9 +17,9 @@ const ARCH: [(f32, f32); 7] =
 /// A cross-section of the body at one place along it.
 struct Station {
     x: f32,
-    /// Half of the width of the body.
+    /// Half of the width of the car's body.
     half: f32,
-    /// The heights of the lower edge, the shoulder and the middle above the ground.
+    /// The heights above the ground of the lower edge, the shoulder and the middle of the car's body.
     low: f32,
     shoulder: f32,
     top: f32,

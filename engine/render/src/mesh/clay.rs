@@ -18,7 +18,7 @@ pub(crate) type Point = Vector3<f32>;
 /// The material of a facet.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Matter {
-    /// The colour in linear light.
+    /// The colour of the material in linear light.
     pub colour: [f32; 3],
     pub surface: SurfaceKind,
     pub semantic: Semantic,
@@ -29,7 +29,7 @@ impl Matter {
         Self { colour, surface, semantic }
     }
 
-    /// Makes a surface that gets its colour from the instance.
+    /// Makes a material that gets its colour from the instance of the mesh.
     pub fn painted(surface: SurfaceKind, semantic: Semantic) -> Self {
         Self::new(surface, [1.0; 3], semantic)
     }
@@ -77,7 +77,7 @@ pub(crate) fn patch(facet: [Point; 4], u: [f32; 2], v: [f32; 2], lift: f32) -> [
 }
 
 impl Clay {
-    /// Adds a convex polygon, counter-clockwise as seen from outside. Corners may coincide.
+    /// Adds a flat convex polygon whose corners are counter-clockwise as seen from outside. Corners may coincide.
     pub fn facet(&mut self, corners: &[Point], of: Matter) {
         for i in 1..corners.len() - 1 {
             let triangle = [corners[0], corners[i], corners[i + 1]];
@@ -87,14 +87,14 @@ impl Clay {
         }
     }
 
-    /// Adds a box along the axes.
+    /// Adds a box whose edges are parallel to the axes.
     pub fn cuboid(&mut self, min: [f32; 3], max: [f32; 3], of: Matter) {
         let level =
             |z: f32| [(min[0], min[1]), (max[0], min[1]), (max[0], max[1]), (min[0], max[1])].map(|(x, y)| at(x, y, z));
         self.loft(&[level(min[2]).to_vec(), level(max[2]).to_vec()], of);
     }
 
-    /// Adds the solid between rings with the same number of points, counter-clockwise as seen from the next ring.
+    /// Adds the solid through a series of rings with equally many points, counter-clockwise as seen from the next ring.
     pub fn loft(&mut self, rings: &[Vec<Point>], of: Matter) {
         self.hose(rings, of);
         let (first, last) = (&rings[0], &rings[rings.len() - 1]);
@@ -102,14 +102,14 @@ impl Clay {
         self.facet(last, of);
     }
 
-    /// Adds a prism over a convex profile (metres ahead and up, counter-clockwise as seen from the right) from one y to
-    /// a greater one.
+    /// Adds a prism over a convex profile between two values of y. The profile is in metres ahead and up,
+    /// counter-clockwise as seen from the right.
     pub fn prism(&mut self, profile: &[[f32; 2]], across: [f32; 2], of: Matter) {
         let side = |y: f32| profile.iter().map(|[x, z]| at(*x, y, *z)).collect();
         self.loft(&[side(across[1]), side(across[0])], of);
     }
 
-    /// Adds the same solid as [`Clay::loft`] without its two ends.
+    /// Adds the surface of the solid that [`Clay::loft`] adds, without the surfaces at both ends.
     pub fn hose(&mut self, rings: &[Vec<Point>], of: Matter) {
         for pair in rings.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
@@ -120,14 +120,14 @@ impl Clay {
         }
     }
 
-    /// Adds a rod that may taper.
+    /// Adds a round rod whose ends may have different radii.
     pub fn tube(&mut self, ends: [Point; 2], radii: [f32; 2], sides: usize, of: Matter) {
         let axis = ends[1] - ends[0];
         let rings = [0, 1].map(|end| ring(ends[end], axis, radii[end], sides));
         self.loft(&rings, of);
     }
 
-    /// Adds an ellipsoid with this number of sides around, and half as many layers.
+    /// Adds an ellipsoid of `sides` facets around and half as many layers.
     pub fn ball(&mut self, centre: Point, radii: [f32; 3], sides: usize, of: Matter) {
         let layers = sides / 2;
         let layer = |i: usize| {
@@ -138,7 +138,7 @@ impl Clay {
         self.hose(&(0..=layers).map(layer).collect::<Vec<_>>(), of);
     }
 
-    /// Adds a tyre around an axle along y, as an open ring.
+    /// Adds a tyre as an open ring around an axle along y.
     pub fn tyre(&mut self, centre: Point, radii: [f32; 2], width: f32, sides: usize, of: Matter) {
         let side = |y: f32, radius: f32| ring(centre + Point::y() * y, Point::y(), radius, sides);
         let [inner, outer] = radii;
@@ -149,7 +149,7 @@ impl Clay {
         );
     }
 
-    /// Adds everything that `build` adds, and its mirror image on the other side of the plane y = 0.
+    /// Adds the shapes that `build` adds, and their mirror images on the other side of the plane y = 0.
     pub fn mirrored(&mut self, build: impl Fn(&mut Self)) {
         let first = self.triangles.len();
         build(self);
@@ -161,7 +161,8 @@ impl Clay {
         self.triangles.extend(mirrored);
     }
 
-    /// Returns the shape, stretched to exactly this length, width and height, with its middle over the origin.
+    /// Returns the shape, stretched to a length, a width and a height, and moved so that its middle is above the
+    /// origin.
     pub fn fitted(mut self, size: [f32; 3]) -> Self {
         let corners = || self.triangles.iter().flat_map(|(corners, _)| corners);
         let min = corners().fold(Point::repeat(f32::INFINITY), |min, corner| min.inf(corner));
@@ -174,12 +175,13 @@ impl Clay {
         self
     }
 
-    /// Returns the triangles as a mesh.
+    /// Returns the triangles of the shape as a mesh.
     pub fn mesh(self) -> Mesh {
         self.mesh_at([0.0; 2])
     }
 
-    /// Returns the triangles as a mesh whose texture coordinates begin at a place, in metres along x and y.
+    /// Returns the triangles of the shape as a mesh whose texture coordinates begin at a place, in metres along x and
+    /// y.
     pub fn mesh_at(self, place: [f64; 2]) -> Mesh {
         let facing: Vec<Point> = self.triangles.iter().map(|(corners, _)| area(corners)).collect();
         let mut around: HashMap<[u32; 3], Vec<usize>> = HashMap::new();
@@ -216,12 +218,12 @@ impl Clay {
     }
 }
 
-/// Returns a vector that points out of a triangle and is as long as twice its area.
+/// Returns a vector that points out of a triangle and is twice as long as the triangle's area.
 fn area(corners: &[Point; 3]) -> Point {
     (corners[1] - corners[0]).cross(&(corners[2] - corners[0]))
 }
 
-/// Returns texture coordinates in metres, in the coordinate plane that the facet is nearest to.
+/// Returns the texture coordinates in metres of a point, in the coordinate plane that is most parallel to the facet.
 fn unwrapped(point: &Point, facing: &Point, place: [f64; 2]) -> [f32; 2] {
     let [x, y] = [f64::from(point.x) + place[0], f64::from(point.y) + place[1]].map(|metres| metres as f32);
     match facing.iamax() {
@@ -231,7 +233,7 @@ fn unwrapped(point: &Point, facing: &Point, place: [f64; 2]) -> [f32; 2] {
     }
 }
 
-/// Returns the bits of a point, equal for equal points. 0 and -0 give the same bits.
+/// Returns the bits of a point's coordinates, which are equal for equal points. 0 and -0 give the same bits.
 fn bits(point: &Point) -> [u32; 3] {
     let [x, y, z]: [f32; 3] = (*point).into();
     [x, y, z].map(|metres| (metres + 0.0).to_bits())

@@ -7,13 +7,13 @@ use super::{Mesh, Semantic, SurfaceKind};
 /// The kinds of signs, which differ in shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Plate {
-    /// A red ring, which is a speed limit.
+    /// The red ring of a speed limit sign.
     Limit,
-    /// A red triangle on its tip, which says "give way".
+    /// The red triangle of a "give way" sign.
     GiveWay,
-    /// A red octagon, which says "stop".
+    /// The red octagon of a "stop" sign.
     Stop,
-    /// A blue square, which is a hint.
+    /// The blue square of an information sign.
     Hint,
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn plate(plate: Plate) -> Mesh {
     clay.mesh()
 }
 
-/// Returns a regular polygon that stands on a side.
+/// Returns a regular polygon that stands on one of its sides.
 fn turned(x: f32, size: f32, sides: usize) -> Vec<Point> {
     let corners = ring(at(x, 0.0, 0.0), Point::x(), size, 2 * sides);
     corners.into_iter().skip(1).step_by(2).collect()

@@ -8,7 +8,7 @@ use super::{Mesh, Semantic, SurfaceKind};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Plan {
     storeys: usize,
-    /// The numbers of windows along the house and across it.
+    /// The numbers of windows along and across the house.
     bays: [usize; 2],
 }
 
@@ -34,7 +34,7 @@ fn wall() -> Matter {
 }
 
 impl Plan {
-    /// Returns the plan that comes nearest to a length, a width and a height in metres.
+    /// Returns the plan of the house whose size is nearest to a length, a width and a height in metres.
     pub fn of([length, width, height]: [f32; 3]) -> Self {
         let count = |metres: f32, one: f32, most: usize| ((metres / one).round() as usize).clamp(1, most);
         let gabled = count(height - ROOF, STOREY, STOREYS);
@@ -46,7 +46,7 @@ impl Plan {
         self.storeys <= GABLED
     }
 
-    /// Returns the length, width and height of the model.
+    /// Returns the length, the width and the height of the house in metres.
     pub fn size(&self) -> [f32; 3] {
         let roof = if self.gabled() { ROOF } else { PARAPET };
         let [length, width] = self.bays.map(|bays| bays as f32 * BAY);

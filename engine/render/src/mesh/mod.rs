@@ -1,4 +1,4 @@
-//! The shapes of things: triangles with normals, texture coordinates and surface kinds.
+//! The shapes of objects: triangles with normals, texture coordinates and surface kinds.
 
 pub(crate) mod bicycle;
 pub(crate) mod car;
@@ -13,29 +13,29 @@ pub(crate) mod truck;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The way in which a surface reacts to light.
+/// The finish of a surface, which determines how the surface reflects or emits light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum SurfaceKind {
-    /// Dull, in the surface's own colour.
+    /// A dull surface in the colour of its corners.
     Plain = 0,
-    /// Glossy, in the colour of the instance: the body of a car.
+    /// A glossy surface in the colour of the instance, for example the body of a car.
     Paint = 1,
-    /// Dull, in the colour of the instance: a jacket, a wall.
+    /// A dull surface in the colour of the instance, for example a jacket or a wall.
     Cloth = 2,
-    /// Dark and glossy.
+    /// A dark and glossy surface, for example a window.
     Glass = 3,
-    /// Grained, in the surface's own colour; the grain follows the texture coordinates, which are metres.
+    /// A grained surface in the colour of its corners, whose grain follows the texture coordinates in metres.
     Asphalt = 4,
-    /// Grained like asphalt, but coarse and uneven: grass, leaves.
+    /// A coarsely and unevenly grained surface, for example grass or leaves.
     Grown = 5,
-    /// A lamp that shines white when it is dark: a head lamp, a street lamp.
+    /// A white lamp that shines in the dark, for example a head lamp or a street lamp.
     WhiteLamp = 6,
-    /// A lamp that shines red when it is dark.
+    /// A red lamp that shines in the dark, for example a rear lamp.
     RedLamp = 7,
 }
 
-/// The class of a thing, with the numbers of CARLA's semantic classes since its version 0.9.14.
+/// The semantic class of an object, with the numbers of CARLA's classes since its version 0.9.14.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 #[expect(missing_docs, reason = "the names are those of the classes")]
@@ -71,24 +71,24 @@ pub enum Semantic {
     GuardRail = 28,
 }
 
-/// A corner of a triangle.
+/// A corner of a mesh's triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertex {
     /// The position of the corner in metres.
     pub position: [f32; 3],
-    /// The normal of the surface, a unit vector that points outwards.
+    /// The normal of the surface at the corner, as a unit vector that points outwards.
     pub normal: [f32; 3],
-    /// The texture coordinates; for grained surfaces in metres.
+    /// The texture coordinates of the corner, in metres for grained surfaces.
     pub uv: [f32; 2],
-    /// The colour of the corner, red, green and blue in linear light, from 0 to 1.
+    /// The red, green and blue of the corner in linear light, from 0 to 1.
     pub colour: [f32; 3],
-    /// The way in which the surface reacts to light.
+    /// The finish of the surface, which determines how the surface reflects or emits light.
     pub surface: SurfaceKind,
-    /// The class of the thing that the corner is part of.
+    /// The semantic class of the object to which the corner belongs.
     pub semantic: Semantic,
 }
 
-/// The shape of a thing, made of triangles whose corners are counter-clockwise as seen from outside.
+/// The surface of an object as triangles, whose corners are counter-clockwise as seen from outside.
 #[derive(Debug)]
 pub struct Mesh {
     key: u64,
@@ -97,7 +97,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Makes a mesh of these corners. Every three indices make a triangle.
+    /// Makes a mesh of corners and of the indices of each triangle's three corners. Every three indices make a
+    /// triangle.
     ///
     /// # Panics
     /// An index names no corner, or the number of indices is not a multiple of three.
@@ -108,7 +109,7 @@ impl Mesh {
         Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices }
     }
 
-    /// Returns a number that no other mesh of this process has. A renderer uses it to know which meshes it has
+    /// Returns a number that identifies the mesh within the process. A renderer uses it to know which meshes it has
     /// uploaded.
     pub fn key(&self) -> u64 {
         self.key
@@ -119,7 +120,7 @@ impl Mesh {
         &self.vertices
     }
 
-    /// Returns the indices of the corners, three for each triangle.
+    /// Returns the indices of the corners, three indices for each triangle.
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }

@@ -15,14 +15,14 @@ pub(crate) struct Models {
     pub parked_bicycle: Arc<Mesh>,
     pub adult: Arc<Mesh>,
     pub child: Arc<Mesh>,
-    /// The left arm, then the right arm.
+    /// The meshes of a person's left arm and right arm.
     pub arms: [Arc<Mesh>; 2],
     pub thigh: Arc<Mesh>,
     pub shin: Arc<Mesh>,
     pub trunk: Arc<Mesh>,
     pub pole: Arc<Mesh>,
     pub lantern: Arc<Mesh>,
-    /// The plates of signs, in the order of [`PLATES`].
+    /// The meshes of the plates of traffic signs, in the order of [`PLATES`].
     pub plates: [Arc<Mesh>; 4],
     pub cone: Arc<Mesh>,
     pub barrel: Arc<Mesh>,
@@ -30,7 +30,7 @@ pub(crate) struct Models {
     pub parcel: Arc<Mesh>,
     pub barrier: Arc<Mesh>,
     houses: Shelf<Plan>,
-    /// The crowns of trees, by colour; `true` for conifers.
+    /// The meshes of the crowns of trees, by colour; `true` for conifers.
     crowns: Shelf<(bool, Colour)>,
 }
 
@@ -40,7 +40,7 @@ type Shelf<K> = Mutex<BTreeMap<K, Arc<Mesh>>>;
 const PLATES: [Plate; 4] = [Plate::Limit, Plate::GiveWay, Plate::Stop, Plate::Hint];
 
 impl Models {
-    /// Returns the shapes of this process.
+    /// Returns the meshes that all renderers of this process share.
     pub fn shared() -> &'static Self {
         static SHARED: LazyLock<Models> = LazyLock::new(Models::new);
         &SHARED

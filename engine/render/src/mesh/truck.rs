@@ -71,7 +71,7 @@ fn cab(clay: &mut Clay) {
     });
 }
 
-/// The dark half of a hexagon above a front wheel, as a facet.
+/// Returns the dark half of a hexagon above a front wheel, as a facet.
 fn arch() -> [Point; 4] {
     let x = AXLES[0];
     [at(x + 0.72, 1.2, 0.6), at(x - 0.72, 1.2, 0.6), at(x - 0.45, 1.2, 1.15), at(x + 0.45, 1.2, 1.15)]

@@ -5,22 +5,22 @@ use std::pin::pin;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-/// The graphics adapter that a renderer draws with.
+/// A description of the graphics adapter that a renderer draws with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Adapter {
-    /// The name of the adapter, for instance of the graphics card.
+    /// The name of the graphics adapter, for example of a graphics card.
     pub name: String,
-    /// The driver and its version.
+    /// The name and the version of the graphics driver.
     pub driver: String,
-    /// The graphics interface of the adapter, which is `vulkan`, `metal` or `dx12`.
+    /// The name of the graphics interface, which is `vulkan`, `metal` or `dx12`.
     pub backend: String,
-    /// The kind of device, which is `discrete`, `integrated`, `virtual`, `software` or `other`.
+    /// The kind of graphics adapter, which is `discrete`, `integrated`, `virtual`, `software` or `other`.
     pub kind: String,
     /// The greatest width and the greatest height of an image, in pixels.
     pub max_image: u32,
-    /// The greatest number of images that can be drawn into one array.
+    /// The greatest number of images that the adapter can draw in one batch.
     pub max_layers: u32,
-    /// The greatest size of a buffer, in bytes.
+    /// The greatest size of a buffer on the adapter, in bytes.
     pub max_buffer: u64,
 }
 
@@ -37,7 +37,8 @@ impl Trouble {
         }
     }
 
-    /// Fails if the device had an error. The loss of a device is permanent; any other error is reported once.
+    /// Returns the error of the device, if the device had an error. The loss of a device is permanent; any other error
+    /// is reported once.
     pub fn check(&self) -> Result<(), RenderError> {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &*first {
@@ -59,7 +60,7 @@ pub(super) struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the best adapter of this machine, which may be an adapter that draws on the processor.
+    /// Opens the best graphics adapter of this machine, which may be a software adapter.
     pub fn open() -> Result<Self, RenderError> {
         let adapter = best()?;
         let description = describe(&adapter);
@@ -87,7 +88,7 @@ impl Gpu {
         Ok(Self { adapter: description, limits, device, queue, trouble })
     }
 
-    /// Waits until a submission is done, and fails if the device had an error by then.
+    /// Waits until the adapter has completed a submission, and returns the device's error, if any.
     pub fn wait(&self, submission: wgpu::PollType) -> Result<(), RenderError> {
         let waited = self.device.poll(submission);
         if waited.is_err() {
@@ -99,7 +100,7 @@ impl Gpu {
     }
 }
 
-/// Returns the adapter that would draw on this machine, without opening it.
+/// Returns a description of the best graphics adapter of this machine, without opening it.
 ///
 /// # Errors
 /// The machine has no adapter.
@@ -134,7 +135,7 @@ fn describe(adapter: &wgpu::Adapter) -> Adapter {
     }
 }
 
-/// Waits for a future that is ready at once outside of browsers.
+/// Returns the result of a future that is ready immediately, except in browsers.
 fn now<F: Future>(future: F) -> F::Output {
     let mut future = pin!(future);
     let mut context = Context::from_waker(Waker::noop());

@@ -1,4 +1,4 @@
-//! Cuts the masks of things alone into bands of rows, so that any number of things fits into one buffer.
+//! Cuts the masks of objects alone into bands of rows, so that any number of objects fits into one buffer.
 //!
 //! A view of several bands becomes several layers: the first has the view's images and the first band, and each of the
 //! others has one band.
@@ -27,7 +27,7 @@ pub(super) fn layers<'a>(
     bands.into_iter().zip(copies).map(move |(rows, prepared)| Layer { index, camera, prepared, rows })
 }
 
-/// Returns the rows of each band.
+/// Returns the range of image rows of each band.
 fn bands(format: Format, words: u32, limit: u64) -> Vec<Range<u32>> {
     let row = format.mask_bytes(words, 1).max(1);
     let high = u32::try_from(limit / row).unwrap_or(u32::MAX).clamp(1, format.height);

@@ -14,28 +14,28 @@ const MOST_BYTES: u64 = 48 << 20;
 /// A view in a batch.
 #[derive(Debug)]
 pub(super) struct Layer<'a> {
-    /// The index of the view.
+    /// The index of the view among all views of the call.
     pub index: usize,
     pub camera: &'a Camera,
     pub prepared: Prepared,
-    /// The rows of which the masks of things alone are drawn.
+    /// The range of image rows in which the layer draws the masks of objects alone.
     pub rows: Range<u32>,
 }
 
 impl Layer<'_> {
-    /// Returns `true` if the layer has the images of its view, and not only masks.
+    /// Returns `true` if the layer contains the images of its view in addition to masks.
     pub fn has_images(&self) -> bool {
         self.rows.start == 0
     }
 
-    /// Returns the images that the layer has.
+    /// Returns the size and the kinds of the layer's images.
     fn format(&self, wanted: WantedImages) -> Format {
         let masks = WantedImages { alone: true, ..WantedImages::default() };
         let wanted = if self.has_images() { wanted } else { masks };
         Format { width: self.camera.width(), height: self.camera.height(), wanted }
     }
 
-    /// Returns the number of bytes of the layer's masks.
+    /// Returns the size in bytes of the layer's masks.
     pub fn mask_bytes(&self, format: Format) -> u64 {
         format.mask_bytes(self.prepared.words(), self.rows.len() as u32)
     }

@@ -27,7 +27,7 @@ impl Image {
         }
     }
 
-    /// Returns the number of bytes of a pixel.
+    /// Returns the size in bytes of a pixel of the image.
     pub fn bytes(self) -> u32 {
         match self {
             Self::Semantic => 1,
@@ -51,7 +51,7 @@ impl Image {
         }
     }
 
-    /// Returns the value of a pixel that sees nothing.
+    /// Returns the value of a pixel that shows no object.
     pub fn nothing(self) -> wgpu::Color {
         let first = match self {
             Self::Rgb | Self::Linear | Self::Instance => 0.0,

@@ -16,21 +16,21 @@ const HIGH: f32 = 2.5;
 pub(super) struct GpuMesh {
     pub corners: wgpu::Buffer,
     pub indices: wgpu::Buffer,
-    /// The range of indices for the surfaces of each finish.
+    /// The range of indices of the surfaces of each finish.
     pub parts: [Range<u32>; 3],
     pub low: Vector3<f64>,
     pub high: Vector3<f64>,
-    /// The place of a lamp that lights up the ground below, if the mesh has such a lamp.
+    /// The position of the mesh's lamp that lights the ground, if the mesh has a lamp.
     pub lamp: Option<Point3<f64>>,
 }
 
 /// The demands of a surface on the program that draws it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Finish {
-    /// Neither glossy nor grained.
+    /// A surface that is neither glossy nor grained.
     Dull,
     Glossy,
-    /// A grained surface, mostly the ground. It is drawn last, since most other things hide parts of it.
+    /// A grained surface, mostly the ground. It is drawn last, since most other objects hide parts of it.
     Grained,
 }
 
@@ -49,9 +49,9 @@ impl Finish {
 /// The reason why a mesh cannot be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Unfit {
-    /// A corner has a number that is not finite.
+    /// A corner of the mesh has a number that is not finite.
     Corner(InstanceFlaw),
-    /// The mesh takes this many bytes, more than a buffer may have.
+    /// The mesh is larger than a buffer of the adapter, and has this size in bytes.
     TooLarge(u64),
 }
 
@@ -60,18 +60,18 @@ pub(super) enum Unfit {
 pub(super) struct Meshes(BTreeMap<u64, (Weak<Mesh>, Result<GpuMesh, Unfit>)>);
 
 impl Meshes {
-    /// Forgets the meshes that nobody holds any more, since nobody can ask for them again.
+    /// Removes the meshes that no caller holds any more.
     pub fn evict(&mut self) {
         self.0.retain(|_, (mesh, _)| mesh.strong_count() > 0);
     }
 
-    /// Uploads a mesh to the adapter unless it is already there.
+    /// Copies a mesh to the adapter unless the adapter already has it.
     pub fn upload(&mut self, gpu: &Gpu, mesh: &Arc<Mesh>) -> &Result<GpuMesh, Unfit> {
         let (_, uploaded) = self.0.entry(mesh.key()).or_insert_with(|| (Arc::downgrade(mesh), GpuMesh::new(gpu, mesh)));
         uploaded
     }
 
-    /// Returns the mesh with this key.
+    /// Returns the uploaded mesh with the given key.
     pub fn get(&self, key: u64) -> &GpuMesh {
         self.0[&key].1.as_ref().expect("only meshes that are fit are drawn")
     }
@@ -83,7 +83,7 @@ impl Meshes {
 }
 
 impl GpuMesh {
-    /// Returns the number of indices.
+    /// Returns the number of corner indices of the mesh.
     pub fn count(&self) -> u32 {
         self.parts[2].end
     }
@@ -121,7 +121,7 @@ impl GpuMesh {
     }
 }
 
-/// Returns the middle of the lamps high up in a mesh, if there are any.
+/// Returns the middle of all lamps high up in a mesh; `None` if the mesh has no such lamp.
 fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
     let lamps = mesh.vertices().iter().filter(|vertex| vertex.surface == SurfaceKind::WhiteLamp);
     let high: Vec<_> = lamps.filter(|vertex| vertex.position[2] > HIGH).collect();
@@ -129,9 +129,9 @@ fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
     (!high.is_empty()).then(|| Point3::from(sum / high.len() as f64))
 }
 
-/// Returns corners and triangles such that no two triangles share their first corner. Values that are constant over a
-/// triangle are stored at its first corner. Triangles are turned so that they begin with a corner that is still free;
-/// if no corner is free, one is doubled.
+/// Returns the corners and triangles of a mesh, rearranged so that no two triangles share their first corner. Values
+/// that are constant over a triangle are stored at its first corner. Triangles are turned so that they begin with a
+/// corner that is still free; if no corner is free, one is doubled.
 fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
     let mut corners: Vec<RawCorner> = mesh.vertices().iter().map(raw).collect();
     let mut free = vec![true; corners.len()];
@@ -155,7 +155,7 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
     (corners, triangles)
 }
 
-/// Returns the indices of triangles, sorted by finish, with the range of each finish.
+/// Returns the corner indices of triangles, sorted by finish, and the range of each finish.
 fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
     let mut indices = Vec::with_capacity(3 * triangles.len());
     let parts = Finish::ALL.map(|finish| {
@@ -166,7 +166,7 @@ fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
     (indices, parts)
 }
 
-/// Returns the unit normal of a triangle, if the triangle has an area.
+/// Returns the unit normal of a triangle; `None` if the area of the triangle is 0.
 fn face(mesh: &Mesh, triangle: &[u32]) -> Option<Vector3<f32>> {
     let corner = |index: usize| Vector3::from(mesh.vertices()[triangle[index] as usize].position).cast::<f64>();
     let (a, b, c) = (corner(0), corner(1), corner(2));
@@ -188,7 +188,7 @@ fn raw(vertex: &Vertex) -> RawCorner {
 }
 
 impl Shape {
-    /// Returns the middle and the radius of the ball around the mesh, in the camera's coordinates.
+    /// Returns the centre and the radius of a sphere around the mesh, in the camera's coordinates.
     pub fn ball(&self, mesh: &GpuMesh) -> (Point3<f64>, f64) {
         let middle = (mesh.low + mesh.high) / 2.0;
         let radius = ((mesh.high - mesh.low) / 2.0).component_mul(&self.scale).norm();

@@ -29,7 +29,7 @@ use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
 use targets::{Format, Targets, cleared, view_stride};
 
-/// Draws the images of views on a graphics adapter.
+/// A renderer that draws the images of many views on a graphics adapter.
 ///
 /// An image depends on its view alone, and neither on the views drawn with it nor on those drawn before. It does depend
 /// on the adapter and its driver.
@@ -38,9 +38,9 @@ pub struct Renderer {
     gpu: Gpu,
     pipelines: Pipelines,
     meshes: Meshes,
-    /// The sets of layers that no batch uses at the moment.
+    /// The sets of layers that no batch uses at present.
     idle: Vec<Targets>,
-    /// The most bytes that the masks of a view take at a time.
+    /// The greatest size in bytes of a view's masks in one layer.
     most_masks: u64,
 }
 
@@ -52,7 +52,7 @@ struct Batch<'a> {
 }
 
 impl Renderer {
-    /// Makes a renderer on the best adapter of this machine; an adapter on the processor will do.
+    /// Makes a renderer on the best graphics adapter of this machine, which may be a software adapter.
     ///
     /// # Errors
     /// There is no adapter, or it cannot be opened.
@@ -65,18 +65,19 @@ impl Renderer {
         Ok(Self { gpu, pipelines, meshes: Meshes::default(), idle: Vec::new(), most_masks })
     }
 
-    /// Returns the adapter that the renderer draws with.
+    /// Returns a description of the graphics adapter that the renderer draws with.
     pub fn adapter(&self) -> &Adapter {
         &self.gpu.adapter
     }
 
-    /// Loses the device, as when a driver gives up, for tests of the code that draws with the renderer.
+    /// Ends the graphics device for tests of the handling of a lost device.
     #[doc(hidden)]
     pub fn lose(&self) {
         self.gpu.device.destroy();
     }
 
-    /// Draws the views, and returns their frames in the same order. If one view cannot be drawn, the others still are.
+    /// Draws the wanted images of all views, and returns a frame for each view in the same order. If one view cannot be
+    /// drawn, the others still are.
     ///
     /// # Errors
     /// The device is lost, or it fails.
@@ -112,7 +113,7 @@ impl Renderer {
         Ok(frames.into_iter().map(|frame| frame.expect("every view was drawn or refused")).collect())
     }
 
-    /// Checks that images of a camera are small enough for the adapter, whatever the scene.
+    /// Checks that the graphics adapter can draw images of the camera's size.
     ///
     /// # Errors
     /// The images are too large.
@@ -181,7 +182,7 @@ impl Renderer {
         Batch { targets, submission, layers }
     }
 
-    /// Draws one view.
+    /// Draws the images of one view.
     fn encode(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -218,7 +219,7 @@ impl Renderer {
         }
     }
 
-    /// Draws the masks of things alone of a view, for the rows of this layer.
+    /// Draws a view's masks of objects alone in the rows of the given layer.
     fn encode_masks(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -237,7 +238,7 @@ impl Renderer {
         }
     }
 
-    /// Draws all surfaces of the instances of these meshes, or only the surfaces of one finish.
+    /// Draws all surfaces of the instances of the given meshes, or only the surfaces of one finish.
     fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -258,7 +259,7 @@ impl Renderer {
         }
     }
 
-    /// Waits for a batch, and stores its frames at the indices of their views.
+    /// Waits until a batch is drawn, and stores each frame at the index of its view.
     fn collect(
         &mut self,
         batch: Batch<'_>,
@@ -298,7 +299,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Returns layers for a batch. They are idle layers of the same format, if there are any.
+    /// Returns a set of texture layers into which a batch of views can be drawn. They are idle layers of the same
+    /// format, if there are any.
     fn targets(&mut self, format: Format, layers: u32) -> Targets {
         let fits = |idle: &Targets| idle.format == format && idle.layers >= layers;
         if let Some(index) = self.idle.iter().position(fits) {

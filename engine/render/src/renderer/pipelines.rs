@@ -17,8 +17,7 @@ pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    /// The shadow map, which is the sun's view of the scene, in the form that surfaces read and in the form that is
-    /// drawn.
+    /// The shadow map as an input of the programs for surfaces, and as the image that the adapter draws it into.
     pub sun: wgpu::BindGroup,
     pub sun_depth: wgpu::TextureView,
     shaded: wgpu::PipelineLayout,
@@ -30,9 +29,9 @@ pub(super) struct Pipelines {
 /// The programs that draw a set of images.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
-    /// The programs for surfaces, in the order of [`Finish::ALL`].
+    /// The programs that draw surfaces, in the order of [`Finish::ALL`].
     pub surfaces: [wgpu::RenderPipeline; 3],
-    /// The program for the sky, if light is asked for.
+    /// The program that draws the sky; `None` if no colours are wanted.
     pub sky: Option<wgpu::RenderPipeline>,
 }
 
@@ -76,7 +75,7 @@ impl Pipelines {
         Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
     }
 
-    /// Returns the programs for these images in this weather.
+    /// Returns the programs that draw the wanted images in the given weather.
     pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> Drawing {
         // Without light, the weather makes no difference.
         let weather = if wanted.light() { weather } else { Weather::default() };

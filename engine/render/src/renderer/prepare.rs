@@ -1,4 +1,4 @@
-//! Prepares a view for the adapter: checks that it can be drawn, finds the things in sight, and computes their places.
+//! Prepares a view for the adapter: checks that it can be drawn, finds the objects in sight, and computes their places.
 
 use super::adapter::Gpu;
 use super::inside::inside;
@@ -15,18 +15,18 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub raw: RawView,
-    /// The instances that are in sight, and those that throw shadows.
+    /// The instances that the camera sees, and the instances that throw shadows.
     pub instances: Vec<RawInstance>,
     pub draws: Vec<Draw>,
     pub casters: Vec<Draw>,
-    /// The bit of each thing in the masks of things alone; empty if those masks are not wanted.
+    /// The index of each object's bit in the masks of objects alone, by the object's id; empty if masks are not wanted.
     pub bits: BTreeMap<u16, u32>,
 }
 
 /// The conditions besides daylight.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Weather {
-    /// True if lamps shine.
+    /// True if head lamps and street lamps shine.
     pub lamps: bool,
     pub fog: bool,
 }
@@ -39,12 +39,12 @@ pub(super) struct Draw {
 }
 
 impl Prepared {
-    /// Returns the weather as far as the programs depend on it.
+    /// Returns the conditions of the weather on which the programs of the adapter depend.
     pub fn weather(&self) -> Weather {
         Weather { lamps: self.raw.sun[3] > 0.0, fog: self.raw.up[3] > 0.0 }
     }
 
-    /// Returns the number of words of each pixel in the masks of things alone.
+    /// Returns the number of 32-bit words for each pixel in the masks of objects alone.
     pub fn words(&self) -> u32 {
         (self.bits.len() as u32).div_ceil(32)
     }
@@ -83,7 +83,7 @@ pub(super) fn prepare(
         let (middle, radius) = shape.ball(mesh);
         placed.push(Placed { instance, mesh, shape, middle, radius });
     }
-    // Near things hide far things, whose hidden pixels then need no colour.
+    // Near objects hide far objects, whose hidden pixels then need no colour.
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
 
     let sun = to_sun(&view.scene.air);
@@ -110,7 +110,7 @@ pub(super) fn prepare(
 }
 
 impl Prepared {
-    /// Adds these instances, sorted by mesh.
+    /// Adds the given instances, sorted by mesh.
     fn add<'a>(&mut self, placed: impl Iterator<Item = &'a Placed<'a>>) -> Vec<Draw> {
         let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
@@ -134,7 +134,7 @@ impl Prepared {
     }
 }
 
-/// Returns `true` if the thing can throw a shadow. The ground cannot.
+/// Returns `true` if the object can throw a shadow because it is not flat. The ground cannot.
 fn is_solid(placed: &Placed<'_>) -> bool {
     (placed.mesh.high.z - placed.mesh.low.z) * placed.shape.scale.z > 0.05
 }
@@ -248,7 +248,7 @@ fn raw_view(
     }
 }
 
-/// Returns the most important street lamps, in the camera's coordinates.
+/// Returns the positions and the brightness of the most important street lamps, in the camera's coordinates.
 fn street_lamps(placed: &[Placed<'_>], bright: f32) -> [[f32; 4]; 8] {
     let mut lamps = [[0.0; 4]; 8];
     if bright == 0.0 {

@@ -29,12 +29,12 @@ pub(super) struct RawView {
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(super) struct RawCorner {
     pub position: [f32; 3],
-    /// The normal of the triangle whose first corner this is.
+    /// The normal of the triangle of which the vertex is the first corner.
     pub face: [f32; 3],
     pub normal: [i16; 4],
     pub uv: [f32; 2],
     pub colour: [u16; 4],
-    /// The surface kind, the class, and two unused bytes.
+    /// The surface kind and the class as bytes, followed by two unused bytes.
     pub kind: [u8; 4],
 }
 
@@ -53,7 +53,7 @@ impl RawCorner {
 /// The place of an instance's mesh relative to a camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
-    /// The transformation from the scaled mesh's coordinates to the camera's.
+    /// The transformation from the coordinates of the scaled mesh to the camera's coordinates.
     pub to_camera: Isometry3<f64>,
     /// The factors by which the instance is larger than the mesh.
     pub scale: Vector3<f64>,
@@ -65,7 +65,7 @@ impl Shape {
         self.to_camera.rotation.to_rotation_matrix() * Matrix3::from_diagonal(&self.scale)
     }
 
-    /// Returns the pinhole in the mesh's coordinates.
+    /// Returns the position of the pinhole, in the mesh's coordinates.
     pub fn eye(&self) -> Vector3<f64> {
         self.to_camera.inverse().translation.vector.component_div(&self.scale)
     }
@@ -79,7 +79,7 @@ pub(super) struct RawInstance {
     eye: [f32; 3],
     unscale: [f32; 3],
     paint: [f32; 3],
-    /// The id, and in the upper half the instance's bit in the masks of things alone.
+    /// The id of the instance in the lower half, and the index of its bit in the masks in the upper half.
     id: u32,
 }
 

@@ -58,7 +58,7 @@ fn fill<'a>(frame: &mut Frame, image: Image, rows: impl Iterator<Item = &'a [u8]
     }
 }
 
-/// Collects the pixels of rows, of N bytes each.
+/// Collects the pixels of several rows, of `N` bytes each.
 fn gathered<'a, T, const N: usize>(
     rows: impl Iterator<Item = &'a [u8]>,
     pixels: usize,
@@ -69,7 +69,7 @@ fn gathered<'a, T, const N: usize>(
     all
 }
 
-/// Returns the pixels that each thing would have if it were alone, from the masks of a view from row `top` on.
+/// Returns the pixels that each object would have if it were alone, from the masks of a view from row `top` on.
 pub(super) fn alone(format: Format, top: u32, masks: &[u8], bits: &BTreeMap<u16, u32>) -> Vec<Extent> {
     let ids: Vec<u16> = bits.keys().copied().collect();
     let words = ids.len().div_ceil(32);

@@ -10,14 +10,14 @@ pub(super) const TEXELS: u32 = 1024;
 const REACH: f64 = 36.0;
 /// The distance from the camera to the middle of the map, in metres.
 const AHEAD: f64 = 30.0;
-/// The greatest distance, towards the sun and away from it, at which things throw shadows into the map, in metres.
+/// The greatest distance, towards the sun and away from it, at which objects throw shadows into the map, in metres.
 const DEEP: f64 = 150.0;
 
 /// The shadow map of one view.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShadowMap {
-    /// The transformation from the camera's coordinates to the light's. In the light's coordinates, x and y are
-    /// perpendicular to the rays, z points towards the sun, and the middle is the origin.
+    /// The transformation from the camera's coordinates to the light's coordinates. In the light's coordinates, x and y
+    /// are perpendicular to the rays, z points towards the sun, and the middle is the origin.
     to_light: Isometry3<f64>,
 }
 
@@ -29,7 +29,7 @@ pub(super) fn to_sun(air: &Atmosphere) -> Vector3<f64> {
 }
 
 impl ShadowMap {
-    /// Makes the map for a camera with this pose, under this sun.
+    /// Makes the shadow map for a pose of the camera and a direction to the sun.
     pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>) -> Self {
         let ahead = camera * Vector3::x();
         let level = Vector3::new(ahead.x, ahead.y, 0.0).try_normalize(1e-9).unwrap_or_default();
@@ -42,14 +42,14 @@ impl ShadowMap {
         Self { to_light: to_light * camera }
     }
 
-    /// Returns the rows of the transformation from a point in front of the camera to the map. On the map, coordinates
-    /// are 0 to 1 across and down, and 0 to 1 in depth.
+    /// Returns the rows of the matrix that maps the camera's coordinates to the shadow map. On the map, coordinates are
+    /// 0 to 1 across and down, and 0 to 1 in depth.
     pub fn rows(&self) -> [[f32; 4]; 3] {
         let linear = Matrix3::from_diagonal(&Vector3::new(0.5 / REACH, -0.5 / REACH, -0.5 / DEEP));
         rows(&linear, &self.to_light, &Vector3::repeat(0.5))
     }
 
-    /// Returns `true` if something within this ball can throw a shadow into the map.
+    /// Returns `true` if an object within a ball can throw a shadow into the shadow map.
     pub fn catches(&self, middle: &Point3<f64>, radius: f64) -> bool {
         let middle = self.to_light * middle;
         middle.x.abs() < REACH + radius && middle.y.abs() < REACH + radius && middle.z.abs() < DEEP + radius

@@ -23,23 +23,23 @@ impl Format {
         Image::ALL.into_iter().filter(move |image| image.is_wanted(self.wanted))
     }
 
-    /// Returns the number of bytes of a row of an image in the buffer that is read back.
+    /// Returns the size in bytes of a row of an image in the readback buffer.
     pub fn pitch(self, image: Image) -> u64 {
         let align = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
         (u64::from(self.width) * u64::from(image.bytes())).next_multiple_of(u64::from(align))
     }
 
-    /// Returns the number of bytes of an image in the buffer that is read back.
+    /// Returns the size in bytes of an image in the readback buffer.
     pub fn stride(self, image: Image) -> u64 {
         self.pitch(image) * u64::from(self.height)
     }
 
-    /// Returns the number of bytes of all images of a view in the buffer that is read back.
+    /// Returns the size in bytes of all images of a view in the readback buffer.
     pub fn bytes(self) -> u64 {
         self.images().map(|image| self.stride(image)).sum()
     }
 
-    /// Returns the number of bytes of `rows` rows of the masks of things alone, with `words` words for each pixel.
+    /// Returns the size in bytes of `rows` rows of masks with `words` 32-bit words for each pixel.
     pub fn mask_bytes(self, words: u32, rows: u32) -> u64 {
         u64::from(self.width) * u64::from(rows) * u64::from(words) * 4
     }
@@ -53,20 +53,20 @@ impl Format {
 #[derive(Debug)]
 pub(super) struct Targets {
     pub format: Format,
-    /// The number of views that fit.
+    /// The greatest number of views in a batch that uses the layers.
     pub layers: u32,
     textures: Vec<(Image, wgpu::Texture, Vec<wgpu::TextureView>)>,
     depth: wgpu::TextureView,
-    /// The uniforms of each view.
+    /// The data of each view in the form that the shaders read.
     pub uniforms: wgpu::Buffer,
     pub view_group: wgpu::BindGroup,
-    /// The instances of all views.
+    /// The data of the instances of all views in the form that the shaders read.
     pub instances: wgpu::Buffer,
     pub readback: wgpu::Buffer,
     pub masks: Option<Masks>,
 }
 
-/// The masks of things alone.
+/// The masks of objects alone.
 #[derive(Debug)]
 pub(super) struct Masks {
     pub words: wgpu::Buffer,
@@ -117,7 +117,7 @@ impl Targets {
         }
     }
 
-    /// Makes room for this many instances and words of masks.
+    /// Enlarges the buffers to the given numbers of instances and of words of masks.
     pub fn reserve(&mut self, gpu: &Gpu, pipelines: &Pipelines, instances: usize, words: u64) {
         if instance_bytes(instances) > self.instances.size() {
             let room = instance_bytes(instances.next_power_of_two());
@@ -131,7 +131,7 @@ impl Targets {
         }
     }
 
-    /// Begins to draw the view of a layer, into all wanted images or into none of them.
+    /// Begins to draw a view into its layer of all wanted images, or of no image if only masks are wanted.
     pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, layer: u32, images: bool) -> wgpu::RenderPass<'a> {
         let attachment = |image: Image| {
             let (_, _, views) = self.textures.iter().find(|(of, _, _)| *of == image)?;
@@ -153,7 +153,7 @@ impl Targets {
         })
     }
 
-    /// Copies the first `layers` layers to the buffer from which they are read back.
+    /// Copies the images of the first `layers` layers to the readback buffer.
     pub fn copy(&self, encoder: &mut wgpu::CommandEncoder, layers: u32) {
         let Format { width, height, .. } = self.format;
         let mut offset = 0;

@@ -117,5 +117,5 @@ fn masks_of_things_alone_are_the_same_in_however_many_bands_they_are_drawn() {
     renderer.most_masks = 575;
     let refused =
         renderer.render(&views[..1], wanted).expect("the adapter works").remove(0).expect_err("a row is more");
-    assert!(refused.to_string().contains("a row of the mask"), "{refused}");
+    assert!(refused.to_string().contains("a row of pixels in the occlusion masks"), "{refused}");
 }

@@ -28,16 +28,16 @@ const CHILD: f32 = 1.4;
 /// A body that is being drawn.
 pub(super) struct Figure<'a> {
     pub state: &'a BodyState,
-    /// The place of the figure, with its heading along x and the ground that the body stands on at z = 0.
+    /// The pose of the body, with its heading along x and its feet or wheels at z = 0.
     pub pose: Isometry3<f32>,
-    /// Length, width and height in metres.
+    /// The length, the width and the height of the body in metres.
     pub size: [f32; 3],
     pub paint: [f32; 3],
     pub id: u16,
 }
 
 impl<'a> Figure<'a> {
-    /// Makes the figure of a body that stands `raised` metres above the ground.
+    /// Makes a drawable figure of a body that stands `raised` metres above the road.
     pub fn new(state: &'a BodyState, raised: f32, id: u16) -> Self {
         let position = state.pose.position.map(|metres| metres as f32);
         let up = state.altitude as f32 + raised;
@@ -46,18 +46,18 @@ impl<'a> Figure<'a> {
         Self { state, pose, size: size(&state.body), paint: linear(state.body.colour), id }
     }
 
-    /// Returns a mesh of this figure, placed at `at` relative to the figure's pose.
+    /// Returns an instance of a mesh at the pose `at` relative to the body.
     pub fn part(&self, mesh: &Arc<Mesh>, at: Isometry3<f32>, scale: [f32; 3]) -> Instance {
         Instance { mesh: mesh.clone(), pose: self.pose * at, scale, paint: self.paint, id: self.id }
     }
 
-    /// Returns a mesh that was modelled in another size, stretched to the size of the body.
+    /// Returns an instance of a mesh of the size `modelled`, stretched to the size of the body.
     pub fn stretched(&self, mesh: &Arc<Mesh>, modelled: [f32; 3]) -> Instance {
         let scale = [0, 1, 2].map(|axis| self.size[axis] / modelled[axis]);
         self.part(mesh, Isometry3::identity(), scale)
     }
 
-    /// Adds all meshes that stand for the body to the scene.
+    /// Adds instances of all meshes that represent the body to the scene.
     pub fn draw(&self, scene: &mut Vec<Instance>) {
         let models = Models::shared();
         match self.state.body.class {
@@ -122,8 +122,8 @@ impl<'a> Figure<'a> {
         self.stretched(mesh, [1.0; 3])
     }
 
-    /// Returns a number that looks random and depends only on the place. It is the hash FNV-1a (Fowler, Noll, Vo) over
-    /// centimetres.
+    /// Returns a pseudorandom number that depends only on the place of the body. It is the hash FNV-1a (Fowler, Noll,
+    /// Vo) over centimetres.
     fn chance(&self) -> u32 {
         let place = self.state.pose.position.map(|metres| (metres * 100.0).round() as i64);
         let bytes = place.iter().flat_map(|centimetres| centimetres.to_le_bytes());

@@ -18,7 +18,7 @@ const PIECE: f64 = 32.0;
 const TOLERANCE: f64 = 0.02;
 /// The height of sidewalks above the road, in metres.
 pub(super) const KERB: f64 = 0.12;
-/// The distance by which ground continues under the things that lie on it, in metres.
+/// The distance by which ground continues under the objects that lie on it, in metres.
 const UNDER: f64 = 0.05;
 /// The height of paint above the surface below, in metres: enough to tell the two apart from far away.
 const PAINT: f64 = 0.006;
@@ -88,7 +88,7 @@ pub(super) fn cuts(curve: &Curve, right: f64, left: f64) -> Vec<f64> {
     (0..=pieces).map(|i| curve.length() * i as f64 / pieces as f64).collect()
 }
 
-/// Adds a strip to the chunks that its pieces lie in.
+/// Adds the surface of a strip of road to the meshes of the ground.
 fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     let Lie { matter, height, wider, longer } = lie(strip.surface);
     let (right, left) = (strip.right - wider[0], strip.left + wider[1]);
@@ -127,7 +127,7 @@ fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     }
 }
 
-/// Returns the plain, which is grass as far as one can see.
+/// Returns the wide plain of grass around the roads.
 fn plain(bounds: &Bounds) -> Instance {
     let middle = (0.5 * (bounds.min + bounds.max)).map(f64::round);
     let half = (0.5 * (bounds.max - bounds.min)).map(|metres| (metres + HORIZON) as f32);

@@ -43,7 +43,8 @@ impl Pavement {
         Self { strips, cells }
     }
 
-    /// Returns the height of the ground at a point, in metres. It rises from the edges of a sidewalk to its top.
+    /// Returns the height of the ground at a point, in metres above the road. It rises from the edges of a sidewalk to
+    /// its top.
     pub fn height(&self, point: Vector2<f64>) -> f64 {
         let here = self.cells.get(&cell(point)).into_iter().flatten();
         let inside = here.map(|index| inside(&self.strips[*index], point)).fold(0.0, f64::max);

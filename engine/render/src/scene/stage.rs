@@ -12,7 +12,7 @@ use paracosm_engine::road::RoadNetwork;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// A road network in the form in which it is drawn, built once for every moment of every run on it.
+/// The drawable scenery of a road network, built once and shared by the scenes of all runs on the network.
 ///
 /// ```
 /// use paracosm_engine::road::CrossIntersection;
@@ -30,43 +30,44 @@ pub struct Stage {
     models: BTreeMap<Class, Model>,
 }
 
-/// A mesh of the user that is stretched to the box of the body that it stands for. The front of the mesh is along x.
+/// A user's own mesh, which is stretched to the bounding box of the body that it represents. The front of the mesh is
+/// along x.
 #[derive(Debug)]
 pub struct Model {
     mesh: Arc<Mesh>,
-    /// The middle of the bottom of the mesh's box.
+    /// The middle of the bottom of the mesh's bounding box.
     foot: Vector3<f32>,
     size: [f32; 3],
 }
 
-/// The bodies of a run that are shown as models of the user, by their indices.
+/// The users' own models of the bodies of a run, by the indices of the bodies.
 pub type Cast = BTreeMap<usize, Arc<Model>>;
 
 impl Stage {
-    /// Makes the stage of a network.
+    /// Makes the drawable scenery of a road network.
     pub fn of(network: &RoadNetwork) -> Self {
         Self { still: ground(network), pavement: Pavement::of(network), models: BTreeMap::new() }
     }
 
-    /// Shows all bodies of a class as this mesh, stretched to their boxes. The front of the mesh is along x.
+    /// Sets a user's own mesh as the model of all bodies of a class. The front of the mesh is along x.
     pub fn model(mut self, class: Class, mesh: impl Into<Arc<Mesh>>) -> Self {
         self.models.insert(class, Model::new(mesh));
         self
     }
 
-    /// Returns the scene of a run at its current tick, with all bodies that are present. The ego vehicle has the id 1,
-    /// so that a camera mounted on it can leave it out.
+    /// Returns the scene of a run at its current tick, with all bodies that are in the world. The ego vehicle has the
+    /// id 1, so that a camera mounted on it can leave it out.
     pub fn scene(&self, run: &Run) -> Scene {
         self.scene_of(run.bodies().iter().enumerate(), Atmosphere::of(&run.weather()))
     }
 
-    /// Returns the scene of these bodies in this air. Each body comes with its index in the run; bodies that left the
-    /// world are skipped.
+    /// Returns the scene of the given bodies in the given light and fog. Each body comes with its index in the run;
+    /// bodies that left the world are skipped.
     pub fn scene_of<'a>(&self, bodies: impl IntoIterator<Item = (usize, &'a BodyState)>, air: Atmosphere) -> Scene {
         self.scene_with(&Cast::new(), bodies, air)
     }
 
-    /// Returns the scene as [`Stage::scene_of`] does, with the bodies in `cast` shown as models of the user.
+    /// Returns the scene of the given bodies, with the bodies in `cast` drawn as users' own models.
     pub fn scene_with<'a>(
         &self,
         cast: &Cast,
@@ -90,7 +91,7 @@ impl Stage {
 }
 
 impl Model {
-    /// Makes a model of a mesh.
+    /// Makes a model from a mesh, whose bounding box is computed.
     pub fn new(mesh: impl Into<Arc<Mesh>>) -> Self {
         let mesh = mesh.into();
         let points = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position));
@@ -109,14 +110,15 @@ impl Model {
     }
 }
 
-/// The stages of networks, kept as long as the networks live.
+/// A cache of the drawable sceneries of road networks, kept as long as the networks live.
 #[derive(Debug, Default)]
 pub struct Stages {
     known: Mutex<Vec<(Weak<RoadNetwork>, Arc<Stage>)>>,
 }
 
 impl Stages {
-    /// Returns the stage of a network. Tests on the same network share one stage.
+    /// Returns the drawable scenery of a road network, from the cache if possible. Tests on the same network share one
+    /// stage.
     pub fn of(&self, network: &Arc<RoadNetwork>) -> Arc<Stage> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|(of, _)| of.strong_count() > 0);

@@ -38,8 +38,11 @@ fn numbers_out_of_range_are_refused_with_their_key_and_their_range() {
         (lens("blur", 17.0), "`blur` is 17, expected 0 to 16 pixels"),
         (lens("vignetting", 1.5), "`vignetting` is 1.5, expected 0 to 1 (how much darker corners get: "),
         (lens("full_well", -1.0), "`full_well` is -1, expected 0 to 1e9 electrons"),
-        (lens("bluur", 1.0), "there is no key `bluur` (did you mean `blur`?), expected some of resolution, focal_mm, "),
-        (lens("rate", 1.0), "there is no key `rate`"),
+        (
+            lens("bluur", 1.0),
+            "a lens has no key `bluur` (did you mean `blur`?); its keys are motion, motion_angle, defocus, ",
+        ),
+        (lens("rate", 1.0), "a lens has no key `rate`; its keys are "),
         (refused(|camera| camera.resolution[1] = 0), "`resolution` is [8, 0], expected 1 to 8192 pixels each way"),
         (refused(|camera| camera.rate = 0.0), "`rate` is 0, expected 0.001 to 1000 Hz"),
         (
@@ -107,7 +110,7 @@ fn one_effect_more_is_in_the_table_in_the_checks_and_in_the_image() {
     let flaw = Optics::with(settings, &cameras(&[("gain", 9.0)])).expect_err("it is too much").to_string();
     assert_eq!(flaw, "camera `front`: `gain` is 9, expected 0 to 8 (how much more light there is)");
     let flaw = Optics::of(&cameras(&[("gain", 2.0)])).expect_err("it is another table").to_string();
-    assert!(flaw.starts_with("camera `front`: there is no key `gain`"), "{flaw}");
+    assert!(flaw.starts_with("camera `front`: a lens has no key `gain`"), "{flaw}");
 
     let frame = Frame {
         camera: Camera::of(&front(&[])).expect("a sound camera"),

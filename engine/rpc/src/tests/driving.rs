@@ -225,7 +225,7 @@ fn a_driver_with_a_rig_and_one_that_panics_are_no_loss_to_others() {
         }
     }
     let message = open(&served(|| Box::new(Bad(true)))).map(drop).unwrap_err().to_string();
-    assert!(message.contains("a driver with a rig cannot be served"), "{message}");
+    assert!(message.contains("expected a driver with cameras only"), "{message}");
     let address = served(|| Box::new(Bad(false)));
     for _ in 0..2 {
         let mut session = open(&address).unwrap();

@@ -59,10 +59,13 @@ fn a_welcome_that_cannot_be_is_refused() {
     let lidar = |name: &str| wire::Lidar { name: name.into(), ..Default::default() };
     let camera = wire::Camera { name: "front".into(), ..Default::default() };
     for (wrong, why) in [
-        (wire::Welcome { protocol: 2, ..welcome() }, "speaks protocol 2, expected 1"),
+        (wire::Welcome { protocol: 2, ..welcome() }, "version 2 of the protocol, expected version 1"),
         (wire::Welcome { period: 0.0, ..welcome() }, "period is 0 s"),
         (wire::Welcome { period: f64::NAN, ..welcome() }, "period is NaN s"),
-        (wire::Welcome { lidars: vec![lidar("a"), lidar("a")], ..welcome() }, "two sensors are called `a`"),
+        (
+            wire::Welcome { lidars: vec![lidar("a"), lidar("a")], ..welcome() },
+            "two sensors are called `a`; give each sensor its own name",
+        ),
         (
             wire::Welcome { lidars: vec![wire::Lidar { channels: Some(0), ..lidar("a") }], ..welcome() },
             "`channels` is 0",
@@ -105,9 +108,12 @@ fn nobody_waits_for_a_silent_driver_beyond_the_time_out_or_a_stop() {
     let short = Terms { timeout: Duration::from_millis(100), ..terms() };
     let mut session = Session::open(&address, &short, Arc::default()).unwrap();
     session.reset(&BRIEFING).unwrap();
-    gives_up(&mut session, "no answer within 0.1 s");
+    gives_up(&mut session, "the driver did not answer within 0.1 s");
     assert!(session.is_lost());
-    refuses(Session::open(&scripted(|_| Act::Nothing), &short, Arc::default()), "no answer within 0.1 s");
+    refuses(
+        Session::open(&scripted(|_| Act::Nothing), &short, Arc::default()),
+        "the driver did not answer within 0.1 s",
+    );
     let long = Terms { timeout: Duration::from_secs(10_000), ..terms() };
     let stop = Arc::new(AtomicBool::new(false));
     let mut session = Session::open(&address, &long, stop.clone()).unwrap();

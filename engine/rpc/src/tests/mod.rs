@@ -28,14 +28,14 @@ fn addresses_are_read_as_they_are_written() {
 #[test]
 fn what_is_no_address_is_refused_with_the_reason() {
     for (text, why) in [
-        ("http://localhost:1", "another scheme"),
+        ("http://localhost:1", "does not begin with grpc://"),
         ("grpc://localhost", "no port"),
         ("grpc://localhost:0", "the port is no number"),
         ("grpc://localhost:65536", "the port is no number"),
         ("grpc://localhost:50051/", "the port is no number"),
-        ("grpc://:50051", "the host is no name"),
-        ("grpc://a b:50051", "the host is no name"),
-        ("grpc://[::x]:50051", "the host is no name"),
+        ("grpc://:50051", "the host is neither a name"),
+        ("grpc://a b:50051", "the host is neither a name"),
+        ("grpc://[::x]:50051", "the host is neither a name"),
     ] {
         let message = text.parse::<Address>().unwrap_err().to_string();
         assert!(message.contains(why) && message.contains("grpc://127.0.0.1:50051"), "{message}");

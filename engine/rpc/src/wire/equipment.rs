@@ -76,7 +76,7 @@ impl Described {
         Ok(described)
     }
 
-    /// Makes the driver's equipment anew.
+    /// Makes the driver's equipment anew for a run.
     pub fn equipment(&mut self) -> Equipment {
         Equipment { rig: self.rig().expect("it was made before"), cameras: self.cameras.clone() }
     }

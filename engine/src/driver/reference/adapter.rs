@@ -47,7 +47,7 @@ struct Watched<M> {
 }
 
 impl<M: BrakingModel + 'static> Reference<M> {
-    /// Makes a driver that brakes as copies of this model ask for.
+    /// Makes a driver that brakes as copies of the given model demand.
     pub fn boxed(fresh: M) -> Box<dyn Driver> {
         Box::new(Self {
             fresh,

@@ -20,24 +20,24 @@ use super::held::Held;
 use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
 use crate::vehicle::GRAVITY;
 
-/// The competent and careful human driver; lengths in metres, times in seconds, accelerations in m/s².
+/// The competent and careful human driver of UN R157; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cc {
-    /// The width of the lanes.
+    /// The width of the lanes in metres.
     pub lane_width: f64,
-    /// The greatest distance that cars wander from the middle of their lane.
+    /// The greatest distance in metres that cars wander from the middle of their lane.
     pub wandering: f64,
-    /// The time that the driver takes to evaluate the risk.
+    /// The time in seconds that the driver takes to evaluate the risk.
     pub evaluation: f64,
-    /// The time to collision at or below which there is a risk.
+    /// The greatest time to collision that is a risk, in seconds.
     pub ttc: f64,
-    /// The other road user's deceleration that is a risk at any time to collision.
+    /// The least deceleration of the other road user that is a risk at any time to collision, in m/s².
     pub leader_deceleration: f64,
-    /// The time from the decision to brake until the brakes act.
+    /// The time in seconds from the decision to brake until the brakes act.
     pub reaction: f64,
-    /// The car's deceleration from the decision until the brakes act.
+    /// The car's deceleration in m/s² from the decision to brake until the brakes act.
     pub release: f64,
-    /// The full deceleration of the car.
+    /// The full deceleration of the car, in m/s².
     pub deceleration: f64,
     /// The rate at which the deceleration rises, in m/s³.
     pub jerk: f64,

@@ -4,8 +4,8 @@
 //! meet the car there. The second means that the gap shrinks both ways and that the room beside is used up at most
 //! 0.1 s after the car could have passed: `clearance / v_lat < (gap + lengths) / (v - v_f) + 0.1`.
 //!
-//! Two measures between 0 (safe) and 1 (unsafe) then say how near danger is. Each interpolates between a safe and an
-//! unsafe distance. tau is the reaction time, `c` and `b` are the car's comfortable and hardest braking, and `f` is the
+//! Two measures between 0 (safe) and 1 (unsafe) rate the danger. Each interpolates between a safe and an unsafe
+//! distance. tau is the reaction time, `c` and `b` are the car's comfortable and hardest braking, and `f` is the
 //! hardest braking of the other road user:
 //!
 //! - *proactive* (PFS), from the gap less `d1`: the distance that is left if the other road user brakes hardest.
@@ -25,18 +25,19 @@ use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, Situation};
 
-/// The driver with fuzzy measures; lengths in metres, times in seconds, accelerations in m/s².
+/// The driver that brakes by fuzzy surrogate safety measures; lengths in metres, times in seconds, accelerations in
+/// m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fsm {
-    /// The reaction time tau.
+    /// The reaction time tau of the driver, in seconds.
     pub reaction: f64,
-    /// The comfortable deceleration c.
+    /// The comfortable deceleration c of the car, in m/s².
     pub comfortable: f64,
-    /// The hardest deceleration b.
+    /// The hardest deceleration b of the car, in m/s².
     pub deceleration: f64,
-    /// The hardest deceleration f of the other road user.
+    /// The hardest deceleration f of the other road user, in m/s².
     pub leader_deceleration: f64,
-    /// The distance d1 that is to be left between the car and the other road user when both stand.
+    /// The distance d1 in metres that is to be left between the car and the other road user when both stand.
     pub margin: f64,
     /// The rate at which the deceleration changes, in m/s³.
     pub jerk: f64,

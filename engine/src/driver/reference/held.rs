@@ -1,6 +1,6 @@
-//! Measures how long a condition has held, for evaluation and reaction times.
+//! Measures the time for which a condition has held, for evaluation and reaction times.
 
-/// A condition that is looked at step by step.
+/// The duration for which a condition has held, updated step by step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Held(Option<f64>);
 
@@ -8,11 +8,11 @@ pub(super) struct Held(Option<f64>);
 const WHISKER: f64 = 1e-9;
 
 impl Held {
-    /// A condition that has not held yet.
+    /// The duration for a condition that has not held yet.
     pub const NEVER: Self = Self(None);
 
-    /// Looks again, `dt` seconds after the last look, and returns `true` if the condition has held for `seconds`
-    /// without a break. The time counts from the first look at which the condition holds.
+    /// Updates the duration after `dt` seconds, and returns `true` if the condition has held for `seconds` without a
+    /// break. The time counts from the first call at which the condition holds.
     pub fn lasts(&mut self, holds: bool, seconds: f64, dt: f64) -> bool {
         self.0 = match self.0 {
             _ if !holds => None,

@@ -20,14 +20,14 @@ use super::adapter::Reference;
 use crate::kinematic::{BrakingModel, Course, Encounter, Ended, Situation, Size};
 use crate::vehicle::GRAVITY;
 
-/// The driver that no other driver that only brakes outdoes.
+/// The driver that avoids every collision that a driver can avoid by braking alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ideal {
-    /// The greatest deceleration in m/s², by default 1 g: a road of friction 1.
+    /// The greatest deceleration in m/s², by default 1 g, the limit on a road of friction 1.
     pub deceleration: f64,
-    /// The seconds that the driver looks ahead if it does not know the future.
+    /// The seconds that the driver looks ahead if the driver does not know the future.
     pub horizon: f64,
-    /// The room in metres on all sides that the driver wants if it does not know the future.
+    /// The free room in metres that the driver wants on all sides if the driver does not know the future.
     pub margin: f64,
 }
 
@@ -58,12 +58,12 @@ impl Default for Ideal {
     }
 }
 
-/// A plan to brake with a constant deceleration from some moment on, whatever happens.
+/// A plan to brake with a constant deceleration from a fixed moment on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
-    /// The seconds after which the brakes act.
+    /// The seconds from the start of the plan until the brakes act.
     pub onset: f64,
-    /// The deceleration in m/s².
+    /// The constant deceleration of the plan, in m/s².
     pub deceleration: f64,
     time: f64,
 }
@@ -97,7 +97,8 @@ impl Ideal {
         std::iter::once(Profile::NONE).chain(braking)
     }
 
-    /// Returns the gentlest profile without a collision, or else the one with the slowest, and the encounter's result.
+    /// Returns the gentlest profile without a collision, or else with the slowest collision, and the encounter's
+    /// result.
     pub fn best(&self, encounter: &Encounter) -> (Profile, Ended) {
         let mut best: Option<(Profile, Ended, f64)> = None;
         for profile in self.profiles() {
@@ -113,7 +114,7 @@ impl Ideal {
         (profile, ended)
     }
 
-    /// Returns the encounter to expect if the other, enlarged by the margin in metres on all sides, goes on as it does.
+    /// Returns the expected encounter if the other road user, enlarged by the margin in metres, keeps its motion.
     fn expected(&self, s: &Situation, margin: f64) -> Encounter {
         let forward = s.other_speed.max(0.0);
         let other = Course {

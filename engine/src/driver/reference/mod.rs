@@ -1,5 +1,5 @@
-//! Reference drivers, which are told the truth. These models show whether a careful driver, or any driver, could have
-//! avoided a failure.
+//! Reference drivers, which know the ground truth. These models show whether a careful driver, or any driver, could
+//! have avoided a failure.
 //!
 //! | driver | brakes | source |
 //! | --- | --- | --- |
@@ -40,7 +40,7 @@ pub(super) use rss::DESCRIPTOR as RSS;
 
 use crate::kinematic::{Encounter, Ended};
 
-/// A function that returns an encounter's result with some driver.
+/// A function that drives an encounter with a reference driver and returns the result.
 pub type Drive = fn(&Encounter) -> Ended;
 
 /// The reference drivers by name, each with its standard settings.

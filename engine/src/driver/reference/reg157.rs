@@ -18,13 +18,13 @@ use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
 /// The least capable driver that the regulation allows; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reg157 {
-    /// The width of the lanes.
+    /// The width of the lanes in metres.
     pub lane_width: f64,
-    /// The distance that the other must have come into the lane.
+    /// The distance in metres by which the other road user must have come into the lane.
     pub intrusion: f64,
-    /// The time from the intrusion until the brakes act.
+    /// The time in seconds from the intrusion until the brakes act.
     pub reaction: f64,
-    /// The deceleration of the car.
+    /// The deceleration of the car, in m/s².
     pub deceleration: f64,
     intruded: Held,
 }

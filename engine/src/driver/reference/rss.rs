@@ -20,22 +20,22 @@ use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, Situation};
 
-/// The driver that keeps safe distances; lengths in metres, times in seconds, accelerations in m/s².
+/// The driver that keeps the safe distances of RSS; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rss {
-    /// The response time rho, in which nobody is expected to respond.
+    /// The response time rho in seconds, in which no road user is expected to respond.
     pub response: f64,
-    /// The acceleration a with which the ego vehicle may speed up during the response time.
+    /// The acceleration a in m/s² with which the ego vehicle may speed up during the response time.
     pub acceleration: f64,
-    /// The deceleration `b_min` with which the car brakes then.
+    /// The deceleration `b_min` in m/s² with which the car brakes after the response time.
     pub deceleration: f64,
-    /// The greatest deceleration `b_max` of the other.
+    /// The greatest deceleration `b_max` of the other road user, in m/s².
     pub leader_deceleration: f64,
-    /// The room mu that must remain beside the other.
+    /// The lateral distance mu in metres that must remain to the other road user.
     pub lateral_margin: f64,
-    /// The lateral acceleration `a_lat` of either during the response time.
+    /// The lateral acceleration `a_lat` of both road users during the response time, in m/s².
     pub lateral_acceleration: f64,
-    /// The lateral deceleration `b_lat` of either after the response time.
+    /// The lateral deceleration `b_lat` of both road users after the response time, in m/s².
     pub lateral_deceleration: f64,
     danger: Held,
 }
@@ -116,7 +116,7 @@ impl Default for Rss {
 }
 
 impl Rss {
-    /// The safe distance in metres behind another, at these speeds in m/s.
+    /// Returns the safe distance in metres behind another road user, at the given speeds in m/s.
     pub fn longitudinal_distance(&self, speed: f64, other_speed: f64) -> f64 {
         let rho = self.response;
         let (fastest, front) = (speed + rho * self.acceleration, other_speed.max(0.0));
@@ -124,7 +124,7 @@ impl Rss {
         (own - front * front / (2.0 * self.leader_deceleration)).max(0.0)
     }
 
-    /// Returns the safe room in metres beside another that comes nearer by `approach` m/s sideways.
+    /// Returns the safe lateral distance in metres to a road user that comes nearer by `approach` m/s sideways.
     pub fn lateral_distance(&self, approach: f64) -> f64 {
         // The way towards the other, from a given speed towards it.
         let way = |speed: f64| {

@@ -14,9 +14,9 @@ const EXACT: f64 = 1e-3;
 /// A conflict of a lane, in the coordinates of its element.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::road) struct ConflictPlan {
-    /// The index of the other lane.
+    /// The index of the other lane, with which the lane is in conflict.
     pub with: usize,
-    /// The beginning and the end of the stretch of the lane that is too close to the other lane.
+    /// The beginning and the end of the stretch that is too close to the other lane, in metres along the lane.
     pub span: (f64, f64),
     pub gives_way: bool,
 }

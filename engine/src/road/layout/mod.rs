@@ -45,9 +45,9 @@ pub(super) struct LanePlan {
     pub kind: LaneKind,
     pub number: i32,
     pub curve: Curve,
-    /// The port and lane number where the lane enters the element, unless it begins within the element.
+    /// The port and lane number at which the lane enters the element; `None` if the lane begins within the element.
     pub from: Option<Mouth>,
-    /// The port and lane number where the lane leaves the element, unless it ends within the element.
+    /// The port and lane number at which the lane leaves the element; `None` if the lane ends within the element.
     pub to: Option<Mouth>,
     pub successors: Vec<usize>,
     pub left: Option<usize>,
@@ -80,7 +80,7 @@ pub(super) struct Plan {
 pub(super) const POINTS: [&str; 8] = ["one", "two", "three", "four", "five", "six", "seven", "eight"];
 
 impl Plan {
-    /// Returns the name of an element without a name of its own.
+    /// Returns the name that a road element has by default.
     pub fn kind(&self) -> &'static str {
         match self.shape {
             ElementShape::Segment(_) => "road",
@@ -90,7 +90,7 @@ impl Plan {
         }
     }
 
-    /// Returns the mistake in the description, if there is one.
+    /// Returns the mistake in the description of the element; `None` if the description is valid.
     pub fn problem(&self) -> Option<String> {
         let Profile { lanes, lane_width, sidewalk } = self.profile;
         if !(2..=MOST_LANES).contains(&lanes) || lanes % 2 != 0 {
@@ -153,7 +153,7 @@ fn pose(x: f64, y: f64, heading: f64) -> Pose {
     Pose { position: Vector2::new(x, y), heading }
 }
 
-/// Returns the frame of an arm: x points from the middle of the element outward along the arm.
+/// Returns the frame of an arm, whose x axis points from the middle of the element outward along the arm.
 fn arm(heading: f64) -> Pose {
     pose(0.0, 0.0, heading)
 }

@@ -30,7 +30,7 @@ struct Measures {
     n: i32,
     /// The distance from the middle of the ring to the kerb around it.
     outer: f64,
-    /// The distance from the middle at which the arcs of an entry begin, and how far to its right their centre lies.
+    /// The distance from the middle at which the arcs of an entry begin, and the offset of their centre to the right.
     centre: (f64, f64),
     /// The angle, seen from the middle, between an arm and the points where the arcs of the arm touch the ring.
     touch: f64,

@@ -20,7 +20,7 @@ use std::rc::Rc;
 /// The speed in m/s below which the car counts as standing.
 const STANDING: f64 = 0.1;
 
-/// The car that the system under test drives, not placed yet: a [`Vehicle::BMW_320I`] by default.
+/// The car that the system under test drives, not placed yet. The default is a [`Vehicle::BMW_320I`].
 #[derive(Debug, Clone)]
 pub struct AutonomousVehicle {
     vehicle: Vehicle,
@@ -61,14 +61,14 @@ impl EgoSetup {
     }
 }
 
-/// The placed car, whose outputs a program can read.
+/// The placed ego vehicle, whose outputs a program can read.
 #[derive(Debug, Clone)]
 pub struct Car {
     vehicle: Vehicle,
     shown: Shown,
 }
 
-/// The car in motion.
+/// The ego vehicle in a run, which moves from tick to tick.
 pub(crate) struct Ego {
     car: AutonomousVehicle,
     shown: Shown,
@@ -76,7 +76,7 @@ pub(crate) struct Ego {
     pub control: Control,
     /// The car's position along its way, in metres.
     at: f64,
-    /// The change of the car's acceleration ahead over the last tick, in m/s³.
+    /// The change of the car's forward acceleration over the last tick, in m/s³.
     pub(super) jerk: f64,
     /// The seconds for which the car has been standing.
     pub(super) standing: f64,
@@ -100,7 +100,7 @@ impl AutonomousVehicle {
         self
     }
 
-    /// Sets the speed in m/s at which the car starts, and which its driver is told to keep.
+    /// Sets the speed in m/s at which the car starts and that its driver is to keep.
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
@@ -172,7 +172,7 @@ impl Car {
         self.shown.speed.stream()
     }
 
-    /// Returns the car's acceleration ahead in m/s², over the last tick.
+    /// Returns the car's forward acceleration over the last tick, in m/s².
     pub fn acceleration(&self) -> Stream<f64> {
         self.shown.acceleration.stream()
     }
@@ -182,7 +182,7 @@ impl Car {
         self.shown.travelled.stream()
     }
 
-    /// Returns the free space to the nearest other body in metres, without bodies on the [`Roadside`](crate::Roadside).
+    /// Returns the distance to the nearest other body in metres, without bodies on the [`Roadside`](crate::Roadside).
     /// At a contact: minus the missing braking distance, max(v²/(2 μ g), 0.001), with v the relative speed.
     pub fn clearance(&self) -> Stream<f64> {
         self.shown.clearance.stream()
@@ -209,18 +209,18 @@ impl Car {
         self.asked(Quantity::YawRate)
     }
 
-    /// Returns the rate at which the car's acceleration ahead changes, in m/s³.
+    /// Returns the rate at which the car's forward acceleration changes, in m/s³.
     pub fn jerk(&self) -> Stream<f64> {
         self.asked(Quantity::Jerk)
     }
 
-    /// Returns the greatest slip ratio of the wheels, either way: 0 if all wheels roll, 1 if a wheel is locked or spins
-    /// in place.
+    /// Returns the greatest absolute slip ratio of the car's wheels; 0 if all wheels roll, 1 if a wheel is locked or
+    /// spins in place.
     pub fn wheel_slip(&self) -> Stream<f64> {
         self.asked(Quantity::WheelSlip)
     }
 
-    /// Returns the greatest slip angle of the car's wheels, to either side, in radians.
+    /// Returns the greatest absolute slip angle of the car's wheels, in radians.
     pub fn slip_angle(&self) -> Stream<f64> {
         self.asked(Quantity::SlipAngle)
     }
@@ -230,7 +230,7 @@ impl Car {
         self.asked(Quantity::WheelsOnRoad)
     }
 
-    /// Returns the time to collision in seconds, the least over all other bodies; infinite without a collision course.
+    /// Returns the least time to collision with another body, in seconds; infinite without a collision course.
     pub fn time_to_collision(&self) -> Stream<f64> {
         self.asked(Quantity::TimeToCollision)
     }
@@ -241,7 +241,7 @@ impl Car {
         self.asked(Quantity::Headway)
     }
 
-    /// Returns the metres of the lane that are left beside the car, on the narrower side; negative over the edge.
+    /// Returns the free width of the lane beside the car on the narrower side, in metres; negative over the edge.
     pub fn lane_margin(&self) -> Stream<f64> {
         self.asked(Quantity::LaneMargin)
     }
@@ -262,7 +262,7 @@ impl Car {
         self.asked(Quantity::StandingTime)
     }
 
-    /// Returns the metres to the end of the way that the car is to go; infinite if the car is just to go straight on.
+    /// Returns the metres to the end of the way that the car is to go; infinite if the way has no end.
     pub fn remaining(&self) -> Stream<f64> {
         self.asked(Quantity::Remaining)
     }
@@ -273,7 +273,7 @@ impl Car {
 }
 
 impl Ego {
-    /// Makes the car that a model moves.
+    /// Makes the ego vehicle of a run with the given vehicle model.
     pub fn new(setup: &EgoSetup, model: VehicleModel) -> Self {
         let EgoSetup { car, shown } = setup.clone();
         let dynamics = model.build(&car.vehicle, car.start(), car.speed);
@@ -316,8 +316,9 @@ impl Ego {
         if self.car.endless { f64::INFINITY } else { self.car.way.length() - self.at }
     }
 
-    /// Returns the lanes that the car is on, with the car's position along each in metres: the lanes of its way between
-    /// its rear and its front. If the way knows no lanes there, the result is the nearest lane in the car's direction.
+    /// Returns the lanes under the car, each with the car's position along the lane in metres. They are the lanes of
+    /// its way between its rear and its front. If the way knows no lanes there, the result is the nearest lane in the
+    /// car's direction.
     pub fn lanes<'n>(&self, network: &'n RoadNetwork) -> impl Iterator<Item = (LaneId, f64)> + use<'n> {
         let half = 0.5 * self.car.vehicle.length;
         let known = self.car.way.lanes(self.at - half, self.at + half);
@@ -332,7 +333,7 @@ impl Ego {
         self.car.start().relative(&self.pose())
     }
 
-    /// Returns the car's way as the car sees it.
+    /// Returns the way of the car, as seen from the car.
     pub fn way(&self) -> Way {
         let (pose, here) = (self.pose(), self.car.way.at(self.at));
         let ahead = std::array::from_fn(|i| {
@@ -343,7 +344,7 @@ impl Ego {
         Way { offset, heading: wrapped(pose.heading - here.heading), ahead }
     }
 
-    /// Shows the car's outputs. `clearance` is the value of [`Car::clearance`], and the car is the first of the bodies.
+    /// Sets the car's outputs. `clearance` is the value of [`Car::clearance`], and the car is the first of the bodies.
     pub fn show(&self, clearance: f64, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
         let state = self.dynamics.state();
         outputs.set(&self.shown.position, state.position);
@@ -359,7 +360,7 @@ impl Ego {
         self.shown.asked.show(self, bodies, network, outputs);
     }
 
-    /// Moves the car on by a tick over ground of this friction.
+    /// Moves the car on by a tick on ground with the given friction.
     pub fn step(&mut self, friction: f64, dt: f64) -> Result<(), Upset> {
         let Control { throttle, steering } = self.control;
         for (what, value) in [("throttle", throttle), ("steering", steering)] {

@@ -8,7 +8,7 @@ use crate::stream::Stream;
 use nalgebra::Vector2;
 use std::cell::RefCell;
 
-/// A quantity of the car, or of the car and its surroundings.
+/// A quantity of the ego vehicle, or of the ego vehicle and its surroundings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     LateralAcceleration,
@@ -79,7 +79,7 @@ impl Asked {
         Self { wiring, outputs: RefCell::default() }
     }
 
-    /// Returns the stream of a quantity, which is shown from now on.
+    /// Returns the stream of a quantity, which is measured from now on.
     pub fn stream(&self, quantity: Quantity) -> Stream<f64> {
         let mut outputs = self.outputs.borrow_mut();
         if let Some((_, output)) = outputs.iter().find(|(asked, _)| *asked == quantity) {
@@ -91,7 +91,7 @@ impl Asked {
         stream
     }
 
-    /// Shows all quantities that a program has asked for.
+    /// Sets the outputs of all quantities that a program has asked for.
     pub fn show(&self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
         for (quantity, output) in &*self.outputs.borrow() {
             outputs.set(output, quantity.measure(ego, bodies, network));
@@ -105,7 +105,7 @@ fn least(bodies: &[BodyState], of: fn(&BodyState, &BodyState) -> f64) -> f64 {
     others.map(|other| of(&bodies[0], other)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns another body as seen from the car: its middle, and half the extent of the box along the car's axes that
+/// Returns the middle of another body as seen from the car, and half the extent of the box along the car's axes that
 /// encloses it, plus half the car's extent.
 fn seen(car: &BodyState, other: &BodyState) -> (Vector2<f64>, Vector2<f64>) {
     let enclosing = other.body.outline.enclosing(other.pose.heading - car.pose.heading);
@@ -132,8 +132,8 @@ fn time_to_collision(car: &BodyState, other: &BodyState) -> f64 {
     if from <= to { from } else { f64::INFINITY }
 }
 
-/// Returns the seconds that the car takes at its speed to where a body ahead is now. A body is ahead if the car's own
-/// box would run into it on a straight line.
+/// Returns the seconds that the car takes at its speed to the present place of a body ahead. A body is ahead if the
+/// car's own box would run into it on a straight line.
 fn headway(car: &BodyState, other: &BodyState) -> f64 {
     let (middle, reach) = seen(car, other);
     let gap = middle.x - reach.x;
@@ -141,7 +141,7 @@ fn headway(car: &BodyState, other: &BodyState) -> f64 {
     if in_the_way { gap / car.velocity.norm() } else { f64::INFINITY }
 }
 
-/// Returns the metres of the lane that are left beside the car, on the narrower side; negative if the car is over the
+/// Returns the free width of the lane beside the car on the narrower side, in metres; negative if the car is over the
 /// edge. The lane is the nearest in the car's direction; without one, it is minus the distance to the nearest lane.
 fn lane_margin(car: &BodyState, network: &RoadNetwork) -> f64 {
     let Some(seen) = network.project_along(&car.pose) else {

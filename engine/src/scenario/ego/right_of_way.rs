@@ -1,4 +1,4 @@
-//! Finds who has the right of way where lanes of an intersection cross or join, and how soon they get there.
+//! Finds the time until a road user with the right of way reaches the car's place in an intersection.
 
 use super::Ego;
 use crate::geometry::wrapped;
@@ -9,7 +9,7 @@ use crate::road::{LaneId, RoadNetwork};
 const ON_LANE: (f64, f64) = (1.2, 0.6);
 
 /// Returns the seconds until the first road user with the right of way comes to the car's place in an intersection;
-/// infinite if nobody does, 0 if somebody is there already.
+/// infinite if none comes, 0 if one is there already.
 ///
 /// The places are the [conflicts](crate::road::Conflict) of the car's lanes in which the car gives way. Other road
 /// users count if they are on the conflict's lane or on a lane that leads to it, and have not passed the conflict yet.
@@ -40,7 +40,7 @@ pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 
     least
 }
 
-/// Returns how many metres along a lane a body is; negative on a lane that leads to it, `None` elsewhere.
+/// Returns the metres of a body along a lane; negative on a lane that leads to the given lane, `None` elsewhere.
 fn along(other: &BodyState, lane: LaneId, network: &RoadNetwork) -> Option<f64> {
     let on = |lane: LaneId| {
         let seen = network.project_onto(lane, other.pose.position);

@@ -5,19 +5,19 @@ use crate::sensor::SensorError;
 use crate::sensor::error::Checks;
 use nalgebra::Vector3;
 
-/// A camera without distortion that looks ahead.
+/// A depth camera without distortion, which looks ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pinhole {
-    /// The columns and rows of the camera's images.
+    /// The numbers of columns and rows of the camera's images.
     pub size: [usize; 2],
-    /// The focal lengths in pixels, across and down.
+    /// The horizontal and the vertical focal length in pixels.
     pub focal: [f64; 2],
-    /// The place in the image that shows straight ahead, in pixels from the upper left corner of the upper left pixel.
+    /// The place in the image of the direction straight ahead, in pixels from the image's upper left corner.
     pub centre: [f64; 2],
 }
 
 impl Pinhole {
-    /// Makes a camera with square pixels, images of this size, and this opening angle across, in radians.
+    /// Makes a camera with square pixels, from the size of its images and its horizontal opening angle in radians.
     pub fn new(size: [usize; 2], opening: f64) -> Self {
         let [width, height] = size.map(|pixels| pixels as f64);
         let focal = 0.5 * width / libm::tan(0.5 * opening);
@@ -34,7 +34,7 @@ impl Pinhole {
         Ok(())
     }
 
-    /// Returns the column and row of the pixel that sees in a direction (x ahead, y to the left, z up), if any does.
+    /// Returns column and row of the pixel that sees in a direction (x ahead, y left, z up); `None` outside the image.
     fn pixel(&self, direction: Vector3<f64>) -> Option<[usize; 2]> {
         if direction.x <= 0.0 {
             return None;
@@ -53,15 +53,16 @@ impl Pinhole {
     }
 }
 
-/// Makes the scan of a LiDAR at the place of a camera from the camera's depth image, without noise. `depth` has for
-/// each pixel the distance in metres from the camera to the surface (not its share ahead), row by row from the upper
-/// left corner; a pixel without a surface has a number above `range` or NaN. The intensity falls with `fading`, in 1/m.
+/// Writes the scan of a LiDAR without noise, from the depth image of a camera at the LiDAR's place. `depth` has for
+/// each pixel the distance in metres from the camera to the surface (not the depth along the camera's axis), row by row
+/// from the upper left corner; a pixel without a surface has a number above `range` or NaN. The intensity falls with
+/// `fading`, in 1/m.
 ///
 /// A beam gets the point in the middle of the pixel that it falls in. So points are on the surfaces as exactly as the
 /// distances are, and their directions are off by at most half a pixel. Beams outside the image see nothing.
 ///
 /// # Errors
-/// The camera or the range is impossible, the image has not its size, or the fading is no number from 0 on.
+/// The camera or the range is impossible, the image has another size, or the fading is not a number from 0 to 100.
 pub fn scan_of_depth(
     camera: &Pinhole,
     depth: &[f32],

@@ -23,7 +23,7 @@ use super::{Chance, Mount, Sensor, SensorView};
 use nalgebra::{Vector2, Vector3};
 use scanner::Scanner;
 
-/// The entry of this kind of sensor in lists.
+/// The description of LiDARs in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "lidar", about: "points from which beams of light come back, with their intensity" };
 
@@ -35,31 +35,32 @@ const STEEPEST: f64 = 1.483_529_864_195_180_3;
 pub struct LidarSettings {
     /// The mounting of the sensor's middle, with the direction of its first column of beams.
     pub mount: Mount,
-    /// The seconds of one turn, which is the time between two scans.
+    /// The duration of one turn in seconds, which is the time between two scans.
     pub period: f64,
-    /// The number of channels: beams one above the other.
+    /// The number of channels, which is the number of beams in a vertical column.
     pub channels: usize,
-    /// The elevation of the lowest channel, in radians above the horizon. A single channel is half way to the highest.
+    /// The elevation of the lowest channel, in radians above the horizon. A single channel is half way to `highest`.
     pub lowest: f64,
     /// The elevation of the highest channel, in radians above the horizon. The other channels are evenly spaced.
     pub highest: f64,
-    /// The number of times that each channel fires in a turn.
+    /// The number of measurements of each channel in a turn.
     pub columns: usize,
     /// The greatest distance in metres that the sensor measures.
     pub range: f64,
-    /// The standard deviation of a distance in metres.
+    /// The standard deviation of the noise of a measured distance, in metres.
     pub noise: f64,
     /// The attenuation of the intensity in clear air, in 1/m.
     pub attenuation: f64,
-    /// The intensity from which on no echo is lost for its weakness. Below, the lost share is the missing share.
+    /// The least intensity at which no echo is lost for its weakness. Below it, 1 - intensity / `sure` of the echoes
+    /// are lost.
     pub sure: f64,
-    /// The probability that an echo is lost whatever its intensity.
+    /// The probability that an echo is lost independently of its intensity.
     pub loss: f64,
 }
 
 impl Default for LidarSettings {
-    /// Returns the channels, field, rate and attenuation of the LiDAR of CARLA (32 from -30 to 10 degrees, ten turns a
-    /// second, 0.004 /m) on a roof, with 1,800 columns, a range of 100 m and a noise of 2 cm.
+    /// Returns the settings of CARLA's LiDAR (32 channels from -30 to 10 degrees, ten turns a second, attenuation 0.004
+    /// /m) on a roof, with 1,800 columns, a range of 100 m and a noise of 2 cm.
     fn default() -> Self {
         Self {
             mount: Mount::above(2.0),
@@ -80,14 +81,14 @@ impl Default for LidarSettings {
 /// The direction of a beam as seen from the sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// The azimuth in radians, counter-clockwise from ahead.
+    /// The azimuth of the beam in radians, counter-clockwise from straight ahead.
     pub azimuth: f64,
-    /// The elevation in radians above the horizon.
+    /// The elevation of the beam in radians above the horizon.
     pub elevation: f64,
 }
 
 impl Beam {
-    /// Returns the unit vector along the beam: x ahead, y to the left, z up.
+    /// Returns the unit vector along the beam (x ahead, y to the left, z up).
     pub fn direction(&self) -> Vector3<f64> {
         let (sin, cos) = libm::sincos(self.azimuth);
         let (up, along) = libm::sincos(self.elevation);
@@ -95,26 +96,26 @@ impl Beam {
     }
 }
 
-/// A point from which an echo came.
+/// A point that a LiDAR has measured by an echo.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LidarPoint {
-    /// The position of the point as seen from the sensor: x ahead, y to the left, z up, in metres.
+    /// The position of the point in metres, as seen from the sensor (x ahead, y to the left, z up).
     pub position: Vector3<f32>,
     /// The strength of the echo, from 0 to 1.
     pub intensity: f32,
-    /// The true source of the echo: the index of the body plus one; 0 for the ground or an unknown source.
+    /// The index of the body that gave the echo, plus one; 0 for the ground or an unknown source.
     pub id: u32,
 }
 
-/// The points of one turn of a LiDAR.
+/// The points that a LiDAR measures in one turn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scan {
-    /// The echoes, column by column counter-clockwise from ahead, and in each column from the lowest channel up.
+    /// The points of the scan, column by column counter-clockwise from ahead, and from the lowest channel up.
     pub points: Vec<LidarPoint>,
 }
 
 impl Scan {
-    /// Returns the points in the format of the KITTI data sets: x, y, z and intensity as little-endian 32-bit floats.
+    /// Returns the points in the format of KITTI data sets, with x, y, z and intensity as little-endian 32-bit floats.
     pub fn to_kitti(&self) -> Vec<u8> {
         let numbers = self.points.iter().flat_map(|point| {
             let [x, y, z] = point.position.into();
@@ -132,10 +133,10 @@ pub struct Lidar {
 }
 
 impl Lidar {
-    /// Makes a LiDAR with these settings.
+    /// Makes a LiDAR with the given settings.
     ///
     /// # Errors
-    /// A setting is out of its range or no number, or the lowest of several channels is not below the highest.
+    /// A setting is out of its range or is not a number, or the lowest of several channels is not below the highest.
     pub fn new(settings: LidarSettings) -> Result<Self, SensorError> {
         let checks = Checks("lidar");
         settings.mount.check(&checks)?;
@@ -157,7 +158,7 @@ impl Lidar {
         Ok(Self { scanner: Scanner::new(settings.columns, &elevations), settings })
     }
 
-    /// Returns the directions of the beams, in the order in which a scan has its points.
+    /// Returns the directions of the beams, in the order of the points of a scan.
     pub fn beams(&self) -> impl Iterator<Item = Beam> + use<'_> {
         let azimuth = |column| scanner::azimuth(column, self.settings.columns);
         let column = move |column| {

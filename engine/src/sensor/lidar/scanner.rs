@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 /// The number of columns by which the interval of a body is widened on either side, against rounding.
 const SLACK: f64 = 0.01;
 
-/// The beams, and the nearest hit of each so far.
+/// The beams of a LiDAR, with the nearest hit of each beam so far.
 #[derive(Debug, Clone)]
 pub(super) struct Scanner {
     channels: Vec<Channel>,
@@ -32,22 +32,22 @@ pub(super) struct Scanner {
 struct Channel {
     cos: f64,
     sin: f64,
-    /// cos / sin: how far the beam goes along while it rises by a metre.
+    /// cos / sin: the horizontal distance in metres on which the beam rises by a metre.
     along: f64,
 }
 
-/// The distance and the id of something that was hit.
+/// The distance and the id of the surface that a beam hits.
 #[derive(Debug, Clone, Copy)]
 struct Hit {
     distance: f64,
     id: u32,
 }
 
-/// The hit of a beam.
+/// The direction of a beam, with the beam's nearest hit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Echo {
     pub direction: Vector3<f64>,
-    /// The distance in metres; infinite if the beam hit nothing.
+    /// The distance of the hit in metres; infinite if the beam hits nothing.
     pub distance: f64,
     pub id: u32,
 }
@@ -58,7 +58,7 @@ pub(super) fn azimuth(column: usize, columns: usize) -> f64 {
 }
 
 impl Scanner {
-    /// Makes a scanner with evenly spaced columns, and channels with these elevations in radians.
+    /// Makes a scanner with evenly spaced columns and the given elevations of the channels in radians.
     pub fn new(columns: usize, elevations: &[f64]) -> Self {
         let channel = |elevation: &f64| {
             let (sin, cos) = libm::sincos(*elevation);
@@ -73,7 +73,7 @@ impl Scanner {
         }
     }
 
-    /// Begins a scan from this height over flat ground: up to `range` metres.
+    /// Begins a scan from a sensor `height` metres above flat ground, up to `range` metres.
     pub fn begin(&mut self, height: f64, range: f64) {
         (self.height, self.range) = (height, range);
         let ground = |channel: &Channel| {
@@ -86,7 +86,7 @@ impl Scanner {
         }
     }
 
-    /// Adds a body that the beams of a sensor with this pose can hit.
+    /// Adds a body to the scan of a sensor with the given pose.
     pub fn add(&mut self, id: u32, state: &BodyState, sensor: &Pose) {
         let outline = &state.body.outline;
         let at = sensor.relative(&state.pose);
@@ -116,7 +116,7 @@ impl Scanner {
         }
     }
 
-    /// Returns the hits of the beams, column by column.
+    /// Returns the nearest hits of all beams, column by column.
     pub fn echoes(&self) -> impl Iterator<Item = Echo> + use<'_> {
         let beams = self.columns.iter().flat_map(|column| self.channels.iter().map(move |channel| (column, channel)));
         beams.zip(&self.nearest).map(|((column, channel), hit)| Echo {
@@ -143,8 +143,8 @@ impl Channel {
     }
 }
 
-/// Returns the azimuths in radians between which an outline lies that stands `at` as seen from the sensor. The second
-/// is not less than the first; they span a full turn if the sensor is over the outline.
+/// Returns the azimuths in radians between which an outline lies whose pose is `at` as seen from the sensor. The second
+/// is not less than the first. The azimuths span a full turn if the sensor is over the outline.
 fn azimuths(outline: &Outline, at: &Pose) -> (f64, f64) {
     let distance = at.position.norm();
     let middle = libm::atan2(at.position.y, at.position.x);
@@ -170,7 +170,7 @@ fn azimuths(outline: &Outline, at: &Pose) -> (f64, f64) {
     }
 }
 
-/// Returns the distances in metres at which the ray from the sensor enters and leaves an outline `at`, if it hits it.
+/// Returns the distances in metres at which the ray from the sensor enters and leaves an outline, if it does.
 fn cut(outline: &Outline, at: &Pose, direction: Vector2<f64>) -> Option<(f64, f64)> {
     let (enters, leaves) = match *outline {
         Outline::Rectangle { .. } => {

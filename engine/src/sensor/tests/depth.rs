@@ -57,7 +57,7 @@ fn what_is_too_far_or_no_number_is_no_echo() {
     assert_eq!(count(&[10.0, 20.0]), Ok(2), "behind the camera it sees nothing");
     assert_eq!(count(&[f32::INFINITY, 20.0]), Ok(1));
     assert_eq!(count(&[f32::NAN, -1.0]), Ok(0));
-    assert_eq!(refusal(count(&[10.0])), "the depth image has 1 pixels, expected 2 x 1");
+    assert_eq!(refusal(count(&[10.0])), "the depth image has 1 pixel, expected the camera's 2 x 1");
     let blind = Pinhole { focal: [0.0, 1.0], ..camera };
     let refused = scan_of_depth(&blind, &[1.0, 1.0], beams, 50.0, 0.0, &mut Scan::default());
     assert_eq!(refusal(refused), "depth camera: `focal[0]` is 0 px, expected 0.001 to 1000000 px");

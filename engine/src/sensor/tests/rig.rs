@@ -176,7 +176,7 @@ fn a_sensor_that_cannot_be_attached_says_why() {
     let mut rig = Rig::new(0);
     let sensor = rig.attach("clock", clock(0.1), Delivery::default()).unwrap();
     let mut attach = |name, period, latency, loss| refusal(rig.attach(name, clock(period), Delivery { latency, loss }));
-    assert_eq!(attach("clock", 0.1, 0.0, 0.0), "two sensors are called `clock`");
+    assert_eq!(attach("clock", 0.1, 0.0, 0.0), "two sensors are called `clock`; give each sensor its own name");
     assert_eq!(attach("slow", f64::NAN, 0.0, 0.0), "slow: `period` is NaN s, expected 0.0001 to 10000 s");
     assert_eq!(attach("late", 0.1, -0.1, 0.0), "late: `latency` is -0.1 s, expected 0 to 100 s");
     assert_eq!(attach("lossy", 0.1, 0.0, 1.5), "lossy: `loss` is 1.5, expected 0 to 1");

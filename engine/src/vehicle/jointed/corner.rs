@@ -65,7 +65,7 @@ pub(super) struct Step<'a> {
 
 /// The position and motion of the chassis.
 pub(super) struct Chassis {
-    /// The frame of the chassis: its middle at the height of the axles.
+    /// The frame of the chassis, whose origin is the car's middle at the height of the axles.
     pub frame: Frame,
     centre: Vector,
     velocity: Vector,
@@ -117,7 +117,7 @@ impl Corner {
         }
     }
 
-    /// Returns the longest step in seconds in which the wheel hops between road and chassis without diverging. The
+    /// Returns the longest step in seconds at which the wheel's hopping between road and chassis does not diverge. The
     /// limit of an explicit spring `k` and damper `c` under a mass `m` is `k dt² + 2 c dt = 4 m`; this takes `2 m`.
     pub fn longest_step(&self, vehicle: &Vehicle) -> f64 {
         let stiffness = (1.0 + 2.0 * ROLL_BAR) * self.spring + self.rest / COMPRESSED;
@@ -138,12 +138,12 @@ impl Corner {
         joint.data.local_frame1.rotation = self.turned;
     }
 
-    /// Returns the difference of the speeds of the tread and of the road under it, divided by the speed of the road.
+    /// Returns the difference of the speeds of the tread and of the road under the wheel, divided by the road's speed.
     pub fn slip(&self, step: &Step) -> f64 {
         (self.tread - self.speed.x).abs() / self.speed.x.abs().max(step.slow)
     }
 
-    /// Returns the force of the road along the wheel that is possible beside the force across it, in newtons.
+    /// Returns the greatest force of the road along the wheel for the given force across the wheel, in newtons.
     pub fn grip(&self, step: &Step) -> f64 {
         let limit = step.friction * self.load;
         (limit * limit - self.side * self.side).max(0.0).sqrt()
@@ -154,8 +154,8 @@ impl Corner {
         f64::from((wheel.translation() - chassis.frame.translation).dot(chassis.up()))
     }
 
-    /// Sets force and torque on the wheel for the next step, and returns force and torque on the chassis. `other` is
-    /// the compression of the spring on the other side of the car.
+    /// Sets the force and the torque on the wheel for the next step, and returns the force and the torque on the
+    /// chassis. `other` is the compression of the spring on the other side of the car.
     pub fn push(&mut self, step: &Step, wheel: &mut RigidBody, torque: Torque, other: f64) -> (Vector, Vector) {
         let Step { vehicle, chassis, friction, dt, slow } = step;
         let at = wheel.translation();
@@ -225,7 +225,7 @@ impl<'a> Step<'a> {
 }
 
 impl Chassis {
-    /// Reads the position and motion of a body.
+    /// Reads the position and motion of the chassis from a body of the physics.
     pub fn from(body: &RigidBody) -> Self {
         Self { frame: *body.position(), centre: body.center_of_mass(), velocity: body.linvel(), turning: body.angvel() }
     }
@@ -235,7 +235,7 @@ impl Chassis {
         self.frame.rotation * Vector::Z
     }
 
-    /// Returns the velocity of the point of the chassis at a place.
+    /// Returns the velocity of the point of the chassis at a given place.
     pub fn velocity_at(&self, place: Vector) -> Vector {
         self.velocity + self.turning.cross(place - self.centre)
     }

@@ -42,7 +42,7 @@ const STANDS: f64 = 0.01;
 /// The distance in metres from the origin at which the car is moved back to it.
 const FAR: f32 = 32.0;
 
-/// A car as a chassis and four wheels on joints.
+/// A model of a car as a chassis and four wheels on joints, in a physics engine.
 ///
 /// It can tip over: in a bend, if the friction exceeds half of the track divided by the height of the centre of
 /// gravity; in the worst spins at two thirds of that, if the road pushes it to both sides in turn and the body rolls
@@ -62,7 +62,7 @@ pub struct Jointed {
 }
 
 impl Jointed {
-    /// Makes a car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    /// Makes a car whose middle has the pose `start` and that goes straight ahead at `speed` m/s.
     ///
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].

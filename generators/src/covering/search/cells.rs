@@ -6,16 +6,16 @@
 
 use std::collections::BTreeSet;
 
-/// The largest strength that can be searched.
+/// The largest strength of a covering array that the search can handle.
 pub(super) const MOST_STRENGTH: usize = 8;
 
 /// The largest number of cells.
 const MOST_CELLS: usize = 1 << 26;
 
-/// The places of the members of a cell. Only the first `strength` of them count.
+/// The places of the parameters of a cell among the members. Only the first `strength` places count.
 pub(super) type Chosen = [u16; MOST_STRENGTH];
 
-/// The numbers of the combinations among some parameters.
+/// A numbering of the combinations of levels of t of the given parameters.
 #[derive(Debug, Clone)]
 pub(crate) struct Cells {
     pub(super) members: Vec<usize>,
@@ -28,17 +28,18 @@ pub(crate) struct Cells {
     orbits: Option<Orbits>,
 }
 
-/// The orbits of combinations: combinations that a group of permutations maps to each other count as one.
+/// The orbits of combinations of levels under a group of permutations. An orbit has the combinations that the
+/// permutations map to each other.
 #[derive(Debug, Clone)]
 pub(crate) struct Orbits {
-    /// The orbit of each combination of t levels; the level of the smallest place is the lowest digit.
+    /// The number of the orbit of each combination of t levels; the level of the smallest place is the lowest digit.
     pub(crate) of: Vec<usize>,
-    /// The number of orbits.
+    /// The number of orbits of combinations.
     pub(crate) count: usize,
 }
 
 impl Cells {
-    /// Numbers the combinations of `strength` of the members; `None` if there are too many.
+    /// Numbers the combinations of levels of `strength` of the members; `None` if there are too many combinations.
     pub(crate) fn new(levels: &[usize], members: &[usize], strength: usize) -> Option<Self> {
         if strength > MOST_STRENGTH {
             return None;
@@ -58,7 +59,7 @@ impl Cells {
         Some(Self { members: members.to_vec(), strength, start, step, count, orbits: None })
     }
 
-    /// Numbers the orbits of the combinations of `strength` of `parameters` parameters, of `v` levels each.
+    /// Numbers the orbits of the combinations of levels of `strength` of `parameters` parameters, with `v` levels each.
     pub(crate) fn of_orbits(parameters: usize, v: usize, strength: usize, orbits: Orbits) -> Self {
         let mut choices = vec![vec![0; parameters + 1]; strength + 1];
         choices[0].fill(1);
@@ -75,27 +76,27 @@ impl Cells {
         Self { members: (0..parameters).collect(), strength, start, step, count, orbits: Some(orbits) }
     }
 
-    /// The number of cells.
+    /// Returns the number of cells, which are combinations of levels or orbits of combinations.
     pub(crate) fn len(&self) -> usize {
         self.count
     }
 
-    /// The number of members.
+    /// Returns the number of parameters that are members.
     pub(crate) fn members(&self) -> usize {
         self.members.len()
     }
 
-    /// The number of members of a cell.
+    /// Returns the number of parameters in a cell.
     pub(crate) fn strength(&self) -> usize {
         self.strength
     }
 
-    /// The number of cells of a row.
+    /// Returns the number of cells that a row covers.
     pub(crate) fn in_row(&self) -> usize {
         (0..self.strength).fold(1, |choices, i| choices * (self.members.len() - i) / (i + 1))
     }
 
-    /// Returns `true` if a cell is a single combination.
+    /// Returns `true` if each cell is a single combination of levels and not an orbit.
     pub(super) fn are_combinations(&self) -> bool {
         self.orbits.is_none()
     }
@@ -113,7 +114,7 @@ impl Cells {
         }
     }
 
-    /// The cell of a row for the chosen places, with another level for one parameter.
+    /// Returns the cell of a row at the chosen places, with the level of one parameter replaced by `level`.
     #[inline(always)]
     pub(super) fn cell_with(&self, chosen: &Chosen, row: &[usize], parameter: usize, level: usize) -> usize {
         let terms = chosen[..self.strength].iter().enumerate().map(|(s, &place)| {
@@ -124,14 +125,15 @@ impl Cells {
         self.cell(terms.sum())
     }
 
-    /// Calls with each cell of a row, or with each cell of one place, and the chosen places in ascending order.
+    /// Calls `call` with each cell of a row and the chosen places in ascending order. With a `place`, only the cells
+    /// that contain the place count.
     #[inline(always)]
     pub(super) fn each(&self, row: &[usize], place: Option<usize>, call: &mut impl FnMut(usize, &Chosen)) {
         let mut chosen = [0; MOST_STRENGTH];
         self.choose(self.strength, self.members.len(), 0, row, place, &mut chosen, call);
     }
 
-    /// Calls with each cell, its chosen places, and a row that has the cell.
+    /// Calls `call` with a row that has the cell, the cell and its chosen places, for each cell.
     pub(super) fn each_cell(&self, levels: &[usize], call: &mut impl FnMut(&[usize], usize, &Chosen)) {
         let mut sets = Vec::new();
         self.each(&vec![0; levels.len()], None, &mut |_, chosen| sets.push(*chosen));

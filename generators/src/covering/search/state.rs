@@ -20,7 +20,7 @@ const DOUBLINGS: u64 = 4;
 /// The number of missing cells that are examined to rate a change.
 const LOOKED_AT: usize = 256;
 
-/// The rows of a search, with the cells that they cover and the cells that are missing.
+/// The state of a search for a smaller covering array, with the rows, the covered cells and the missing cells.
 #[derive(Debug, Clone)]
 pub(crate) struct Annealing {
     rules: Rules,
@@ -55,7 +55,7 @@ struct Change {
 }
 
 impl Annealing {
-    /// Starts from fewer than 2^16 rows that satisfy the constraints. The first `kept` of them never change.
+    /// Makes a search from fewer than 2^16 rows that satisfy the constraints. The first `kept` rows never change.
     /// Combinations that the rows do not cover are not demanded.
     pub(crate) fn new(rules: &Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {
         assert!(rows.len() < 1 << 16, "rows are numbered in 16 bits");
@@ -114,23 +114,23 @@ impl Annealing {
         self.having[entry][index / 64] ^= 1 << (index % 64);
     }
 
-    /// The present rows.
+    /// Returns the present rows of the search.
     pub(crate) fn rows(&self) -> Vec<Vec<usize>> {
         let indices = (0..self.kept).chain(self.active.iter().copied());
         indices.map(|index| self.rows[index].clone()).collect()
     }
 
-    /// The number of rows.
+    /// Returns the present number of rows.
     pub(crate) fn len(&self) -> usize {
         self.kept + self.active.len()
     }
 
-    /// The number of missing cells.
+    /// Returns the number of demanded cells that no row covers.
     pub(crate) fn missing(&self) -> usize {
         self.tally.missing.len()
     }
 
-    /// Demands all cells.
+    /// Demands that the rows cover all cells.
     pub(crate) fn demand_all(&mut self) {
         let Self { families, tally, rules, fewest, .. } = self;
         for (family, cells) in families.iter().enumerate() {
@@ -148,7 +148,7 @@ impl Annealing {
         ((u128::from(mix(self.chance)) * below as u128) >> 64) as usize
     }
 
-    /// Drops the row that is the only one for the fewest cells. Returns `false` if no row may be dropped.
+    /// Removes the row whose removal leaves the fewest cells uncovered. Returns `false` if no row may be dropped.
     pub(crate) fn drop_row(&mut self) -> bool {
         let place = (0..self.active.len()).min_by_key(|&place| self.tally.all_alone(self.active[place]));
         let Some(place) = place else { return false };
@@ -216,7 +216,7 @@ impl Annealing {
         }
     }
 
-    /// Takes `steps` steps, fewer if nothing is missing any more.
+    /// Takes `steps` steps of the search, or fewer steps if no cell is missing any more.
     pub(crate) fn steps(&mut self, steps: usize) {
         for _ in 0..steps {
             if self.missing() == 0 {

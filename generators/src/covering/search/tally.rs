@@ -11,30 +11,30 @@ struct Cell {
     rows: u16,
 }
 
-/// A cell that no row covers.
+/// A demanded cell that no row covers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Missing {
     pub(super) family: u16,
     pub(super) cell: u32,
     pub(super) chosen: Chosen,
-    /// A combination of the cell, by the chosen places.
+    /// The levels of a combination of the cell, in the order of the chosen places.
     pub(super) levels: [u32; MOST_STRENGTH],
 }
 
-/// The cells of all families, one family after the other, with the counts that follow from them.
+/// The cells of all families, with the number of rows that cover each cell.
 #[derive(Debug, Clone)]
 pub(super) struct Tally {
     parameters: usize,
     begin: Vec<usize>,
     cells: Vec<Cell>,
-    /// The cells without a row that are demanded.
+    /// The demanded cells that no row covers.
     pub(super) missing: Vec<Missing>,
     /// The number of cells that only this row covers: with each of its entries, and then in all.
     alone: Vec<u32>,
 }
 
 impl Tally {
-    /// Makes a tally in which nothing is covered and nothing is demanded.
+    /// Makes a tally in which no cell is covered and no cell is demanded.
     pub(super) fn new(families: &[Cells], rows: usize, parameters: usize) -> Self {
         let begin: Vec<usize> = families
             .iter()
@@ -53,13 +53,13 @@ impl Tally {
         }
     }
 
-    /// The number of cells that would be missing without an entry.
+    /// Returns the number of cells that would be missing without an entry of a row.
     #[inline(always)]
     pub(super) fn alone(&self, row: usize, parameter: usize) -> u32 {
         self.alone[row * (self.parameters + 1) + parameter]
     }
 
-    /// The number of cells that would be missing without a row.
+    /// Returns the number of cells that would be missing without a row.
     pub(super) fn all_alone(&self, row: usize) -> u32 {
         self.alone(row, self.parameters)
     }
@@ -74,7 +74,7 @@ impl Tally {
         alone[self.parameters] = alone[self.parameters].wrapping_add(change);
     }
 
-    /// Counts a row of the start for a cell.
+    /// Counts that a row of the start covers a cell.
     #[inline(always)]
     pub(super) fn count(&mut self, family: usize, row: usize, cell: usize) {
         let cell = &mut self.cells[self.begin[family] + cell];
@@ -82,7 +82,8 @@ impl Tally {
         cell.rows ^= row as u16;
     }
 
-    /// Counts a row as alone at a cell, if it is. All rows of the start must have been counted before.
+    /// Counts a cell for a row of the start, if no other row covers the cell. All rows of the start must have been
+    /// counted before.
     #[inline(always)]
     pub(super) fn claim(&mut self, family: usize, cells: &Cells, row: usize, cell: usize, chosen: &Chosen) {
         if self.cells[self.begin[family] + cell].count == 1 {
@@ -90,7 +91,7 @@ impl Tally {
         }
     }
 
-    /// Notes that a row now covers a cell.
+    /// Updates the counts after a row has begun to cover a cell.
     #[inline(always)]
     pub(super) fn enter(&mut self, family: usize, cells: &Cells, row: usize, cell: usize, chosen: &Chosen) {
         let at = self.begin[family] + cell;
@@ -110,7 +111,7 @@ impl Tally {
         self.cells[at] = Cell { count: state.count + 1, rows };
     }
 
-    /// Notes that a row with these levels no longer covers a cell.
+    /// Updates the counts after a row with the given levels has stopped covering a cell.
     #[inline(always)]
     pub(super) fn leave(
         &mut self,
@@ -135,7 +136,7 @@ impl Tally {
         }
     }
 
-    /// Demands a cell that no row covers.
+    /// Adds a cell that no row covers to the missing cells.
     pub(super) fn add_missing(&mut self, family: usize, cells: &Cells, row: &[usize], cell: usize, chosen: &Chosen) {
         let mut levels = [0; MOST_STRENGTH];
         for (level, &place) in levels.iter_mut().zip(&chosen[..cells.strength]) {

@@ -3,9 +3,9 @@
 
 use super::letters::letters;
 use super::{Look, fill, painted, stroke};
+use crate::birds_eye::Anchor;
 use crate::plot::FONT;
 use ab_glyph::FontRef;
-use crate::birds_eye::Anchor;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,
@@ -28,7 +28,7 @@ pub(in crate::plot) struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// Makes a canvas on these pixels.
+    /// Makes a canvas that draws on the given pixels.
     pub fn on(pixels: &'a mut Pixmap) -> Self {
         Self { pixels, font: FontRef::try_from_slice(FONT).expect("the font in the program is a font") }
     }
@@ -45,8 +45,8 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// Returns the path of a line. Lines of an odd width run through the middles of pixels, others between two pixels, so
-/// that their edges are edges of pixels.
+/// Returns the path of a line through points. Lines of an odd width run through the middles of pixels, others between
+/// two pixels, so that their edges are edges of pixels.
 fn line(points: impl IntoIterator<Item = BackendCoord>, style: &impl BackendStyle) -> PathBuilder {
     polygon(points, 0.5 * (style.stroke_width() % 2) as f32)
 }

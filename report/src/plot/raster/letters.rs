@@ -1,7 +1,7 @@
 //! Draws the letters of texts as outlines, placed to a fraction of a pixel.
 
-use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use crate::birds_eye::{Anchor, Pixel};
+use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use tiny_skia::{Path, PathBuilder};
 
 /// Returns the outlines of the letters of a text at its anchor, with `size` pixels to the em.

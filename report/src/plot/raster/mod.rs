@@ -6,9 +6,9 @@ mod letters;
 pub(super) use canvas::{Canvas, sheet};
 
 use super::FONT;
+use crate::birds_eye::{Contour, Drawing, Paint as Look, PathSegment, PictureItem, Pixel};
 use ab_glyph::FontRef;
 use letters::letters;
-use crate::birds_eye::{Contour, Drawing, Paint as Look, PathSegment, PictureItem, Pixel};
 use std::error::Error as StdError;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
@@ -49,7 +49,7 @@ pub(super) fn draw(pixels: &mut Pixmap, drawing: &Drawing, scale: f32) {
     }
 }
 
-/// Returns the drawing as the contents of a PNG file, at twice the size, so that it is sharp on any screen.
+/// Returns a vector picture as the contents of a PNG file with twice the width and height, for sharpness on any screen.
 ///
 /// # Errors
 /// Returns an error if the encoder fails.
@@ -71,7 +71,7 @@ fn painted(look: Look) -> Paint<'static> {
     paint
 }
 
-/// Fills a path. A path without extent, or with coordinates that are not finite, is not drawn.
+/// Fills a path with a colour. A path without extent, or with coordinates that are not finite, is not drawn.
 fn fill(pixels: &mut Pixmap, path: Option<Path>, paint: &Paint, zoom: Transform) {
     if let Some(path) = path {
         pixels.fill_path(&path, paint, FillRule::Winding, zoom, None);

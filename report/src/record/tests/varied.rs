@@ -119,24 +119,24 @@ fn files_of_cameras_say_the_line_and_the_key_what_was_found_and_what_was_expecte
         (
             "seed = 5",
             "sed = 5",
-            "2: there is no key `sed`, expected `seed` or tables [camera.NAME] (did you mean `seed`?)",
+            "2: unknown key `sed` in a file of cameras, expected `seed` or tables [camera.NAME] (did you mean `seed`?)",
         ),
         ("seed = 5", "seed = -1", "2: `seed` is -1, expected a whole number from 0 on"),
         (
             "[camera.front]",
             "[cameras.front]",
-            "3: there is no key `cameras`, expected `seed` or tables [camera.NAME] (did you mean `camera`?)",
+            "3: unknown key `cameras` in a file of cameras, expected `seed` or tables [camera.NAME] (did you mean `camera`?)",
         ),
         (
             "exposure",
             "exposre",
-            "10: camera `front`: there is no key `exposre` (did you mean `exposure`?), expected some of resolution, focal_mm",
+            "10: camera `front`: a camera has no key `exposre` (did you mean `exposure`?); its keys are resolution, focal_mm",
         ),
         ("rate = 2\n", "", "3: camera `front` has no `rate`, expected images a second, such as `rate = 10.0`"),
         (
             "rate = 2",
             "rate = \"2..9\"",
-            "9: camera `front`: `rate` is \"2..9\", expected a number of Hz: it cannot vary from test to test",
+            "9: camera `front`: `rate` is \"2..9\", expected one number of Hz, because this setting cannot vary from test to test",
         ),
         (
             "rate = 2",
@@ -146,7 +146,7 @@ fn files_of_cameras_say_the_line_and_the_key_what_was_found_and_what_was_expecte
         (
             "\"-2..2\"",
             "\"2..-2\"",
-            "8: camera `front`: pitch in `yaw_pitch_roll` is \"2..-2\", expected \"LO..HI\" or \"A,B,C\", numbers of degrees, the lower end first",
+            "8: camera `front`: pitch in `yaw_pitch_roll` is \"2..-2\", expected \"LO..HI\" with the lower number first, or \"A,B,C\" with no number twice; all are numbers of degrees",
         ),
         ("\"-1.5,0,1.5\"", "\"dark\"", "10: camera `front`: `exposure` is \"dark\", expected \"LO..HI\""),
         ("\"-1.5,0,1.5\"", "\"0,0\"", "10: camera `front`: `exposure` is \"0,0\", expected"),

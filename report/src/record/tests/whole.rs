@@ -66,7 +66,10 @@ fn a_camera_inside_a_body_is_said_and_marked() {
     let mut worker = Worker::new(&study).expect("it can be run");
     let recorded = dataset.record(&mut worker, &trials[0], &mut projector).expect("it is recorded");
     assert_eq!(recorded.notes.len(), 1, "{recorded:?}");
-    assert!(recorded.notes[0].contains("of camera `front` inside `leader`, from "), "{recorded:?}");
+    assert!(
+        recorded.notes[0].contains("of camera `front` left out: the camera was inside `leader`, first at "),
+        "{recorded:?}"
+    );
     let files = files(&dir.path().join("000000"));
     let controls = String::from_utf8(files[Path::new("controls.csv")].clone()).expect("text");
     let (inside, outside): (Vec<_>, Vec<_>) = controls.lines().skip(1).partition(|line| line.ends_with(",leader"));

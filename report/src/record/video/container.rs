@@ -22,9 +22,9 @@ const MDAT_HEAD: u64 = 16;
 pub(super) struct Picture {
     /// The time of the picture, in seconds.
     pub seconds: f64,
-    /// The length of the picture in the file.
+    /// The size in bytes of the picture in the file.
     pub bytes: u32,
-    /// True if a player can begin with this picture.
+    /// True if a player can start the film at the picture.
     pub is_key: bool,
 }
 
@@ -32,26 +32,26 @@ pub(super) struct Picture {
 pub(super) struct Track {
     size: [u32; 2],
     rate: f64,
-    /// The code of the matrix that divided colours into brightness and colour differences.
+    /// The standard code of the matrix that converts colours to brightness and colour differences.
     matrix: u16,
-    /// The sequence parameter set of H.264. The picture parameter set follows.
+    /// The sequence parameter set of the H.264 encoder. The picture parameter set follows.
     pub sequence: Vec<u8>,
     pub parameters: Vec<u8>,
     pub pictures: Vec<Picture>,
 }
 
 impl Track {
-    /// Makes a track without pictures, for pictures of this width and height in pixels.
+    /// Makes a track without pictures, for pictures with a width and a height in pixels.
     pub fn new(size: [u32; 2], rate: f64, matrix: u16) -> Self {
         Self { size, rate, matrix, sequence: Vec::new(), parameters: Vec::new(), pictures: Vec::new() }
     }
 
-    /// Returns the size of the box of pictures, including its head.
+    /// Returns the size in bytes of the MP4 box `mdat`, which holds the pictures, including its head.
     pub fn mdat_size(&self) -> u64 {
         MDAT_HEAD + self.pictures.iter().map(|picture| u64::from(picture.bytes)).sum::<u64>()
     }
 
-    /// Returns the box `moov`.
+    /// Returns the MP4 box `moov`, which describes the pictures of the film.
     ///
     /// # Errors
     /// Returns an error if the film lasts longer than 13 hours, or has more than 4 billion pictures.
@@ -63,8 +63,8 @@ impl Track {
         Ok(container(b"moov", &[movie_header(duration), track]))
     }
 
-    /// Returns for how many ticks each picture is shown. The times are rounded, not the differences between them, so
-    /// that a film runs at the right speed.
+    /// Returns the duration of each picture in ticks of the file's clock. The times are rounded, not the differences
+    /// between them, so that a film runs at the right speed.
     fn durations(&self) -> Result<Vec<u32>, TryFromIntError> {
         let ticks = |seconds: f64| (seconds * f64::from(CLOCK)).round() as u64;
         let times = self.pictures.iter().map(|picture| ticks(picture.seconds));
@@ -111,7 +111,7 @@ impl Track {
         Ok(container(b"minf", &[video, container(b"dinf", &[here]), container(b"stbl", &tables)]))
     }
 
-    /// Returns the box that describes how the pictures are coded.
+    /// Returns the MP4 box that describes the encoding of the pictures.
     fn description(&self) -> Vec<u8> {
         let [width, height] = self.size.map(|pixels| (pixels as u16).to_be_bytes());
         let [profile, constraints, level] = [1, 2, 3].map(|byte| self.sequence.get(byte).copied().unwrap_or_default());
@@ -143,17 +143,17 @@ fn handler() -> Vec<u8> {
     versioned(b"hdlr", 0, &[&[0; 4], b"vide", &[0; 12], b"camera\0"])
 }
 
-/// Returns a box that contains boxes.
+/// Returns an MP4 box that contains other boxes.
 fn container(kind: &[u8; 4], boxes: &[Vec<u8>]) -> Vec<u8> {
     boxed(kind, &boxes.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
-/// Returns a box that begins with the version 0 and flags.
+/// Returns an MP4 box that begins with the version 0 and flags.
 fn versioned(kind: &[u8; 4], flags: u32, parts: &[&[u8]]) -> Vec<u8> {
     boxed(kind, &[&[&flags.to_be_bytes()[..]], parts].concat())
 }
 
-/// Returns a box, which consists of its size, its kind, and its contents.
+/// Returns an MP4 box, which consists of a size, a kind and contents.
 fn boxed(kind: &[u8; 4], parts: &[&[u8]]) -> Vec<u8> {
     let contents = parts.concat();
     [&(8 + contents.len() as u32).to_be_bytes()[..], kind, &contents].concat()

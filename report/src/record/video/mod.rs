@@ -34,8 +34,8 @@ pub(super) struct Video<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> Video<W> {
-    /// Begins a film of this width and height in pixels, with about `rate` pictures a second. Colours are stored for
-    /// squares of two by two pixels, so that an odd size is rounded up and the last pixels are repeated.
+    /// Begins an MP4 film with a width and a height in pixels and about `rate` pictures a second. Colours are stored
+    /// for squares of two by two pixels, so that an odd size is rounded up and the last pixels are repeated.
     ///
     /// # Errors
     /// Returns an error if the pictures are larger than H.264 allows, or nothing can be written.
@@ -60,8 +60,8 @@ impl<W: Write + Seek> Video<W> {
         Ok(Self { file, encoder, track: Track::new([width, height], rate, planes.matrix_code()), planes })
     }
 
-    /// Adds a picture at this time, which is later than all earlier times. `rgb` holds red, green and blue of each
-    /// pixel.
+    /// Adds a picture with its time in seconds, which must be later than all earlier times. `rgb` holds red, green and
+    /// blue of each pixel.
     ///
     /// # Errors
     /// Returns an error if nothing can be written.
@@ -90,7 +90,7 @@ impl<W: Write + Seek> Video<W> {
         Ok(())
     }
 
-    /// Ends the film. The last picture is shown for the usual duration of one picture.
+    /// Writes the end of the MP4 file. The last picture is shown for the usual duration of one picture.
     ///
     /// # Errors
     /// Returns an error if the film is too long for the file format, or nothing can be written.

@@ -6,7 +6,7 @@ const HIGH_DEFINITION: u32 = 720;
 /// The planes of one picture: brightness Y and the colour differences Cb and Cr, in the range of television: 16 to 235
 /// for Y, 16 to 240 for Cb and Cr.
 pub(super) struct Planes {
-    /// The width and height in pixels that are shown. `size` holds those of the picture, which are even.
+    /// The shown width and height of the picture, in pixels. `size` holds those of the picture, which are even.
     shown: [usize; 2],
     size: [usize; 2],
     matrix: Matrix,
@@ -19,7 +19,7 @@ pub(super) struct Planes {
 struct Matrix {
     red: f32,
     blue: f32,
-    /// The number that stands for the matrix in files (ITU-T H.273, table 4).
+    /// The number that identifies the colour matrix in files (ITU-T H.273, table 4).
     code: u16,
 }
 
@@ -29,7 +29,7 @@ const STANDARD: Matrix = Matrix { red: 0.299, blue: 0.114, code: 6 };
 const HIGH: Matrix = Matrix { red: 0.2126, blue: 0.0722, code: 1 };
 
 impl Planes {
-    /// Makes the planes of a picture of this width and height in pixels.
+    /// Makes the colour planes of a picture with a width and a height in pixels.
     pub fn new(shown: [u32; 2]) -> Self {
         let matrix = if shown[1] < HIGH_DEFINITION { STANDARD } else { HIGH };
         let shown = shown.map(|pixels| pixels as usize);
@@ -38,23 +38,23 @@ impl Planes {
         Self { shown, size, matrix, y: vec![0; pixels], cb: vec![0; pixels / 4], cr: vec![0; pixels / 4] }
     }
 
-    /// Returns the width and height of the picture in pixels, which are even.
+    /// Returns the width and the height of the stored picture in pixels, which are even.
     pub fn size(&self) -> [u32; 2] {
         self.size.map(|pixels| pixels as u32)
     }
 
-    /// Returns the number that stands for the matrix in files.
+    /// Returns the number that identifies the colour matrix in files.
     pub fn matrix_code(&self) -> u16 {
         self.matrix.code
     }
 
-    /// Returns the planes Y, Cb and Cr.
+    /// Returns the colour planes Y, Cb and Cr of the picture.
     pub fn all(&self) -> [&[u8]; 3] {
         [&self.y, &self.cb, &self.cr]
     }
 
-    /// Takes a picture, given as red, green and blue of each pixel. Pixels beyond an odd width or height repeat their
-    /// neighbours.
+    /// Converts a picture to the colour planes, given as red, green and blue of each pixel. Pixels beyond an odd width
+    /// or height repeat their neighbours.
     pub fn take(&mut self, rgb: &[u8]) {
         let Matrix { red, blue, .. } = self.matrix;
         let [across, down] = self.shown;

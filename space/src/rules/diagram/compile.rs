@@ -91,7 +91,7 @@ impl Table {
         literals.iter().rev().fold(NONE, |otherwise, (turn, holds)| self.literal(self.first[*turn], holds, otherwise))
     }
 
-    /// Makes a diagram that leads to the end if the class is a marked one, and to `otherwise` if not.
+    /// Makes a diagram that leads to the end if the class is marked, and otherwise to `otherwise`.
     fn literal(&mut self, segment: u32, holds: &[bool], otherwise: u32) -> u32 {
         match holds {
             [true] => END,
@@ -105,7 +105,7 @@ impl Table {
         }
     }
 
-    /// Joins diagrams: the result leads to the end if all of them do.
+    /// Joins diagrams so that the result leads to the end if all diagrams do.
     fn join_all(&mut self, mut all: Vec<u32>) -> Option<u32> {
         while all.len() > 1 {
             all = all
@@ -116,7 +116,8 @@ impl Table {
         Some(all.pop().unwrap_or(END))
     }
 
-    /// Joins two diagrams: the result leads to the end if both do. `None` if there are too many nodes or steps.
+    /// Joins two diagrams so that the result leads to the end if both diagrams do. `None` if there are too many nodes
+    /// or steps.
     fn join(&mut self, a: u32, b: u32) -> Option<u32> {
         match (a.min(b), a.max(b)) {
             (a, b) if a == b => Some(a),

@@ -62,7 +62,7 @@ pub(super) fn walker(figure: &Figure<'_>, models: &Models, scene: &mut Vec<Insta
     }
 }
 
-/// Returns the swing of the legs of a person of 1.8 m at a speed in m/s.
+/// Returns the angle by which the legs of a person of 1.8 m swing at a speed in m/s.
 fn swing(speed: f32) -> f32 {
     let run = (speed - RUNS[0]) / (RUNS[1] - RUNS[0]);
     SWING * (speed / PACE).min(1.0) + RUN * run.clamp(0.0, 1.0)
@@ -73,13 +73,13 @@ fn leg(phase: f32, swing: f32) -> Leg {
     Leg { hip: swing * sin, knee: KNEE * swing * cos.max(0.0) }
 }
 
-/// Returns the pose of a joint at a point whose limb is swung forward by an angle.
+/// Returns the pose of a joint whose limb swings forward by an angle.
 fn forward(joint: Vector3<f32>, angle: f32) -> Isometry3<f32> {
     Isometry3::new(joint, Vector3::y() * -angle)
 }
 
 impl Leg {
-    /// Returns how far the lowest point of the leg is below the hip, for a person scaled by `x` and `z`.
+    /// Returns the vertical distance from the hip to the lowest point of the leg, for a person scaled by `x` and `z`.
     fn reach(&self, x: f32, z: f32) -> f32 {
         let (thigh, (sin, cos)) = (libm::cosf(self.hip), libm::sincosf(self.hip - self.knee));
         let sole = SOLE.map(|along| SHIN * z * cos - along * x * sin);
