@@ -85,8 +85,7 @@ pub(crate) fn mixed(number: u64) -> u64 {
     z ^ z >> 31
 }
 
-/// Returns two independent standard normal numbers (Box and Muller 1958). They use libm and are the same on every
-/// machine.
+/// Returns two independent standard normal numbers (Box and Muller 1958), equal on all machines.
 pub(crate) fn gaussian(random: &mut Pcg64) -> Vector2<f64> {
     // 1 - u is in (0, 1], where the logarithm is finite.
     let radius = libm::sqrt(-2.0 * libm::log(1.0 - random.random::<f64>()));

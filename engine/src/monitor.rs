@@ -49,8 +49,7 @@ impl Monitor {
         Self::new("no-collision", never(car.collides()), "m", 5.0).text(text.to_owned())
     }
 
-    /// Requires that the car travels at least the given number of metres. A car that stands still for ever does not
-    /// pass.
+    /// Requires that the car travels at least a given number of metres. A car that stands still for ever fails.
     pub fn progress(car: &Car, metres: f64) -> Self {
         let text =
             format!("The car travels at least {metres} m, so that a car that stands still for ever does not pass.");
@@ -94,7 +93,7 @@ impl Monitor {
         Self::new("headway", always(car.headway().at_least(seconds)), "s", 2.0).text(text)
     }
 
-    /// Requires that the whole car stays in a lane of its direction. The robustness is the least room beside the car in
+    /// Requires that the whole car stays in a lane of its own direction. The robustness is the least free width in
     /// metres.
     pub fn lane_keeping(car: &Car) -> Self {
         let text = "The whole car stays in its lane. The robustness is the least room beside the car in metres.";
@@ -113,8 +112,7 @@ impl Monitor {
         Self::new("jerk", always(car.jerk().abs().at_most(limit)), "m/s³", limit).text(text)
     }
 
-    /// Requires that no road user with the right of way reaches the car's place in an intersection within the given
-    /// number of seconds.
+    /// Requires that no road user with the right of way reaches the car's place in an intersection within `seconds`.
     pub fn right_of_way(car: &Car, seconds: f64) -> Self {
         let text = format!(
             "The car is never in an intersection at a place that somebody with the right of way reaches within {seconds} s."

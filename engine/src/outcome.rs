@@ -16,12 +16,12 @@ pub struct Outcome {
     pub judgements: Vec<Judgement>,
     /// The measurements of the run; `None` if there was no run.
     pub measured: Option<Measurements>,
-    /// The record of the run; `None` if there was no run.
+    /// The recorded signals of the run; `None` if there was no run.
     pub trace: Option<Trace>,
 }
 
 impl Outcome {
-    /// Makes the outcome of a test that has no run, or whose run broke.
+    /// Makes the outcome of a test that has no run, or whose run ended with an error.
     pub fn broken(ending: impl Into<Ending>) -> Self {
         Self { ending: ending.into(), judgements: Vec::new(), measured: None, trace: None }
     }

@@ -65,7 +65,7 @@ fn what_is_no_formula_is_refused_with_its_place_and_what_belongs_there() {
         ("x < 3 and 4", "column 12: found the end, expected a comparison such as `<`"),
         (
             "(x < 3) + 1 > 2",
-            "column 9: found `+`, expected an operator between formulas or the end (`(x < 3)` is true or false and no \
+            "column 9: found `+`, expected an operator between formulas or the end (`(x < 3)` is true or false, not a \
              number)",
         ),
         (
@@ -83,19 +83,22 @@ fn what_is_no_formula_is_refused_with_its_place_and_what_belongs_there() {
         ("x = 3", "column 3: found `=`, expected `==` (formulas use this operator)"),
         (
             "größe # 3",
-            "column 7: found `#`, expected a formula (names with other characters than letters, digits, `_` and `.` \
-             stand in quotes)",
+            "column 7: found `#`, expected a formula (write names with characters other than letters, digits, \
+             `_` and `.` in quotes)",
         ),
-        ("alway (x < 3)", "column 7: found `(`, expected an operator or the end (did you mean `always` before it?)"),
+        (
+            "alway (x < 3)",
+            "column 7: found `(`, expected an operator or the end (did you mean `always` instead of `alway`?)",
+        ),
         (
             "x < G",
-            "column 5: found `G`, expected a number or a signal (`G` is a word of the language; a signal of that name \
-             stands in quotes)",
+            "column 5: found `G`, expected a number or a signal (`G` is a word of the language; write a signal of this \
+             name in quotes)",
         ),
         (
             "x + not y > 3",
-            "column 5: found `not`, expected a number or a signal (`not` is a word of the language; a signal of that \
-             name stands in quotes)",
+            "column 5: found `not`, expected a number or a signal (`not` is a word of the language; write a signal of \
+             this name in quotes)",
         ),
         ("3x > 1", "column 1: found `3x`, expected a finite number"),
         ("x > 1e999", "column 5: found `1e999`, expected a finite number"),

@@ -90,7 +90,7 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check(
         "lanes; open",
         6,
-        "found `;`, which is no sign of the language; names with other signs than letters, digits, `_` and `.` stand in brackets: [road surface]",
+        "found `;`, which has no meaning here; names with other characters than letters, digits, `_` and `.` stand in brackets: [road surface]",
     );
     let deep = format!("{}lanes == 2{}", "(".repeat(1000), ")".repeat(1000));
     check(&deep, 129, "the constraint has more than 128 levels of nesting; divide it into several constraints");
@@ -234,15 +234,19 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     check("IF (2 = 2) THEN [Lanes] = 2;", (1, 5), "found `2`, expected a parameter in brackets, `NOT` or `(`");
     check("[Weather] = fog;", (1, 13), "found `fog`, expected a value; words stand in quotes: \"fog\"");
     check("[Weather] = 'fog';", (1, 13), "found `'`, expected `\"`");
-    check("[Weather] = 3;", (1, 13), "`Weather` takes words, which stand in quotes: found `3`");
-    check("[Lanes] = \"2\";", (1, 11), "`Lanes` takes numbers only, which stand without quotes: found `\"2\"`");
+    check("[Weather] = 3;", (1, 13), "found `3`, but parameter `Weather` takes words; write words in quotes");
+    check(
+        "[Lanes] = \"2\";",
+        (1, 11),
+        "found `\"2\"`, but parameter `Lanes` takes numbers only; write numbers without quotes",
+    );
     check("[Lanes] = ;", (1, 11), "found `;`, expected a number or a parameter in brackets");
     check("[Weather] = );", (1, 13), "found `)`, expected a word in quotes or a parameter in brackets");
     check("[Lanes] == 2;", (1, 9), "found `==`, expected `=`");
     check("[Lanes] != 2;", (1, 9), "found `!=`, expected `<>`");
     check("[Lanes] = 2 && [Lanes] = 4;", (1, 13), "found `&&`, expected `AND`");
     check("[Lanes] 2;", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
-    check("[Lanes] = 2x;", (1, 11), "found `2x`, expected a number");
+    check("[Lanes] = 2x;", (1, 11), "found `2x`, expected a finite number");
     check("[Lanes] LIKE \"2*\";", (1, 9), "`LIKE` compares words, but `Lanes` takes numbers only");
     check("[Weather] LIKE fog;", (1, 16), "found `fog`, expected a pattern in quotes");
     check("[Weather] NOT \"fog\";", (1, 15), "found `\"fog\"`, expected `IN` or `LIKE`");

@@ -127,7 +127,7 @@ fn an_unknown_actor_and_a_broken_file_are_said() {
     refused(&show(&["leader"]), &["--model leader: expected ACTOR=FILE.glb"]);
     refused(&show(&["leader=broken.glb"]), &["`broken.glb` cannot be used as a model"]);
     refused(&show(&["leader=cut.glb"]), &["`cut.glb` cannot be used as a model"]);
-    refused(&show(&["car=box.glb", "car=box.glb"]), &["it has another model already"]);
+    refused(&show(&["car=box.glb", "car=box.glb"]), &["already has another model"]);
     refused(&show(&["tree=box.glb"]), &["no actor `tree`"]);
     assert!(!dir.join("x").exists());
     let trees = ["--open", "roadside", "--model", "tree=box.glb", "--model", "bystander-2=box.glb"];

@@ -209,7 +209,10 @@ fn wrong_comparisons_are_refused_and_leave_nothing_behind() {
         (&["--strategies", "halton", "--budgets", "5,5"], &["5 is twice", "budgets"]),
         (&["--strategies", "halton", "--budgets", "300000000"], &["do not fit in memory"]),
         (&["--strategies", "halton", "--seeds", "1"], &["seeds is 1", "at least 2"]),
-        (&["--strategies", "halton", "--seed", "18446744073709551615"], &["30 seeds from 18446744073709551615"]),
+        (
+            &["--strategies", "halton", "--seed", "18446744073709551615"],
+            &["30 seeds from the first seed 18446744073709551615"],
+        ),
         (&["--strategies", "halton", "--k", "0"], &["k is 0"]),
         (&["--strategies", "halton", "--measures", "stars"], &["`stars`", "`star`"]),
         (&["--strategies", "halton", "--measures", "k-wise"], &["discrete parameters"]),

@@ -245,7 +245,7 @@ fn delta_is_refused_where_nothing_is_random() {
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let with = |more: &[&str]| cover(dir.path(), &[&["generate", "--space", "SPACE.toml"], more].concat());
     refused(&with(&["--delta", "0.1"]), &["`ipog` needs no delta", "only the family random"]);
-    refused(&with(&["--delta", "0.1", "--discrete", "cross"]), &["`cross` misses none", "only the family random"]);
+    refused(&with(&["--delta", "0.1", "--discrete", "cross"]), &["`cross` needs no delta", "only the family random"]);
     refused(&with(&["--delta", "1", "--discrete", "random"]), &["delta is 1", "above 0 and below 1"]);
     let fuzz = fuzz(dir.path(), &["--open", "lanes=2,4", "--delta", "0.1"]);
     refused(&fuzz, &["`ipog` needs no delta", "only the family random"]);

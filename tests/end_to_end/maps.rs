@@ -94,7 +94,7 @@ fn a_map_over_what_is_no_axis_is_refused_with_the_parameters_that_are() {
     let one = ["--budget", "9", "--set", "speed=2", "--out", "one"];
     let said = stderr(&succeeds(fuzz(dir.path(), &one)));
     assert!(said.contains("no failure map"), "{said}");
-    refused(&fuzz(dir.path(), &["map", "one"]), &["two continuous parameters"]);
+    refused(&fuzz(dir.path(), &["map", "one"]), &["two open continuous parameters"]);
 }
 
 #[test]

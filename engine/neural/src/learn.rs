@@ -41,7 +41,7 @@ pub struct Recipe {
     pub rates: [f64; 2],
     /// The weights of the squared errors of steering and throttle in the loss.
     pub weights: [f32; 2],
-    /// The distance between held-out runs: 5 means that every 5th run is held out. `None` holds out no run.
+    /// The distance between held-out runs; 5 holds out every 5th run, and `None` holds out no run.
     pub held_out: Option<usize>,
 }
 

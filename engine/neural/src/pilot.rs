@@ -15,7 +15,7 @@ pub struct Pilot {
     newest: Option<Image>,
 }
 
-/// Returns the description of the camera of drivers that are networks, with the given width and height in pixels.
+/// Returns the description of the camera of a neural driver, from the width and the height of its images in pixels.
 pub fn camera(resolution: [u32; 2]) -> CameraSpec {
     CameraSpec {
         resolution,

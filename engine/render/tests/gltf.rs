@@ -123,7 +123,7 @@ fn a_file_that_is_no_model_is_refused_with_what_is_wrong() {
     assert!(scrambled.contains("not valid base64"), "{scrambled}");
     for (name, content) in [("empty.gltf", &b""[..]), ("empty.glb", b"glTF"), ("words.gltf", b"a car")] {
         let refused = refuse(name, content);
-        assert!(refused.contains("is no model that can be used") && refused.contains(name), "{refused}");
+        assert!(refused.contains("cannot be used as a model") && refused.contains(name), "{refused}");
     }
 }
 

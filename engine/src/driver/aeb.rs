@@ -97,7 +97,7 @@ impl Aeb {
         }
     }
 
-    /// Returns the seconds until the car at the given speed and a body meet if both keep their motion, if they meet.
+    /// Returns the seconds until the car at this speed meets a body if both keep their motion, `None` if never.
     fn time_to_collision(&self, body: &Other, speed: f64) -> Option<f64> {
         let half_extent = body.half_extent();
         let side = self.half_width + half_extent.y + self.margin;

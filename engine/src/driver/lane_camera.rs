@@ -116,7 +116,7 @@ impl LaneCamera {
 /// A row of an image, which shows a strip of flat ground.
 struct Row<'a> {
     pixels: &'a [u8],
-    /// The slope of the ray through the row's middle: its way down, as a share of its way along the camera's axis.
+    /// The slope of the ray through the row's middle, as its way down per metre along the camera's axis.
     down: f64,
 }
 
@@ -156,8 +156,8 @@ impl<'a> Row<'a> {
         (from..to).map(|column| self.brightness(column)).sum::<f64>() / (to - from) as f64
     }
 
-    /// Returns the offset of the road's edge in metres to the left: the first pixel of at least the brightness `least`
-    /// to the right of `from`. `None` if `from` (metres to the left, too) is outside the image or bright.
+    /// Returns the offset of the road's edge in metres to the left. The edge is the first pixel of at least the
+    /// brightness `least` to the right of `from`. `None` if `from` (metres to the left) is outside or bright.
     fn edge(&self, from: f64, least: f64) -> Option<f64> {
         let (focal, half) = (focal(self.width() as u32), 0.5 * self.width() as f64);
         let depth = self.depth()?;

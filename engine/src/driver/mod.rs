@@ -1,8 +1,7 @@
 //! Drivers: the systems under test that come with the engine.
 //!
-//! The engine asks a driver for a control at the driver's own period. A driver gets nothing but its briefing, its
-//! observations and the readings of its sensors. Every driver has named settings with documented values, which a study
-//! can change.
+//! The engine asks a driver for a control at the driver's own period. A driver gets only its briefing, observations and
+//! readings of its sensors. Every driver has named settings with documented values, which a study can change.
 
 mod aeb;
 mod cruise;
@@ -94,7 +93,7 @@ pub enum FaultKind {
 }
 
 impl Fault {
-    /// Makes a fault that a driver reports itself, in its own words.
+    /// Makes a fault that the driver itself reports, in the words of the driver.
     pub fn new(message: impl Into<String>) -> Self {
         Self::of(FaultKind::Stated, message)
     }
@@ -160,7 +159,7 @@ pub struct Descriptor {
     pub name: &'static str,
     /// A description of the driver in one line.
     pub about: &'static str,
-    /// The settings of the driver.
+    /// The settings that the driver declares.
     pub settings: &'static [Setting],
     /// The function that makes the driver from the values of its settings.
     pub make: fn(&Settings) -> Box<dyn Driver>,
@@ -172,7 +171,7 @@ pub enum DriverError {
     /// No driver has the given name.
     #[error("no driver is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// The unknown name.
+        /// The name that no driver has.
         name: String,
         /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
@@ -187,8 +186,7 @@ pub enum DriverError {
         /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// The given value is not in the range of the setting, or is not a whole number although the setting takes only
-    /// whole numbers.
+    /// The given value is not in the range of the setting, or the setting takes only whole numbers.
     #[error(
         "the setting `{name}` of driver `{driver}` is {value}, expected a {}number from {} to {}",
         if *whole { "whole " } else { "" }, range.0, range.1
@@ -207,7 +205,7 @@ pub enum DriverError {
     },
 }
 
-/// The descriptions of all drivers that come with the engine, in the order of lists.
+/// The descriptions of all drivers that come with the engine. Lists show the drivers in this order.
 pub const ALL: &[&Descriptor] = &[
     &aeb::DESCRIPTOR,
     &cruise::DESCRIPTOR,

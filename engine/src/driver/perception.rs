@@ -31,7 +31,7 @@ pub(super) struct Sensor {
     pub samples: usize,
     /// The seconds between two frames.
     pub period: f64,
-    /// The seed of the noise.
+    /// The seed of the sensor's noise.
     pub seed: u64,
 }
 
@@ -75,8 +75,7 @@ impl Perception {
         *self = Self::new(self.sensor);
     }
 
-    /// Takes a frame of an observation. `front` is the distance in metres from the car's middle to the sensor at its
-    /// front.
+    /// Takes a frame of an observation, with the distance `front` in metres from the car's middle to the sensor.
     pub fn see(&mut self, observation: &Observation, front: f64) {
         let bodies = observation.others.iter().map(|body| body.id + 1).max().unwrap_or(0);
         self.seen.resize_with(bodies.max(self.seen.len()), VecDeque::new);

@@ -14,7 +14,7 @@ use crate::test::Test;
 use crate::vehicle::VehicleModel;
 
 impl Run {
-    /// Makes the run of a test with the given vehicle model, and seats the driver in the car.
+    /// Makes the run of a test with the given vehicle model, and [seats](Self::seat) the driver in the car.
     ///
     /// # Errors
     /// Returns the outcome of the test if the world cannot be built or the driver cannot drive such a car.
@@ -35,8 +35,8 @@ impl Run {
         }
     }
 
-    /// Seats a driver in the car. The car gets the driver's equipment and latency, and the driver is reset. If the
-    /// driver has no rig, a rig that the run was given before stays.
+    /// Puts a driver in the car, with the driver's equipment and latency, and resets the driver. If the driver has no
+    /// rig, a rig that the run was given before stays.
     ///
     /// # Errors
     /// The driver cannot drive such a car, or has a camera with impossible settings.
@@ -52,9 +52,8 @@ impl Run {
         driver.reset(&self.briefing())
     }
 
-    /// Asks the driver for the control that [`Run::advance`] needs, and supplies the control. `images` are the images
-    /// of all moments that have arrived from the run's [`eyes`](Run::eyes), in order, without images from inside a
-    /// body.
+    /// Supplies the run with the driver's control, which [`Run::advance`] needs. `images` are the images of all moments
+    /// that have arrived from the run's [`eyes`](Run::eyes), in order, without images from inside a body.
     ///
     /// # Errors
     /// The driver cannot go on.
@@ -65,13 +64,13 @@ impl Run {
         Ok(())
     }
 
-    /// Seats the driver and simulates the run to its end.
+    /// Simulates the run to its end with the given driver, and returns the outcome.
     pub fn drive(&mut self, driver: &mut dyn Driver) -> Outcome {
         self.watch(driver, |_| ())
     }
 
-    /// Seats the driver, simulates the run to its end, and calls `see` at each question to the driver and at the end.
-    /// No images are rendered, so a driver with cameras cannot drive.
+    /// Simulates the run to its end with a driver, and calls `see` at each question to the driver and at the end. No
+    /// images are rendered, so a driver with cameras cannot drive.
     pub fn watch(&mut self, driver: &mut dyn Driver, see: impl FnMut(&Self)) -> Outcome {
         match self.seat(driver) {
             Ok(()) => self.finish(driver, see),
@@ -113,7 +112,7 @@ pub fn simulate<'a>(
     watch(program, test, model, driver, |_| ())
 }
 
-/// Simulates a test like [`simulate`], and calls `see` at each question to the driver and at the end: [`Run::watch`].
+/// Simulates a test like [`simulate`], and calls `see` at each question to the driver and at the end.
 pub fn watch<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,

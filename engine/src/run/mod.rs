@@ -43,10 +43,10 @@ pub struct Setup {
     pub model: VehicleModel,
 }
 
-/// The reason for which a run has stopped: it needs a control, or it is over.
+/// The reason why a run has paused, which is the need of a control or the end of the run.
 #[derive(Debug)]
 pub enum Step<'a> {
-    /// The run needs a control: [`Run::supply`] it or let a driver [`Run::answer`] the observation; then advance.
+    /// The run needs a control for an observation. Call [`Run::supply`] or [`Run::answer`], and advance again.
     Need(&'a Observation),
     /// The run is over and has the given outcome.
     Done(Box<Outcome>),
@@ -334,7 +334,7 @@ impl Run {
     }
 }
 
-/// Converts a sample to the number in a trace: truths to 1 and 0, absent samples to NaN.
+/// Converts a sample to the number in a trace (truths to 1 and 0, absent samples to NaN).
 fn as_number(sample: DatumSample) -> f64 {
     match sample {
         DatumSample::Number(number) => number,

@@ -9,7 +9,7 @@ pub(super) struct Sensing {
     rig: Rig,
     eyes: Shutters,
     film: Shutters,
-    /// The key of the test: [`Test::key`](crate::Test::key).
+    /// The key of the test ([`Test::key`](crate::Test::key)).
     test: u64,
 }
 
@@ -47,8 +47,7 @@ impl Run {
         self.sensing.film = film.in_test(self.sensing.test);
     }
 
-    /// Returns the sensors of the ego vehicle, with the readings that have arrived since the last question to the
-    /// driver.
+    /// Returns the ego vehicle's sensors, with the readings that have arrived since the last question to the driver.
     pub fn rig(&self) -> &Rig {
         &self.sensing.rig
     }

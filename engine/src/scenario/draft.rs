@@ -6,7 +6,7 @@ use crate::geometry::Pose;
 use crate::object::{Behaviour, Body, Geometric, Input, ObjectSetup, Output, Physical};
 use crate::stream::{Datum, Stream};
 
-/// An object under construction. [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or
+/// An object of a scenario, under construction. [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or
 /// [`ObjectDraft::physical`] make it part of the world.
 #[must_use = "call `geometric` or `physical`, or the object does not become part of the world"]
 pub struct ObjectDraft<'a> {
@@ -20,7 +20,7 @@ impl<'a> ObjectDraft<'a> {
         Self { scenario, name, bodies: Vec::new() }
     }
 
-    /// Returns the name of the object: the name that was asked for, with a number if an earlier object has that name.
+    /// Returns the name of the object, with a number if an earlier object has the same name.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -47,7 +47,7 @@ impl<'a> ObjectDraft<'a> {
         self.scenario.wiring.output(&format!("{}.{name}", self.name))
     }
 
-    /// Adds an output to the object that every trace records.
+    /// Adds to the object an output that every trace records.
     pub fn signal(&mut self, name: &str) -> Output<f64> {
         let name = format!("{}.{name}", self.name);
         let output = self.scenario.wiring.output(&name);
@@ -55,8 +55,7 @@ impl<'a> ObjectDraft<'a> {
         output
     }
 
-    /// Refuses the object, so the world cannot be built. `why` gives the reason, as the continuation of a sentence that
-    /// begins with the object's name.
+    /// Refuses the object, so the world cannot be built. `why` gives the reason and follows the object's name.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(ObjectFlaw::Refused { why: why.to_owned() });
     }
@@ -71,7 +70,7 @@ impl<'a> ObjectDraft<'a> {
         self.scenario.objects.push(ObjectSetup { name: self.name, bodies: self.bodies, behaviour });
     }
 
-    /// Makes the object part of the world, with a behaviour that pushes its single body of `mass` kg in the physics.
+    /// Makes the object part of the world, as one body of `mass` kg that a behaviour pushes and the physics moves.
     pub fn physical(mut self, mass: f64, behaviour: impl Physical) {
         if self.bodies.len() != 1 {
             return self.flaw(ObjectFlaw::Bodies { found: self.bodies.len() });

@@ -147,8 +147,7 @@ impl Scenario {
         self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))
     }
 
-    /// Declares a closed parameter that takes one of the given values. It stays at its nominal value until a study
-    /// opens it.
+    /// Declares a closed parameter that takes one of the given values. It stays nominal until a study opens it.
     pub fn nominal_choice<T: Into<Value> + Clone + 'static, const N: usize>(
         &mut self,
         name: &str,
@@ -248,8 +247,8 @@ impl Scenario {
         self.premise = Some(event.clone());
     }
 
-    /// Makes the test invalid for the reason `why`, because its world is impossible. Use this for conditions that the
-    /// intervals of the parameters cannot express.
+    /// Makes the test invalid for the reason `why`, because the test's world is impossible. Use this for conditions
+    /// that the intervals of the parameters cannot express.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(WorldFlaw::Refused { why: why.to_owned() });
     }

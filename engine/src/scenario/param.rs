@@ -20,7 +20,7 @@ pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
     index: usize,
     flaws: Flaws,
-    /// The key of the test: [`Test::key`](crate::Test::key).
+    /// The key of the test ([`Test::key`](crate::Test::key)).
     key: Rc<Cell<u64>>,
     given: Given,
     read: Read<T>,
@@ -97,9 +97,8 @@ impl<T: Clone> Param<T> {
         self
     }
 
-    /// Declares that the parameter's nominal value changes nothing. A test with this value has the key of a test
-    /// without the parameter, and so the same camera noise, which otherwise differs. Use this for parameters that came
-    /// later.
+    /// Declares that the parameter's nominal value has no effect. A test with this value has the key of a test without
+    /// the parameter, and so the same camera noise, which otherwise differs. It is for parameters added later.
     pub fn incidental(self) -> Self {
         let value = self.given_or_nominal();
         if self.given.value.is_some() && value == self.declared.borrow()[self.index].nominal() {

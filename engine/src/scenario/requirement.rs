@@ -48,28 +48,27 @@ pub fn eventually(statement: impl Into<Temporal>) -> Temporal {
 }
 
 impl Temporal {
-    /// Makes the statement that this statement holds throughout an interval from now on.
+    /// Makes the statement that this statement holds throughout an interval, in seconds from now on.
     pub fn always(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.always(interval), ..self }
     }
 
-    /// Makes the statement that this statement holds at some tick of an interval from now on.
+    /// Makes the statement that this statement holds at some tick of an interval, in seconds from now on.
     pub fn eventually(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.eventually(interval), ..self }
     }
 
-    /// Makes the statement that this statement held throughout an interval back from now.
+    /// Makes the statement that this statement held throughout an interval, in seconds back from now.
     pub fn historically(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.historically(interval), ..self }
     }
 
-    /// Makes the statement that this statement held at some tick of an interval back from now.
+    /// Makes the statement that this statement held at some tick of an interval, in seconds back from now.
     pub fn once(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.once(interval), ..self }
     }
 
-    /// Makes the statement that this statement holds until before a tick of an interval from now on at which `goal`
-    /// holds.
+    /// Makes the statement that this statement holds until `goal` holds at a tick of an interval from now on.
     pub fn until(self, interval: impl Into<Interval>, goal: impl Into<Temporal>) -> Self {
         self.join(goal.into(), |hold, goal| hold.until(interval, goal))
     }

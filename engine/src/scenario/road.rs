@@ -84,8 +84,7 @@ impl Place for Arc<RoadNetwork> {
 
 impl Road {
     /// Returns the pose in the middle of a lane, `at` metres along the road, in the direction of traffic. Lane 1 is
-    /// beside the centre line and leads along the road, lane 2 is to the right of lane 1, and so on; lanes -1, -2, ...
-    /// lead back.
+    /// beside the centre line and leads along the road, lane 2 is to its right, and so on; lanes -1, -2, ... lead back.
     pub fn on_lane(&self, lane: i32, at: f64) -> Pose {
         self.streets.on_lane(&self.element, lane, at)
     }

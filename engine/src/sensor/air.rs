@@ -29,12 +29,10 @@ impl Default for Air {
 }
 
 impl Air {
-    /// Returns the daylight and the extinction in a weather. Fog from 0 to 1 gives an extinction from 0 to the
-    /// extinction at a visibility of 10 m: 3.912 / 10 m · (1000^fog - 1) / 999. The visibility is 326 m in a fog of
-    /// 0.5, and 3.4 km in a fog of 0.2.
+    /// Returns the daylight and the extinction in a weather. Fog from 0 to 1 gives the extinction 3.912 / 10 m ·
+    /// (1000^fog - 1) / 999. The visibility is 10 m in a fog of 1, 326 m in a fog of 0.5, and 3.4 km in a fog of 0.2.
     ///
-    /// Rain of `R` mm/h adds 1.076 · R^0.67 dB/km: the visibility is 1.1 km in rain of 50 mm/h and 1.8 km in rain of 25
-    /// mm/h.
+    /// Rain of `R` mm/h adds 1.076 · R^0.67 dB/km: the visibility is 1.1 km in rain of 50 mm/h and 1.8 km in 25 mm/h.
     pub fn of(weather: &Weather) -> Self {
         let thickness = (libm::pow(THINNEST, weather.fog.clamp(0.0, 1.0)) - 1.0) / (THINNEST - 1.0);
         let rain = RAIN_LOSS * libm::pow(weather.rain_rate(), RAIN_POWER);

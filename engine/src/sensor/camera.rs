@@ -117,16 +117,15 @@ impl Shutters {
         Ok(Self { cameras, rig, each })
     }
 
-    /// Returns the shutters for the test with the given key. Each test has other noise and losses, so no driver learns
-    /// them.
+    /// Returns the shutters for the test with the given key. Each test has its own noise and losses.
     pub(crate) fn in_test(mut self, key: u64) -> Self {
         self.cameras.seed = mixed(mixed(self.cameras.seed) ^ key);
         self.rig.reseed(self.cameras.seed);
         self
     }
 
-    /// Returns the cameras of these shutters. During a run, their seed depends on the original seed and on the values
-    /// of the test.
+    /// Returns the descriptions of the shutters' cameras. During a run, their seed depends on the original seed and on
+    /// the values of the test.
     pub fn cameras(&self) -> &Cameras {
         &self.cameras
     }

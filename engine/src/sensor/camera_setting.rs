@@ -13,7 +13,7 @@ pub struct CameraSetting {
     pub key: &'static str,
     /// The name of the setting, which is the key unless the setting is part of a list.
     pub name: &'static str,
-    /// The unit of the setting; empty if it has none.
+    /// The unit of the setting; empty if the setting has no unit.
     pub unit: &'static str,
     /// The least and the greatest value of the setting.
     pub range: (f64, f64),
@@ -96,8 +96,7 @@ impl CameraSetting {
         Self { default: None, example, ..self }
     }
 
-    /// Returns `true` if the setting belongs to the lens or the image sensor, so that its value is in
-    /// [`CameraSpec::lens`].
+    /// Returns `true` if the setting belongs to the lens or the image sensor ([`CameraSpec::lens`]).
     pub const fn is_of_lens(&self) -> bool {
         matches!(self.place, Place::Lens)
     }

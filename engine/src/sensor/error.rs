@@ -17,7 +17,7 @@ pub enum SensorError {
         value: f64,
         /// The least and the greatest value of the setting.
         range: (f64, f64),
-        /// The unit of the setting; empty if it has none.
+        /// The unit of the setting; empty if the setting has no unit.
         unit: &'static str,
     },
     /// The lower end of a field of view is not below the upper end.

@@ -29,8 +29,7 @@ pub struct GnssSettings {
 }
 
 impl Default for GnssSettings {
-    /// Returns the settings for ten fixes a second from the roof, with errors of 0.5 m a fix and 1 m in the long run,
-    /// and without outages.
+    /// Returns the settings of a receiver with ten fixes a second, noise of 0.5 m, slow errors of 1 m and no outages.
     fn default() -> Self {
         Self {
             mount: Mount::above(1.5),

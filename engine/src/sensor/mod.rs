@@ -72,14 +72,13 @@ use crate::road::RoadNetwork;
 use crate::vehicle::VehicleState;
 use crate::weather::Weather;
 
-/// The descriptions of all kinds of sensors that come with the engine, in the order of lists.
+/// The descriptions of all kinds of sensors that come with the engine. Lists show the kinds in this order.
 pub const ALL: &[Descriptor] =
     &[camera::DESCRIPTOR, lidar::DESCRIPTOR, radar::DESCRIPTOR, gnss::DESCRIPTOR, imu::DESCRIPTOR, truth::DESCRIPTOR];
 
 /// A sensor, which measures the world around a car or the car itself.
 ///
-/// For example, your own ultrasound sensor in the front bumper hears the nearest body, with an error of some
-/// centimetres:
+/// For example, your own ultrasound sensor in the front bumper measures the nearest body to some centimetres:
 ///
 /// ```
 /// use paracosm_engine::sensor::{Chance, Delivery, Rig, Sensor, SensorView};

@@ -173,8 +173,8 @@ impl Sensor for Radar {
     }
 }
 
-/// Returns the radar cross-section in m² of a body of this class at 77 GHz: the order of magnitude of measurements, as
-/// a mean over all aspects.
+/// Returns the radar cross-section in m² of a body of this class at 77 GHz, as the order of magnitude of measurements
+/// and a mean over all aspects.
 fn cross_section(class: Class) -> f64 {
     match class {
         Class::Car => 10.0,

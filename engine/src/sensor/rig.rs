@@ -93,7 +93,7 @@ impl Rig {
         self.sensors.iter_mut().for_each(|sensor| sensor.reset());
     }
 
-    /// Shows all sensors the next moment. Sensors that are due measure, and readings whose latency has passed arrive.
+    /// Shows all sensors the world at the next moment. Due sensors measure, and readings arrive after their latency.
     pub fn see(&mut self, view: &SensorView<'_>) {
         for sensor in &mut self.sensors {
             sensor.see(self.seed, view);

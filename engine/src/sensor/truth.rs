@@ -53,7 +53,7 @@ pub struct TrueBody {
     pub hidden: bool,
 }
 
-/// A sensor that measures the true states of all bodies around the car, including hidden bodies, in their order.
+/// A sensor that measures the true states of all bodies around the car, hidden or not, in the order of the bodies.
 #[derive(Debug, Clone)]
 pub struct GroundTruth {
     settings: GroundTruthSettings,

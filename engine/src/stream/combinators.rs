@@ -25,7 +25,7 @@ impl<T> fmt::Debug for Stream<T> {
     }
 }
 
-/// An effect at the ticks of a stream. [`Stream::for_each`] makes the effect, and
+/// A side effect at the ticks of a stream. [`Stream::for_each`] makes the effect, and
 /// [`Scenario::place`](crate::Scenario::place) makes it part of the world.
 #[must_use = "an effect only happens if you place it in the scenario"]
 #[derive(Debug)]
@@ -75,8 +75,7 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Named(name.to_owned()))
     }
 
-    /// Applies `f` to the stream's value, at the ticks at which the stream has a value. `f` should be pure: the number
-    /// of calls is not defined.
+    /// Returns the stream of `f` of each value of this stream. `f` should be pure: the number of calls is not defined.
     pub fn map<U: Datum>(&self, f: impl Fn(T) -> U + 'static) -> Stream<U> {
         let map = move |input: &[_], output: &mut [_]| {
             if let Some(value) = T::get(input) {
@@ -101,7 +100,7 @@ impl<T: Datum> Stream<T> {
         Stream::new(NodeKind::Zip, [self.node.clone(), other.node.clone()])
     }
 
-    /// Returns the first `count` values of the stream; over after the last of these values.
+    /// Returns the first `count` values of the stream; the result is over after the last of these values.
     pub fn take(&self, count: usize) -> Self {
         self.then(NodeKind::Take(count))
     }
@@ -133,7 +132,7 @@ impl<T: Datum> Stream<T> {
         self.with(NodeKind::Merge, other)
     }
 
-    /// Returns the stream before the first tick at which `event` occurs; over from that tick on.
+    /// Returns the stream before the first tick at which `event` occurs; the result is over from that tick on.
     pub fn take_until<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::TakeUntil, event)
     }
@@ -143,7 +142,7 @@ impl<T: Datum> Stream<T> {
         self.with(NodeKind::SkipUntil, event)
     }
 
-    /// Returns the stream's value at the previous tick; absent at the first tick and after an absent value.
+    /// Returns the stream's value at the previous tick; absent at the first tick and if the previous value is absent.
     pub fn pre(&self) -> Self {
         self.then(NodeKind::Pre)
     }

@@ -2,8 +2,7 @@
 
 use nalgebra::Vector2;
 
-/// A stream's value at one tick, or a part of such a value. It is public only because [`Datum`] uses it; other crates
-/// cannot name it.
+/// A stream's value at one tick, or a part of such a value. Only public for [`Datum`]; other crates cannot name it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DatumSample {
     Absent,

@@ -11,8 +11,7 @@ use std::rc::Rc;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot(usize);
 
-/// The time of an evaluation, as the tick from 0, the number of ticks in the run, and the duration of a tick in
-/// seconds.
+/// The time of an evaluation, as tick (from 0), number of ticks in the run and duration of a tick in seconds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     pub tick: usize,
@@ -158,7 +157,7 @@ impl Graph {
     }
 }
 
-/// Returns `true` if an event occurs: the value is a truth that holds, or any other value that is present.
+/// Returns `true` if an event occurs, which is a truth that holds, or any other value that is present.
 fn occurs(value: &[DatumSample]) -> bool {
     !matches!(value[0], DatumSample::Absent | DatumSample::Truth(false))
 }

@@ -21,8 +21,7 @@ pub enum GraphFlaw {
     /// A stream depends on its own value at the same tick.
     #[error("a stream depends on its own value at the same tick: {}; put a `pre` on this cycle", circle(.labels))]
     Cycle {
-        /// The labels of the nodes on the cycle. Each node is an operand of the next, and the last node an operand of
-        /// the first.
+        /// The labels of the nodes on the cycle. Each node is an operand of the next, the last of the first.
         labels: Vec<String>,
     },
 }

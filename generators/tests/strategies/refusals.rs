@@ -47,8 +47,8 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(
         Strategy::LHS,
         Request::new(&cube, usize::MAX),
-        "a Latin hypercube is kept in memory, at most 10,000,000 coordinates; asked for 18446744073709551615 points in \
-         2 dimensions; use halton",
+        "a Latin hypercube of 18446744073709551615 points in 2 dimensions has more than 10,000,000 coordinates, the \
+         most that are kept in memory; use halton",
     );
     check(
         Strategy::HALTON,
@@ -57,16 +57,16 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     );
     for strategy in [Strategy::SOBOL, Strategy::KRONECKER] {
         let message = format!(
-            "`{strategy}` has indices below 9007199254740992; asked for index 18446744073709551614; ask for fewer or \
-             skip fewer"
+            "`{strategy}` has 9007199254740992 points, but the request needs index 18446744073709551614; lower the \
+             budget or the skip"
         );
         check(strategy, Request { skip: Some(u64::MAX), ..Request::new(&cube, 5) }, &message);
     }
     check(
         Strategy::HAMMERSLEY,
         Request::new(&cube, usize::MAX),
-        "`hammersley` has indices below 9007199254740992; asked for index 18446744073709551614; ask for fewer or \
-         skip fewer",
+        "`hammersley` has 9007199254740992 points, but the request needs index 18446744073709551614; lower the budget or \
+         the skip",
     );
     let cubes = [1, 3, 1001, 21_202].map(Space::unit_cube);
     check(

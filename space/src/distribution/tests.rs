@@ -160,7 +160,7 @@ fn what_cannot_be_is_refused_in_words() {
         ("triangular:2", &interval, "[0, 1]"),
         ("weights:1,1", &interval, "choice"),
         ("beta:2,5", &choice, "weights"),
-        ("weights:1", &choice, "each of the 2"),
+        ("weights:1", &choice, "a weight for each value"),
         ("weights:1,-1", &choice, "at least 0"),
         ("weights:0,0", &choice, "a finite sum above 0"),
     ];

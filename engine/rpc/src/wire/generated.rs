@@ -219,8 +219,7 @@ pub struct Lidar {
     /// The attenuation of the intensity in clear air, in 1/m \[0.004\].
     #[prost(double, optional, tag = "11")]
     pub attenuation: ::core::option::Option<f64>,
-    /// The least intensity at which no echo is lost for weakness \[0.8\]. Below it, 1 - intensity / sure of them are
-    /// lost.
+    /// The least intensity at which no echo is lost for weakness \[0.8\]. Below, the loss is 1 - intensity / sure.
     #[prost(double, optional, tag = "12")]
     pub sure: ::core::option::Option<f64>,
     /// The probability that an echo is lost independently of its intensity \[0\].
@@ -393,8 +392,7 @@ pub struct Way {
     /// The distance along the way from one point to the next.
     #[prost(double, tag = "3")]
     pub spacing: f64,
-    /// The points ahead, the nearest first, each as x and y as seen from the car and the curvature in 1/m (left
-    /// positive).
+    /// The points ahead, the nearest first, each as x and y as seen from the car and the curvature in 1/m (left > 0).
     #[prost(double, repeated, tag = "4")]
     pub ahead: ::prost::alloc::vec::Vec<f64>,
 }
@@ -472,8 +470,7 @@ pub struct Scan {
     pub number: u64,
     #[prost(double, tag = "3")]
     pub time: f64,
-    /// The points in the format of KITTI: x, y, z as seen from the sensor and intensity, as little-endian 32-bit
-    /// floats.
+    /// The points in the format of KITTI, with x, y, z as seen from the sensor and intensity as little-endian f32.
     #[prost(bytes = "bytes", tag = "4")]
     pub points: ::prost::bytes::Bytes,
 }

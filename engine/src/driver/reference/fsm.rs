@@ -25,8 +25,7 @@ use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, Situation};
 
-/// The driver that brakes by fuzzy surrogate safety measures; lengths in metres, times in seconds, accelerations in
-/// m/s².
+/// The driver that brakes by fuzzy surrogate safety measures; lengths in m, times in s, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fsm {
     /// The reaction time tau of the driver, in seconds.
@@ -110,7 +109,7 @@ fn unsafety(distance: f64, unsafe_below: f64, safe_from: f64) -> f64 {
 }
 
 impl Fsm {
-    /// Returns the proactive measure PFS, from 0 (safe) to 1, for a gap in metres at these speeds in m/s.
+    /// Returns the proactive measure PFS, from 0 (safe) to 1, for a gap in metres and speeds in m/s.
     pub fn proactive(&self, gap: f64, speed: f64, other_speed: f64) -> f64 {
         let front = other_speed.max(0.0);
         let standing = speed * self.reaction - front * front / (2.0 * self.leader_deceleration);

@@ -97,8 +97,7 @@ impl Ideal {
         std::iter::once(Profile::NONE).chain(braking)
     }
 
-    /// Returns the gentlest profile without a collision, or else with the slowest collision, and the encounter's
-    /// result.
+    /// Returns the gentlest profile without a collision (or with the slowest collision) and the encounter's result.
     pub fn best(&self, encounter: &Encounter) -> (Profile, Ended) {
         let mut best: Option<(Profile, Ended, f64)> = None;
         for profile in self.profiles() {

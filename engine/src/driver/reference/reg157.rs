@@ -15,7 +15,7 @@ use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
 
-/// The least capable driver that the regulation allows; lengths in metres, times in seconds, accelerations in m/s².
+/// The least capable driver that UN R157 allows; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reg157 {
     /// The width of the lanes in metres.

@@ -31,7 +31,7 @@ pub struct Rss {
     pub deceleration: f64,
     /// The greatest deceleration `b_max` of the other road user, in m/s².
     pub leader_deceleration: f64,
-    /// The lateral distance mu in metres that must remain to the other road user.
+    /// The lateral distance mu in metres that must remain between the car and the other road user.
     pub lateral_margin: f64,
     /// The lateral acceleration `a_lat` of both road users during the response time, in m/s².
     pub lateral_acceleration: f64,

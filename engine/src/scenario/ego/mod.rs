@@ -106,7 +106,7 @@ impl AutonomousVehicle {
         self
     }
 
-    /// Sets the vehicle, instead of a [`Vehicle::BMW_320I`].
+    /// Sets the vehicle; the default is a [`Vehicle::BMW_320I`].
     pub fn vehicle(mut self, vehicle: Vehicle) -> Self {
         self.vehicle = vehicle;
         self
@@ -182,8 +182,8 @@ impl Car {
         self.shown.travelled.stream()
     }
 
-    /// Returns the distance to the nearest other body in metres, without bodies on the [`Roadside`](crate::Roadside).
-    /// At a contact: minus the missing braking distance, max(v²/(2 μ g), 0.001), with v the relative speed.
+    /// Returns the distance to the nearest other body in metres; bodies on the [`Roadside`](crate::Roadside) do not
+    /// count. At a contact: minus the missing braking distance, max(v²/(2 μ g), 0.001), with v the relative speed.
     pub fn clearance(&self) -> Stream<f64> {
         self.shown.clearance.stream()
     }
@@ -193,8 +193,7 @@ impl Car {
         self.clearance().at_most(0.0)
     }
 
-    /// Returns the distance in metres from the car's front bumper to a line ahead; negative if the bumper is past the
-    /// line.
+    /// Returns the distance in metres from the car's front bumper to a line ahead; negative beyond the line.
     pub fn gap_along(&self, line: &Line) -> Stream<f64> {
         self.position().distance_to(line) - 0.5 * self.vehicle.length
     }
@@ -241,13 +240,13 @@ impl Car {
         self.asked(Quantity::Headway)
     }
 
-    /// Returns the free width of the lane beside the car on the narrower side, in metres; negative over the edge.
+    /// Returns the free width of the lane beside the car on the narrower side, in metres; negative beyond the edge.
     pub fn lane_margin(&self) -> Stream<f64> {
         self.asked(Quantity::LaneMargin)
     }
 
     /// Returns the seconds until a road user with the right of way comes to the car's place in an intersection;
-    /// infinite while the car is in nobody's way.
+    /// infinite if no road user comes.
     pub fn right_of_way(&self) -> Stream<f64> {
         self.asked(Quantity::RightOfWay)
     }

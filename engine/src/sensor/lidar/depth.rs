@@ -54,9 +54,8 @@ impl Pinhole {
 }
 
 /// Writes the scan of a LiDAR without noise, from the depth image of a camera at the LiDAR's place. `depth` has for
-/// each pixel the distance in metres from the camera to the surface (not the depth along the camera's axis), row by row
-/// from the upper left corner; a pixel without a surface has a number above `range` or NaN. The intensity falls with
-/// `fading`, in 1/m.
+/// each pixel the distance in metres from the camera to the surface along the pixel's ray, row by row from the upper
+/// left corner; a pixel without a surface has a number above `range` or NaN. The intensity falls by `fading`, in 1/m.
 ///
 /// A beam gets the point in the middle of the pixel that it falls in. So points are on the surfaces as exactly as the
 /// distances are, and their directions are off by at most half a pixel. Beams outside the image see nothing.

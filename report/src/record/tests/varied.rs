@@ -162,9 +162,9 @@ fn files_of_cameras_say_the_line_and_the_key_what_was_found_and_what_was_expecte
         (
             "[48, 32]",
             "[48.5, 32]",
-            "4: camera `front`: `resolution` is [48.5, 32], expected whole numbers of pixels across and down",
+            "4: camera `front`: `resolution` is [48.5, 32], expected two whole numbers, the width and the height in pixels",
         ),
-        ("[48, 32]", "\"large\"", "4: camera `front`: `resolution` is \"large\", expected whole numbers"),
+        ("[48, 32]", "\"large\"", "4: camera `front`: `resolution` is \"large\", expected two whole numbers"),
         (
             "[camera.front]",
             "[camera.\"front left\"]",
