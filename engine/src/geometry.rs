@@ -27,9 +27,12 @@ impl Pose {
 
     /// Returns a point of the plane as seen from this pose, in metres, with x ahead and y to the left.
     pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
-        let ahead = self.forward();
-        let offset = point - self.position;
-        Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
+        self.frame().to_local(point)
+    }
+
+    /// Returns the axes of the pose, to turn many points without computing the sine of the heading for each.
+    pub(crate) fn frame(&self) -> Frame {
+        Frame { origin: self.position, ahead: self.forward() }
     }
 
     /// Returns a pose of the plane as seen from this pose.
@@ -39,8 +42,7 @@ impl Pose {
 
     /// Returns a direction of the plane as seen from this pose, as a vector with x ahead and y to the left.
     pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
-        let ahead = self.forward();
-        Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
+        self.frame().turn_to_local(direction)
     }
 
     /// Returns a direction that is given as seen from this pose as a direction of the plane.
@@ -59,6 +61,25 @@ impl Pose {
         let (x, y) = (local.position.x, local.position.y);
         let position = self.position + Vector2::new(cos * x - sin * y, sin * x + cos * y);
         Pose { position, heading: wrapped(self.heading + local.heading) }
+    }
+}
+
+/// The axes of a pose: its position, and the unit vector in the direction of its heading.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frame {
+    origin: Vector2<f64>,
+    ahead: Vector2<f64>,
+}
+
+impl Frame {
+    /// Returns a point of the plane as seen from the pose, like [`Pose::to_local`].
+    pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.turn_to_local(point - self.origin)
+    }
+
+    /// Returns a direction of the plane as seen from the pose, like [`Pose::turn_to_local`].
+    pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(self.ahead.dot(&direction), self.ahead.perp(&direction))
     }
 }
 
@@ -88,5 +109,9 @@ pub enum Side {
 
 /// Returns the angle in (-π, π] that points in the same direction.
 pub(crate) fn wrapped(angle: f64) -> f64 {
+    // Nearly all angles are in the range already; the formula below would return them unchanged.
+    if -PI < angle && angle <= PI {
+        return angle;
+    }
     angle - (((angle + PI) / TAU).ceil() - 1.0) * TAU
 }

@@ -51,6 +51,10 @@ impl Frenet {
             point.position = ahead.position;
         }
         let straight = ahead.iter().all(|point| (left.dot(&point.position) + offset).abs() < STRAIGHT);
+        if straight {
+            // Only the first tangent of a straight way is ever read.
+            return Self { offset, points, straight };
+        }
         // A point that coincides with the next has the direction of the point before.
         for i in 1..POINTS {
             let before = points[i - 1].tangent;

@@ -103,8 +103,22 @@ impl Path {
         let inside = s.max(0.0).min(self.length);
         let (from, curve) = &self.pieces[self.index(inside)];
         let at = inside - from;
-        let ahead = curve.at(at).forward() * (s - inside);
-        Pose { position: curve.beside(at, offset) + ahead, heading: curve.heading(at) }
+        let (position, heading) = (curve.beside(at, offset), curve.heading(at));
+        if s == inside {
+            return Pose { position, heading };
+        }
+        let ahead = Pose { position, heading }.forward() * (s - inside);
+        Pose { position: position + ahead, heading }
+    }
+
+    /// Returns the point `s` metres along the path, like [`Path::at`], without the heading, which costs more.
+    pub(crate) fn point(&self, s: f64) -> Vector2<f64> {
+        let inside = (0.0..=self.length).contains(&s);
+        if !inside {
+            return self.at(s).position;
+        }
+        let (from, curve) = &self.pieces[self.index(s)];
+        curve.point(s - from)
     }
 
     /// Returns the curvature of the path at the place `s`, in 1/m, positive to the left; 0 beyond the ends of the path.
@@ -127,11 +141,10 @@ impl Path {
                 best = (distance, from + at);
             }
         }
-        let [start, end] = [0.0, self.length].map(|end| (self.at(end), end));
         if best.1 >= self.length {
-            best.1 += end.0.to_local(position).x.max(0.0);
+            best.1 += self.at(self.length).to_local(position).x.max(0.0);
         } else if best.1 <= 0.0 {
-            best.1 += start.0.to_local(position).x.min(0.0);
+            best.1 += self.at(0.0).to_local(position).x.min(0.0);
         }
         best.1
     }

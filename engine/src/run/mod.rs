@@ -284,12 +284,13 @@ impl Run {
 
     fn observe(&mut self) {
         let (car, others) = self.scene.told().split_first().expect("the car is the first body");
+        let frame = car.pose.frame();
         let present = others.iter().enumerate().filter(|(_, other)| other.present);
         let others = present.map(|(id, other)| Other {
             id,
             class: other.body.class,
-            position: car.pose.to_local(other.pose.position),
-            velocity: car.pose.turn_to_local(other.velocity),
+            position: frame.to_local(other.pose.position),
+            velocity: frame.turn_to_local(other.velocity),
             heading: wrapped(other.pose.heading - car.pose.heading),
             outline: other.body.outline,
         });

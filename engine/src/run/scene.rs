@@ -41,6 +41,8 @@ pub(super) struct Scene {
     friction: Slot,
     /// Light, fog, rain and the sun, as far as the program defines them.
     weather: Vec<(WeatherPart, Slot)>,
+    /// The parts of the weather whose values have to be checked at the next tick: all at first, then those that change.
+    unchecked: Vec<(WeatherPart, Slot)>,
     world: World,
     /// The contact of the car with another body; `None` without a contact.
     pub contact: Option<Touching>,
@@ -58,7 +60,7 @@ impl Scene {
     /// Makes the scene of a program that has been built and laid out, with the given vehicle model.
     pub fn new(mut scenario: Scenario, graph: &Graph, model: VehicleModel) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
-        let weather = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
+        let weather: Vec<_> = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
         let ego = Ego::new(&scenario.cars[0], model);
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
@@ -84,6 +86,7 @@ impl Scene {
             outputs: vec![DatumSample::Absent; scenario.wiring.samples()],
             wiring: scenario.wiring,
             friction: graph.slot(&scenario.conditions.friction.node),
+            unchecked: weather.clone(),
             weather,
             next: bodies.clone(),
             poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
@@ -162,12 +165,13 @@ impl Scene {
     /// Inputs are checked before they are used: a minimum or maximum would hide a NaN, and a road whose friction is no
     /// number would limit nothing.
     pub fn step(&mut self, graph: &Graph, dt: f64) -> Result<(), Upset> {
-        for (part, slot) in &self.weather {
+        for (part, slot) in &self.unchecked {
             let value: f64 = graph.value(*slot).unwrap_or(f64::NAN);
             if !part.range.contains(&value) {
                 return Err(Upset::Condition { what: part.name, value, expected: part.expected });
             }
         }
+        self.unchecked.retain(|(_, slot)| !graph.is_constant(*slot));
         let friction: f64 = graph.value(self.friction).unwrap_or(f64::NAN);
         if !(0.0..f64::INFINITY).contains(&friction) {
             let what = "friction of the road";

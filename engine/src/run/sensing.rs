@@ -23,6 +23,11 @@ impl Sensing {
         [&mut self.rig, self.eyes.rig(), self.film.rig()]
     }
 
+    /// Returns `true` if there is no sensor and no camera.
+    fn is_empty(&self) -> bool {
+        self.rig.is_empty() && self.eyes.is_empty() && self.film.is_empty()
+    }
+
     /// Drops all arrived readings and moments, so that only later arrivals are new.
     pub fn clear(&mut self) {
         self.rigs().into_iter().for_each(Rig::clear);
@@ -77,6 +82,10 @@ impl Run {
 
     /// Shows all sensors the state of the world at this tick.
     pub(super) fn sense(&mut self) {
+        // The weather and the air are only computed if a sensor looks.
+        if self.sensing.is_empty() {
+            return;
+        }
         let mut sensing = std::mem::take(&mut self.sensing);
         let view = self.view();
         sensing.rigs().into_iter().for_each(|rig| rig.see(&view));

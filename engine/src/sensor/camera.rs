@@ -137,6 +137,11 @@ impl Shutters {
         each.flat_map(|(camera, shutter)| self.rig.arrived(shutter).iter().map(move |sample| (camera, sample)))
     }
 
+    /// Returns `true` if there is no camera.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.rig.is_empty()
+    }
+
     /// Returns the rig that holds the shutters.
     pub(crate) fn rig(&mut self) -> &mut Rig {
         &mut self.rig

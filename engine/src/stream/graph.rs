@@ -55,6 +55,8 @@ pub(crate) struct Graph {
     values: Vec<DatumSample>,
     /// For each value, true if its stream is over.
     over: Vec<bool>,
+    /// For each value, true if it is the same at every tick.
+    constant: Vec<bool>,
     /// The operations that take in their operand when the tick is over.
     delays: Vec<usize>,
     /// The slot of each node. The map is only looked up and never iterated over, because addresses differ between runs.
@@ -97,7 +99,9 @@ impl Graph {
         };
         self.values.extend(initial);
         self.over.resize(self.values.len(), false);
+        self.constant.resize(self.values.len(), false);
         if matches!(node.kind, NodeKind::Constant { .. }) {
+            self.constant[at] = true;
             return Slot(at);
         }
         let memory = match &node.kind {
@@ -119,8 +123,23 @@ impl Graph {
                 *place = self.slot(input).0;
             }
         }
-        self.operations.push(Operation { node: node.clone(), at, width: node.width, inputs, memory });
+        let mut operation = Operation { node: node.clone(), at, width: node.width, inputs, memory };
+        let constant = node.kind.is_pure() && node.inputs.iter().all(|input| self.is_constant(self.slot(input)));
+        if constant {
+            // Evaluated here once, and at no tick. No such operation reads the clock or an output of an object.
+            let clock = Clock { tick: 0, ticks: 0, dt: 0.0 };
+            let (values, rest) = self.values.split_at_mut(at);
+            self.over[at] = operation.evaluate(clock, values, &mut rest[..node.width], &self.over, &[]);
+            self.constant[at] = true;
+        } else {
+            self.operations.push(operation);
+        }
         Slot(at)
+    }
+
+    /// Returns `true` if the value in a slot is the same at every tick.
+    pub fn is_constant(&self, slot: Slot) -> bool {
+        self.constant[slot.0]
     }
 
     /// Returns the place of a node's value in the memory of the graph.

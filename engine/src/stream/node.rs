@@ -183,6 +183,38 @@ impl Node {
 }
 
 impl NodeKind {
+    /// Returns `true` if the operation depends on nothing but the present values of its inputs. Closures of a program do not
+    /// count, because they may have effects.
+    pub fn is_pure(&self) -> bool {
+        match self {
+            NodeKind::Unary(_)
+            | NodeKind::Binary(_)
+            | NodeKind::Compare(_)
+            | NodeKind::Equal
+            | NodeKind::Towards(_)
+            | NodeKind::When
+            | NodeKind::Zip
+            | NodeKind::Concat
+            | NodeKind::Merge => true,
+            NodeKind::Constant { .. }
+            | NodeKind::Signal { .. }
+            | NodeKind::Time
+            | NodeKind::Output { .. }
+            | NodeKind::Forward { .. }
+            | NodeKind::Named(_)
+            | NodeKind::Map(_)
+            | NodeKind::Filter(_)
+            | NodeKind::Take(_)
+            | NodeKind::Sum(_)
+            | NodeKind::Scan { .. }
+            | NodeKind::TakeUntil
+            | NodeKind::SkipUntil
+            | NodeKind::Pre
+            | NodeKind::Hold { .. }
+            | NodeKind::ForEach(_) => false,
+        }
+    }
+
     /// Returns the method by which programs make a node of this kind.
     fn word(&self) -> &'static str {
         match self {

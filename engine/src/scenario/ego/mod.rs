@@ -335,9 +335,10 @@ impl Ego {
     /// Returns the way of the car, as seen from the car.
     pub fn way(&self) -> Way {
         let (pose, here) = (self.pose(), self.car.way.at(self.at));
+        let frame = pose.frame();
         let ahead = std::array::from_fn(|i| {
             let s = self.at + Way::SPACING * (i + 1) as f64;
-            Ahead { position: pose.to_local(self.car.way.at(s).position), curvature: self.car.way.curvature(s) }
+            Ahead { position: frame.to_local(self.car.way.point(s)), curvature: self.car.way.curvature(s) }
         });
         let offset = here.to_local(pose.position).y;
         Way { offset, heading: wrapped(pose.heading - here.heading), ahead }
