@@ -78,8 +78,8 @@ pub struct Report {
     pub modes: Modes,
     /// The explanation of the failures in words, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
-    /// The guarantee of random rows, or `None` if rows are not random, or if the campaign ended before all rows were
-    /// run.
+    /// The coverage guarantee of random rows of discrete values, or `None` if rows are not random, or if the campaign
+    /// ended before all rows were run.
     pub promise: Option<Promise>,
     /// The JUnit report, or `None` if the user asked for no report.
     pub junit: Option<Junit>,
@@ -150,7 +150,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Counts the tests of an extension as done, so that new tests complete the tests of the extension.
+    /// Makes the runner count the existing tests of an extension as done, and run only new tests that add to them.
     pub fn extending(mut self, extension: &'a Extension) -> Self {
         self.extension = Some(extension);
         self

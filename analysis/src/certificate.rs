@@ -116,7 +116,7 @@ pub struct Witness {
 /// A reason why no certificate can be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CertificateFlaw {
-    /// A parameter has negative values (`~`), which a certificate does not support.
+    /// A parameter has values marked `~`, which the system should reject and which a certificate does not support.
     #[error("a certificate does not support negative values (`~`): it counts every combination in a test as covered")]
     Negatives,
     /// Neither `dispersion` nor `k-wise-dispersion` was measured.

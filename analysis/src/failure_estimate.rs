@@ -184,7 +184,7 @@ impl FailureEstimate {
         sum(&|share| share.mean) / sum(&|_| 1.0)
     }
 
-    /// Returns the share of the valid places at which surely more, or surely less, than half of the tests fail.
+    /// Returns the share of the valid places whose share of failures is above or below one half with 95 % certainty.
     pub fn decided(&self) -> f64 {
         self.places().filter(|(share, _)| decided(share).is_some()).count() as f64 / self.places().count() as f64
     }
@@ -220,7 +220,7 @@ impl FailureEstimate {
     }
 }
 
-/// Returns `Some(true)` if surely more than half of the tests fail, `Some(false)` if surely less, `None` if undecided.
+/// Returns whether more than half of the tests fail; `None` if this is not known with 95 % certainty.
 pub fn decided(share: &FailingShare) -> Option<bool> {
     [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)]
         .into_iter()

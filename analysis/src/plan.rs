@@ -28,7 +28,7 @@ pub enum Guarantee {
     Probable,
     /// A measurement shows that this number of tests of this strategy suffices, and that one test fewer does not.
     Measured,
-    /// The number is computed from measured numbers, but was not measured as a whole.
+    /// The number is computed from measured numbers, but was not itself measured.
     Estimated,
 }
 
@@ -68,12 +68,12 @@ pub struct Need {
     pub guarantee: Guarantee,
 }
 
-/// The numbers of tests that each guarantee of a (k, epsilon)-covering set needs.
+/// The numbers of tests that a (k, epsilon)-covering set needs, each with its kind of guarantee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
     /// The number of discrete parameters in each combination to cover; `None` if the space has no discrete parameters.
     pub k: Option<usize>,
-    /// The greatest dispersion that a row of discrete values may have.
+    /// The greatest allowed dispersion (volume of the largest empty box) of the tests with the same discrete values.
     pub epsilon: f64,
     /// The greatest allowed probability that a random set of tests fails to cover.
     pub delta: f64,
@@ -81,8 +81,8 @@ pub struct Plan {
     pub rows: Option<Vec<Need>>,
     /// The numbers of points that leave no hole above epsilon; `None` if the space has no continuous parameters.
     pub points: Option<Vec<Need>>,
-    /// The numbers of tests that satisfy both k and epsilon, with separate points for each row; `None` if the space is
-    /// not mixed.
+    /// The numbers of tests that satisfy both k and epsilon, with separate points for each row; `None` if the space
+    /// lacks discrete or continuous parameters.
     pub tests: Option<Vec<Need>>,
 }
 
@@ -117,7 +117,7 @@ const MOST_COMBINATIONS: u128 = 1 << 31;
 const MOST_MEASURED: usize = 1 << 20;
 
 impl Plan {
-    /// Computes the numbers of tests that each guarantee of coverage of a space needs. `demand` may ask for more than
+    /// Computes the numbers of tests that cover a space, with their kinds of guarantee. `demand` may ask for more than
     /// all combinations of k values of the discrete parameters. Making a covering array takes at most half of `limit`
     /// (all of it if there are no continuous parameters); the measurements take at most the rest.
     ///

@@ -9,7 +9,7 @@ use paracosm_coverage::theory::rows::RandomRows;
 use paracosm_generators::{DiscreteFamily, GeneratorError, Request, Strategy};
 use serde::Serialize;
 
-/// The guarantee that the random rows of a set of tests give.
+/// The guaranteed probability with which random rows of discrete values have all valid combinations of k values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Promise {
     /// The number of discrete parameters in each covered combination.
@@ -26,7 +26,7 @@ pub struct Promise {
 }
 
 impl Promise {
-    /// Returns the guarantee that the random rows of a campaign's tests give; `None` if the rows are not random.
+    /// Returns the coverage guarantee of the random rows of a campaign's tests; `None` if the rows are not random.
     ///
     /// # Errors
     /// The errors of [`Promise::of`], or the tests that the campaign extends cannot be read.
@@ -35,7 +35,7 @@ impl Promise {
         Self::of(sampling.strategy, &sampling.request(log.study().space(), &existing), sampling.budget as u64)
     }
 
-    /// Returns the guarantee of the first `tests` tests of a strategy for a request; `None` if the tests have no random
+    /// Returns the coverage guarantee of a strategy's first `tests` tests for a request; `None` if they have no random
     /// rows.
     ///
     /// # Errors

@@ -35,7 +35,7 @@ pub struct Campaign<'a> {
     at_once: NonZeroUsize,
     /// The darkroom that draws for the drivers, if they use cameras.
     darkroom: Option<Arc<Darkroom>>,
-    /// The tests that count as done.
+    /// The existing tests that the campaign counts as done, with the points of these tests in the space.
     extension: Option<(Extension, Vec<Point>)>,
     known: Vec<Trial>,
     stop: Arc<AtomicBool>,

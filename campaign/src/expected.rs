@@ -19,13 +19,13 @@ pub struct Expected {
     is_external: bool,
     /// The index of the first trial that was answered, and its requirements.
     first: Option<(usize, Vec<String>)>,
-    /// The number of trials in error before it, and the first of them that states a reason.
+    /// The number of trials in error before the first answer, and the first of these trials that states a reason.
     failed: usize,
     why: Option<(usize, Problem)>,
-    /// The number of these trials whose trace does not fit a formula, and the first of them.
+    /// The number of trials in error whose trace does not fit a formula, and the first of these trials.
     misfits: usize,
     misfit: Option<(usize, Problem)>,
-    /// True if several formulas do not fit.
+    /// True if these trials differ in the formula that does not fit, or in the sample period.
     vary: bool,
 }
 

@@ -14,7 +14,7 @@ use paracosm_space::Point;
 /// The source of a campaign's tests, which uses the results of earlier tests.
 pub struct Steering<'a> {
     study: &'a Study,
-    /// The tests that count as done.
+    /// The existing tests, which the campaign counts as done.
     existing: Vec<Point>,
     search: Steered,
     scales: Scales,

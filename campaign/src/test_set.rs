@@ -159,8 +159,8 @@ impl TestSet {
         Ok(Self::new(file.space, points))
     }
 
-    /// Reads tests with open levels from a CSV file, for a space without continuous parameters. An empty cell is
-    /// `None`. Each test comes with its line.
+    /// Reads tests whose cells may be empty from a CSV file, for a space without continuous parameters. An empty cell
+    /// is `None`. Each test comes with its line.
     ///
     /// # Errors
     /// The same errors as [`TestSet::read`].
@@ -186,7 +186,7 @@ impl TestSet {
     }
 }
 
-/// A test of discrete parameters, with the index of each level or `None` for an open level.
+/// A test of discrete parameters, as the index of each parameter's level; `None` if the level is not chosen yet.
 pub type PartialRow = Vec<Option<usize>>;
 
 /// Returns `true` if a cell leaves a parameter open. The cell is empty then, and the empty word is not a level of the

@@ -67,7 +67,7 @@ struct Table {
     /// The index of the column of times, and the signals of the other columns.
     time: usize,
     signals: Vec<String>,
-    /// The last time, and the first sample until the sample period is known.
+    /// The time of the last sample, and the first sample as long as the sample period is not known.
     last: f64,
     first: Option<Vec<f64>>,
     trace: Option<Trace>,

@@ -41,7 +41,7 @@ impl Deadline {
         Self { at: None, called: None }
     }
 
-    /// Makes a deadline that passes at `limit` from now. It is unlimited if the clock cannot represent that moment.
+    /// Makes a deadline that passes once `limit` elapses. It is unlimited if the clock cannot represent that moment.
     pub fn after(limit: Duration) -> Self {
         Self { at: Instant::now().checked_add(limit), called: None }
     }
@@ -52,7 +52,7 @@ impl Deadline {
         Self { called: Some(called), ..self }
     }
 
-    /// Returns an earlier deadline, which passes after `share` of the remaining time, or never without a time limit.
+    /// Returns a deadline that passes after `share` of the remaining time, or never if this deadline has no time limit.
     pub fn part(self, share: f64) -> Self {
         Self { at: self.left().map(|left| Instant::now() + left.mul_f64(share)), ..self }
     }

@@ -32,13 +32,13 @@ impl Measure {
 }
 
 impl Measure {
-    /// The measure "centered discrepancy, squared", which uses boxes from a test to its nearest corner of the cube.
+    /// The measure "centered discrepancy, squared", which uses boxes from any point to the nearest corner of the cube.
     pub const CENTERED: Self = Self::of(&Descriptor {
         name: "centered",
         key: "centered",
         label: "centered, squared",
         title: "centered discrepancy, squared",
-        about: "the mean square difference of volume and share of tests, over boxes from a test to its nearest corner",
+        about: "the mean square difference of volume and share of tests, over boxes from any point to the nearest corner",
         pace: 1,
         compare: Compare::Always,
         method: Computation::Number(centered),
@@ -73,7 +73,7 @@ impl Measure {
     });
 }
 
-/// Computes the squared centered L2 discrepancy, over boxes between each point and its nearest corner of the cube. The
+/// Computes the squared centered L2 discrepancy, over boxes between any point and the nearest corner of the cube. The
 /// result agrees with `scipy.stats.qmc.discrepancy(method="CD")`. Source: Hickernell 1998, see the module's
 /// documentation.
 pub fn centered(points: &PointSet, deadline: Deadline) -> Option<f64> {

@@ -197,7 +197,7 @@ pub enum ObjectFlaw {
         /// The mass of the object, in kg.
         mass: f64,
     },
-    /// A piece of the object's path has a length that is not a number from 0 on.
+    /// A piece of the object's path has a length that is negative or not finite.
     #[error("has a {line} with a piece of {piece} m, expected a finite length from 0 on")]
     Piece {
         /// The word for the path in the message, `path` or `way`.

@@ -32,8 +32,8 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// Makes a monitor of a statement about every run. `unit` is the unit of the robustness, and `scale` is the
-    /// robustness that counts as large.
+    /// Makes a requirement that a statement holds in every run. `unit` is the unit of the robustness, and `scale` is
+    /// the robustness that counts as large.
     pub fn new(id: &str, statement: Temporal, unit: &'static str, scale: f64) -> Self {
         Self { id: id.to_owned(), statement, text: None, unit, scale }
     }

@@ -45,7 +45,7 @@ impl<'a> Test<'a> {
 
     /// Returns the shape of a parameter's signal; `None` if the test leaves the shape to the program.
     pub(crate) fn signal(&self, name: &str) -> Option<Option<Shape>> {
-        self.space?.parameter(name).ok().map(|parameter| parameter.signal)
+        self.space?.find(name).map(|parameter| parameter.signal)
     }
 }
 

@@ -40,8 +40,8 @@ struct Sample {
     model: f64,
     /// The mean squared difference of probability and outcome (Brier 1950).
     brier: f64,
-    /// The share of the map where the model is at least 95 % sure, and the share of that part that the model predicts
-    /// right.
+    /// The share of the map where the model is at least 95 % sure; `sure_right` is the share of that part that the
+    /// model predicts correctly.
     sure: f64,
     sure_right: f64,
 }

@@ -37,8 +37,8 @@ const STANDING: f64 = 10.0;
 struct Drive {
     fog: f64,
     verdict: Verdict,
-    /// Seconds until the car ran into something; below, until it left its way, and until it had stood still for too
-    /// long. The value is the time-out if the event never occurred.
+    /// The time until the car collided, in seconds. `departure` is the time until the car left its way, `standstill`
+    /// until the car had stood still for too long. Each is the time-out if the event never occurred.
     collision: f64,
     departure: f64,
     standstill: f64,
@@ -53,7 +53,7 @@ enum Undriven {
     /// No worker could be made to run the test.
     #[error(transparent)]
     Worker(Arc<paracosm::Error>),
-    /// The test ended without a trace.
+    /// The test gave no trace (record of its signals).
     #[error("{}", .0.as_ref().map_or("", |problem| &problem.message))]
     Test(Option<Problem>),
 }

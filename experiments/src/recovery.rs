@@ -15,7 +15,7 @@ pub struct Recovery {
     pub precision: f64,
 }
 
-/// Predicts every place of the map by the nearest test of the sample, and compares the predictions with the map.
+/// Predicts each verdict of the map from the sample's nearest test, and compares the predictions with the map.
 pub fn recovery(sample: &[Mark], map: &[Mark]) -> Recovery {
     let (mut right, mut told, mut failures, mut hits) = (0, 0, 0, 0);
     for (place, fails) in map {

@@ -53,7 +53,7 @@ fn in_words<S: Serializer>(flaw: &InputFlaw, serializer: S) -> Result<S::Ok, S::
     serializer.collect_str(flaw)
 }
 
-/// Answers questions until the standard input ends.
+/// Runs each test that standard input gives as a line of JSON, and prints the test's result as a line of JSON.
 pub fn serve() -> Done {
     for line in io::stdin().lock().lines() {
         print(&(answer(&line?)? + "\n"))?;
@@ -61,7 +61,7 @@ pub fn serve() -> Done {
     Ok(())
 }
 
-/// Returns the answer to a question.
+/// Runs the test in a line of JSON, and returns the test's result as a line of JSON.
 ///
 /// # Errors
 /// Returns an error if the line is not a question, so that there is no index to answer with.

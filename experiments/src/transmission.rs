@@ -109,7 +109,7 @@ struct Car {
     wheel: f64,
     /// The gear, counted from 0.
     gear: usize,
-    /// The gear that the shift logic asks for; below, the number of steps for which it has asked.
+    /// The gear that the shift logic asks for; `waited` is the number of steps for which the logic has asked for it.
     wish: usize,
     waited: u32,
 }

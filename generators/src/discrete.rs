@@ -4,17 +4,16 @@ use crate::GeneratorError;
 use paracosm_space::nearest;
 use std::str::FromStr;
 
-/// The method that makes the family of rows, which covers the discrete parameters.
+/// The method that makes the rows of discrete values, which together cover the discrete parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DiscreteFamily {
     /// A covering array by the IPOG algorithm, whose few rows contain all valid combinations of values of any k
     /// parameters.
     #[default]
     Ipog,
-    /// Uniformly random rows, in the number that Proposition 3.2 of the paper demands. With probability at least `1 -
-    /// delta` the rows contain all combinations of values of any k parameters. Under constraints, rows are drawn from
-    /// the rows that satisfy them, and their number is that of the union bound with every combination's own
-    /// probability.
+    /// Uniformly random rows, as many as Proposition 3.2 of the paper requires. With probability at least `1 - delta`
+    /// the rows contain all combinations of values of any k parameters. Under constraints, rows are drawn from the rows
+    /// that satisfy them, and their number is that of the union bound with every combination's own probability.
     Random {
         /// The greatest probability, between 0 and 1, that the rows miss a valid combination.
         delta: f64,

@@ -122,7 +122,7 @@ pub enum GeneratorError {
         /// The greatest number of choices of parameters that `greedy` handles.
         most: usize,
     },
-    /// The strength k is out of range for a request in which continuous and discrete parameters count.
+    /// The strength k is 0 or exceeds the number of all parameters, continuous and discrete.
     #[error("k is {k}, but the space has {}; expected k from 1 to that number", plural(*parameters, "parameter"))]
     AllStrength {
         /// The requested strength k, which is the number of parameters in a combination.

@@ -14,7 +14,7 @@ const BALL: f64 = 0.1801;
 pub struct Function {
     /// The name by which users ask for the test function.
     pub name: &'static str,
-    /// The difficulty for which the test function stands, in a few words.
+    /// The difficulty that the test function poses to strategies, in a few words.
     pub about: &'static str,
     dims: usize,
     /// The number of levels of each discrete parameter, whose values are words.

@@ -22,17 +22,17 @@ pub struct Request<'a> {
     /// The seed of all random numbers. `None` gives the plain set if the strategy has one (`halton sobol kronecker
     /// hammersley fibonacci`), and seed 0 for everything else, such as the copies of a plain set for further rows.
     pub seed: Option<u64>,
-    /// The index, from 0, of the first point that is used of a sequence. `None` means 0, but 1 for `halton`, because
-    /// point 0 of Halton is the corner of the cube.
+    /// The index, from 0, of the first point of the sequence that the tests use. `None` means 0, but 1 for `halton`,
+    /// because point 0 of Halton is the corner of the cube.
     pub skip: Option<u64>,
-    /// The method that makes the family of rows, which covers the discrete parameters.
+    /// The method that makes the rows of discrete values, which together cover the discrete parameters.
     pub discrete: DiscreteFamily,
     /// The strength k, which is the number of parameters in a combination that the tests cover. A family of rows covers
     /// the discrete parameters; `greedy` covers all parameters if it aims at k-wise dispersion. `None` means 2, or the
     /// number of parameters if there are fewer. If there are fewer discrete parameters than k, all their combinations
     /// are covered.
     pub k: Option<usize>,
-    /// The greatest volume of an empty box that the tests of a row of the discrete family may leave. As few tests as
+    /// The greatest allowed volume of an empty box among the tests of each row of the discrete family. As few tests as
     /// possible are added until this volume is reached. If the budget is too small, the tests are divided so that the
     /// largest empty box of any row is as small as possible. `None` gives every row an equal share of the budget.
     pub epsilon: Option<f64>,

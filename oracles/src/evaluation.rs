@@ -25,8 +25,8 @@ pub enum Semantics {
 pub struct Evaluation {
     /// The truth of the formula at the beginning of the trace. It is valid for every continuation of the trace.
     pub truth: Truth,
-    /// The robustness of the formula for the recorded samples only, which is their distance from the opposite truth. It
-    /// is NaN if the trace is empty.
+    /// The margin by which the formula holds (above 0) or is violated (below 0), for the recorded samples only. It is
+    /// NaN if the trace is empty.
     pub robustness: f64,
     /// The lowest robustness that a continuation of the trace can give the formula.
     pub lower: f64,

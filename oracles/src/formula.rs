@@ -109,12 +109,12 @@ impl Formula {
         Formula::Modal(Modality::Eventually, interval.into(), Box::new(self))
     }
 
-    /// Makes the formula "this formula held at all instants of the interval back from now".
+    /// Makes the formula "this formula held at all instants of the past interval".
     pub fn historically(self, interval: impl Into<Interval>) -> Self {
         Formula::Modal(Modality::Historically, interval.into(), Box::new(self))
     }
 
-    /// Makes the formula "this formula held at an instant of the interval back from now".
+    /// Makes the formula "this formula held at an instant of the past interval".
     pub fn once(self, interval: impl Into<Interval>) -> Self {
         Formula::Modal(Modality::Once, interval.into(), Box::new(self))
     }
@@ -130,7 +130,7 @@ impl Formula {
         Formula::Sequence(Sequence::Release, interval.into(), Box::new(self), Box::new(duty))
     }
 
-    /// Makes the formula "this formula has held since an instant of the interval back from now at which `cause` held".
+    /// Makes the formula "this formula has held since an instant of the past interval at which `cause` held".
     pub fn since(self, interval: impl Into<Interval>, cause: Formula) -> Self {
         Formula::Sequence(Sequence::Since, interval.into(), Box::new(self), Box::new(cause))
     }

@@ -25,7 +25,7 @@ impl Worth {
         Self(key(number))
     }
 
-    /// Makes the infinite robustness of a statement that is true or false without a distance.
+    /// Makes the robustness of a statement without a margin, which is infinity or, if `holds` is false, minus infinity.
     pub fn certain(holds: bool) -> Self {
         if holds { Self::BEST } else { Self::WORST }
     }

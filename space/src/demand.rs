@@ -11,7 +11,7 @@
 use crate::rules::{Clause, Literal, Rules, RulesError};
 use crate::{Space, SpaceError};
 
-/// The combinations of values that tests have to cover in addition to all combinations of any k values.
+/// The combinations of values that tests have to cover besides all combinations of the values of any k parameters.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Demand {
     /// The groups of discrete parameters that need a higher strength of coverage. Each group has the positions of its
@@ -110,10 +110,10 @@ impl TestKind {
         self.negative
     }
 
-    /// Returns the combinations that tests of this kind have to show so that all kinds together show all combinations
-    /// of `k` of `parameters`. The result has parameters and a number: tests of this kind have to show all combinations
-    /// of that number of these parameters, beside the negative value. `None` if the negative value belongs to none of
-    /// `parameters`.
+    /// Returns the combinations of levels that tests of this kind have to cover so that all kinds together cover all
+    /// combinations of `k` of `parameters`. The result has parameters and a number: tests of this kind have to cover
+    /// all combinations of that number of these parameters, beside the negative value. `None` if the negative value
+    /// belongs to none of `parameters`.
     pub fn share(&self, parameters: &[usize], k: usize) -> Option<(Vec<usize>, usize)> {
         match self.negative {
             None => Some((parameters.to_vec(), k)),

@@ -66,7 +66,7 @@ impl Space {
         // A table could not tell such a parameter apart from the coordinate of a signal that has the same name.
         let signals = space.coordinates().filter(|coordinate| coordinate.parameter.signal.is_some());
         for name in signals.map(|coordinate| coordinate.name()) {
-            if space.parameter(&name).is_ok() {
+            if space.find(&name).is_some() {
                 return Err(SpaceError::Twice { name });
             }
         }
@@ -112,12 +112,18 @@ impl Space {
         &self.parameters
     }
 
+    /// Returns the parameter with the given name, if the space has it. Unlike [`Space::parameter`] it looks for no
+    /// similar name.
+    pub fn find(&self, name: &str) -> Option<&Parameter> {
+        self.parameters.iter().find(|parameter| parameter.name == name)
+    }
+
     /// Returns the parameter with the given name.
     ///
     /// # Errors
     /// No parameter has the name. The error suggests the nearest name.
     pub fn parameter(&self, name: &str) -> Result<&Parameter, SpaceError> {
-        self.parameters.iter().find(|p| p.name == name).ok_or_else(|| SpaceError::Unknown {
+        self.find(name).ok_or_else(|| SpaceError::Unknown {
             name: name.to_owned(),
             nearest: nearest(name, self.parameters.iter().map(|p| p.name.as_str())).map(str::to_owned),
         })

@@ -68,7 +68,7 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
     table.heading(&format!("{}: {}; {} s", program.name(), program.about(), digits(declaration.duration)));
     table.heading("parameters");
     for declared in &declaration.parameters {
-        let opened = study.space().parameter(&declared.parameter.name).ok();
+        let opened = study.space().find(&declared.parameter.name);
         let parameter = opened.unwrap_or(&declared.parameter);
         let unit = parameter.unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
         let nominal = value_words(&declared.nominal());
@@ -125,7 +125,7 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
         .parameters
         .iter()
         .map(|declared| {
-            let opened = study.space().parameter(&declared.parameter.name).ok();
+            let opened = study.space().find(&declared.parameter.name);
             let parameter = opened.unwrap_or(&declared.parameter);
             let mut said = json!({"parameter": parameter, "open": opened.is_some(), "nominal": declared.nominal()});
             if let Some(value) = set(study, declared) {

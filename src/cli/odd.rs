@@ -10,7 +10,7 @@ pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
     let Some(odd) = study.odd() else { return Vec::new() };
     let mut lines: Vec<(String, String)> = Vec::new();
     for (name, attribute) in odd.iter() {
-        let parameters = attribute.varied.iter().filter_map(|name| study.space().parameter(name).ok());
+        let parameters = attribute.varied.iter().filter_map(|name| study.space().find(name));
         let ranges: Vec<String> = parameters.map(range).collect();
         let varied = (!ranges.is_empty()).then(|| format!("varied by {}", ranges.join(", ")));
         let fixed = attribute.fixed.as_ref().map(|fixed| format!("fixed: {fixed}"));

@@ -241,7 +241,7 @@ fn meaning(verdict: Verdict) -> &'static str {
 pub(super) fn in_words(study: &Study, trial: &Trial) -> String {
     let value = |(name, value): (&str, &Value)| {
         let value = value_words(value);
-        let unit = study.space().parameter(name).ok().and_then(|p| p.unit.as_deref()).unwrap_or_default();
+        let unit = study.space().find(name).and_then(|p| p.unit.as_deref()).unwrap_or_default();
         format!("{name} {value} {unit}").trim_end().to_owned()
     };
     trial.test.iter().map(value).collect::<Vec<_>>().join(", ")

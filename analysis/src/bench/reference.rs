@@ -67,7 +67,7 @@ pub(super) struct Judged {
 #[derive(Debug, Clone, Copy)]
 enum Axis {
     Continuous,
-    /// A discrete parameter with a number of ordered levels, or (`Words`) with a number of words.
+    /// A discrete parameter with the given number of levels, which are ordered (`Ordered`) or words (`Words`).
     Ordered(usize),
     Words(usize),
 }

@@ -24,7 +24,7 @@ pub struct Row {
     pub failures: usize,
     /// The number of failure modes of the run; `None` if the target is a function, which has no failure modes.
     pub modes: Option<usize>,
-    /// The predicted share of the reference map's failing tests; `None` without a map or if no test of the map fails.
+    /// The share of the map's failing tests that are predicted to fail; `None` without a map or a failing test in it.
     pub recall: Option<f64>,
     /// The share of failing tests among the tests predicted to fail; `None` without a map or a predicted failure.
     pub precision: Option<f64>,

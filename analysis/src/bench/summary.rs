@@ -36,7 +36,7 @@ pub struct BenchCell {
     pub restricted_mean: f64,
     /// The 95 % bootstrap interval of the restricted mean number of tests to the first failure, over the seeds.
     pub restricted_interval: [f64; 2],
-    /// The restricted mean divided by the least restricted mean of all strategies except `auto` and `random-corners`.
+    /// The restricted mean divided by the smallest such mean of all strategies except `auto` and `random-corners`.
     /// `auto` consists of other strategies, and `random-corners` is the control.
     pub over_best: Option<f64>,
     /// The comparison of the restricted mean with the baseline's restricted mean, over pairs of runs with the same
@@ -46,7 +46,7 @@ pub struct BenchCell {
     pub log_rank: Option<LogRank>,
     /// The mean number of failure modes of a run; `None` if the target is a function, which has no failure modes.
     pub modes: Option<f64>,
-    /// The mean predicted share of the reference map's failing tests; `None` if the share is not known of any run.
+    /// The mean share of the map's failing tests that are predicted to fail; `None` if no run has a known share.
     pub recall: Option<f64>,
     /// The mean precision of the runs that predict a test of the reference map to fail; `None` if there is no such run.
     pub precision: Option<f64>,
@@ -68,7 +68,7 @@ pub struct LogRank {
 pub struct Correlation {
     /// The name of the target on which the strategies ran.
     pub scenario: String,
-    /// The group of strategies, which is `all` (without the control) or `open loop` (without adaptive strategies).
+    /// The group of strategies, which is `all` (except `random-corners`) or `open loop` (also without adaptive ones).
     pub among: &'static str,
     /// The number of runs of the strategies in the group.
     pub runs: usize,

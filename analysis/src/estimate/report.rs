@@ -159,11 +159,11 @@ pub struct KEpsilon {
     /// The smallest epsilon for which the tests are (k, epsilon)-covering; null if a valid combination is not covered.
     /// After a time-out this is an upper bound.
     pub epsilon: Option<f64>,
-    /// The largest dispersion among the rows of discrete values that the tests have. After a time-out this is an upper
-    /// bound.
+    /// The largest dispersion of the tests with the same discrete values, over all discrete values that tests have.
+    /// After a time-out this is an upper bound.
     pub epsilon_over_covered_rows: f64,
-    /// A lower bound of the largest dispersion among the rows of discrete values. Without a time-out this is the
-    /// largest dispersion itself.
+    /// A lower bound of the largest dispersion of the tests with the same discrete values. Without a time-out this is
+    /// the largest dispersion itself.
     pub epsilon_at_least: f64,
 }
 

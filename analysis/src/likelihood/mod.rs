@@ -89,7 +89,7 @@ pub enum LikelihoodFlaw {
         /// The method that the user chose.
         method: Method,
     },
-    /// No parameter is open, so that nothing is random.
+    /// No parameter is open (all have fixed values), so that there is no probability to estimate.
     #[error("no parameter is open, so there is no probability to estimate: leave at least one parameter open")]
     NothingOpen,
     /// The space has constraints, so that the distribution of the tests is not known.

@@ -19,7 +19,7 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A number that describes a violation and by which failure modes are divided.
+/// A number that describes a violation; a gap between its values divides a failure mode into two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum CriticalFigure {
     /// The time of the violation, in seconds.

@@ -46,7 +46,7 @@ pub struct Location {
     pub conclusion: Conclusion,
     /// The discrete values that the search located as the cause; empty if there is no conclusion about values.
     pub values: Values,
-    /// The located values that constraints tie together, so that tests cannot show the need of each value.
+    /// The located values that constraints tie together, so that tests cannot show whether each value is needed.
     pub undivided: Values,
     /// The indices of the failing trials that have the located values; empty if the values are not guilty.
     pub explains: Vec<usize>,

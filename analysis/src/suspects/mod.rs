@@ -35,7 +35,7 @@ pub struct NamedSuspect {
     pub values: Values,
     /// The number of tests that have all values of the combination. All these tests failed.
     pub failures: usize,
-    /// The average suspicion against the single values of the combination, from 0 to 1.
+    /// The mean over the combination's values of the estimated share of failed tests among the tests with the value.
     pub suspicion: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct SuspectReport {
     /// The suspects with the highest ranks, 20 at most. The smallest come first, and among equally small suspects those
     /// that explain most failures.
     pub ranked: Vec<NamedSuspect>,
-    /// A few suspects that together explain all failures except the unexplained failures.
+    /// A few suspects of which each failing test has at least one, except the tests in `unexplained`.
     pub explanation: Vec<NamedSuspect>,
     /// The indices of the failing trials without a suspect combination.
     pub unexplained: Vec<usize>,

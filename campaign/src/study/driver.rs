@@ -101,11 +101,11 @@ impl PartialEq for Own {
 /// A driver that the user asked for.
 #[derive(Debug, Clone)]
 pub(super) enum Wish {
-    /// The name of a listed driver, a network, or the address of a server.
+    /// The name of a listed driver, the file of a neural network, or the address of a server.
     Name(String),
     /// The command that starts the driver.
     Command(String),
-    /// A driver of the program, with its name.
+    /// The name of a driver, and the function of the program that makes the driver.
     Own(String, Own),
 }
 
@@ -129,7 +129,7 @@ pub enum DriverFlaw {
     /// The driver has no setting with the given name, or the value of the setting is out of range.
     #[error("{0}; `paracosm-fuzz list` shows all drivers with their settings")]
     Setting(DriverError),
-    /// A network was given a setting other than `latency`.
+    /// A driver that is a neural network was given a setting other than `latency`.
     #[error("driver `{driver}` is a network and has no setting `{setting}`, only `{}`", LATENCY.name)]
     NetworkSetting {
         /// The name of the driver.

@@ -40,8 +40,8 @@ impl ListedDriver {
         Self { name: driver.name, about: driver.about, settings: driver.settings }
     }
 
-    /// Returns the list entries of all drivers that a user can choose, which are drivers of the engine, networks, and
-    /// drivers in an external process.
+    /// Returns the list entries of all drivers that a user can choose, which are drivers of the engine, neural
+    /// networks, and drivers in an external process.
     pub fn all() -> impl Iterator<Item = Self> {
         driver::ALL.iter().map(|driver| Self::of(driver)).chain(ELSEWHERE)
     }

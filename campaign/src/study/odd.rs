@@ -126,7 +126,7 @@ impl Study {
     }
 
     fn check_varied(&self, attribute: &str, parameter: &str) -> Result<(), OddFlaw> {
-        if self.space.parameter(parameter).is_ok() {
+        if self.space.find(parameter).is_some() {
             return Ok(());
         }
         let (attribute, name) = (attribute.to_owned(), parameter.to_owned());

@@ -16,7 +16,7 @@ pub struct StatedRequirement {
     pub formula: Option<Formula>,
     /// The unit of the requirement's robustness.
     pub unit: String,
-    /// The scale of the requirement, which is a large value of the robustness, in the unit of the robustness. `None` if
+    /// The scale by which the robustness is divided to compare requirements, in the unit of the robustness. `None` if
     /// no scale was stated, so that a search has to learn the scale.
     pub scale: Option<f64>,
     /// The source of the requirement, for example a regulation, a specification or a hazard.

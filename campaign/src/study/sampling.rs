@@ -28,12 +28,12 @@ pub struct Sampling {
     pub discrete: DiscreteFamily,
     /// The number of parameters whose combinations of values are covered; `None` means two.
     pub k: Option<usize>,
-    /// The largest allowed volume of an empty box in any row of discrete values. The campaign ends when no row has a
-    /// larger empty box, or the budget is spent; the next test goes to the row with the largest empty box.
+    /// The largest allowed volume of an empty box between the tests of any row of discrete values. The campaign ends
+    /// when no row has a larger box, or the budget is spent; the next test goes to the row with the largest empty box.
     pub epsilon: Option<f64>,
     /// The measure that the strategy `greedy` minimises; `None` means the default.
     pub aim: Option<Aim>,
-    /// The index of the first point that is taken from a sequence of points; `None` means the default.
+    /// The index of the first point that the strategy takes from its sequence of points; `None` means the default.
     pub skip: Option<u64>,
     /// The seed of all randomness; `None` means a set of points without randomness if possible, otherwise seed 0.
     pub seed: Option<u64>,

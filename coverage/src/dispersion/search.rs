@@ -115,8 +115,8 @@ impl<'a> BoxSearch<'a> {
         Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
     }
 
-    /// Makes a search that records its pivots, so that the search can be repeated without its arithmetic. The search
-    /// tries cuts in the order of the axes.
+    /// Makes a search that records its pivots, so that a proof can repeat the search from the points and the pivots.
+    /// The search tries cuts in the order of the axes.
     pub fn with_trail(points: &'a PointSet, reference: f64) -> Self {
         Self { trail: Some(Vec::new()), ..Self::new(points, reference) }
     }

@@ -4,7 +4,7 @@ use super::JudgedTest;
 use super::partial::Partial;
 use paracosm_space::rules::Rules;
 
-/// A located guilty combination, whose values are all needed for a test to fail.
+/// The result of a search for the combination of values that makes a test fail, without needless values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Located {
     /// The (parameter, level) pairs of the combination, in ascending order of parameters.

@@ -45,9 +45,9 @@ pub struct Suspect {
     pub values: Vec<(usize, usize)>,
     /// The number of failing tests that contain the suspect combination. No passing test contains the combination.
     pub failures: usize,
-    /// The average suspicion of the combination's values, between 0 and 1. The suspicion of a value is the share of
-    /// failed tests among the tests with this value, by Laplace's rule (failed + 1) / (all + 2). Values that are
-    /// together by chance have about the share of all tests. The values of a guilty combination have a higher share.
+    /// The average over the combination's values of the share of failed tests among the tests with the value, between 0
+    /// and 1. The share is estimated by Laplace's rule (failed + 1) / (all + 2). Values that are together by chance
+    /// have about the share of all tests. The values of a guilty combination have a higher share.
     pub suspicion: f64,
 }
 

@@ -8,9 +8,9 @@
 use paracosm_space::rules::{Rules, UniformTests};
 use std::collections::BTreeMap;
 
-/// Returns the number of random rows of two-level parameters that cover k-wise with probability at least `1 - delta`,
-/// by the paper's Proposition 3.2. The rows are uniformly distributed in `{0,1}^parameters`. The number is `2^k (k ln N
-/// - ln delta)`, not rounded.
+/// Returns the number of random rows that contain all combinations of any `k` two-level parameters with probability at
+/// least `1 - delta`, by the paper's Proposition 3.2. The rows are uniformly distributed in `{0,1}^parameters`. The
+/// number is `2^k (k ln N - ln delta)`, not rounded.
 ///
 /// The formula comes from `ln(1 - 2^-k) <= -2^-k` and `C(N,k) 2^k <= N^k`. The second inequality does not hold for
 /// small `N`: at `N = k = 1`, `delta = 0.9` the formula asks for 0.21, and one row cannot hold both values. Use
@@ -20,8 +20,8 @@ pub fn proposition_3_2(parameters: usize, k: usize, delta: f64) -> f64 {
     libm::exp2(k) * (k * libm::log(parameters as f64) - libm::log(delta))
 }
 
-/// The theory of random rows, which computes the probability that uniformly random rows cover k-wise. Rows are drawn
-/// from all tests that satisfy the constraints.
+/// The probabilities that uniformly random rows contain the valid combinations of levels of any k parameters. Rows are
+/// drawn from all tests that satisfy the constraints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RandomRows {
     parameters: usize,
@@ -96,7 +96,7 @@ impl RandomRows {
         long
     }
 
-    /// Returns the number of random rows that cover k-wise with probability at least `1 - delta`.
+    /// Returns a number of random rows that contain all valid combinations with probability at least `1 - delta`.
     ///
     /// For parameters with two levels each and no constraints it is the number of the paper's [`proposition_3_2`],
     /// which users of the paper expect, although that is more than needed. If the formula asks for too few rows, the

@@ -13,7 +13,7 @@ const DEPTHS: [f64; 3] = [0.06564, 0.10014, 0.19862];
 /// The radius of the earth (6371 km) divided by the height by which air thins to 1/e (8 km).
 const EARTH: f64 = 6371.0 / 8.0;
 
-/// The daylight of a clear sky, as shares of the daylight under the usual sun.
+/// The daylight of a clear sky, as shares of the daylight at the default elevation of the sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Daylight {
     /// The red, green and blue of the sun's rays, as shares of the light at the default elevation of the sun.
@@ -23,14 +23,14 @@ pub(crate) struct Daylight {
     /// The light of the sky straight above, as a share of the light at the default elevation of the sun. It dims and
     /// keeps its hue, because ozone absorbs the light that would make it grey (Hulburt 1953).
     pub zenith: f32,
-    /// The red, green and blue from all directions, as shares of the light at the default elevation of the sun.
+    /// The red, green and blue of the light from all sides, as shares of the light at the default elevation of the sun.
     pub around: [f32; 3],
     /// The share of the air overhead that is not in the shadow of the earth, from 0 to 1. It is 1 until sunset.
     pub risen: f32,
 }
 
 impl Daylight {
-    /// Returns the daylight of a clear sky at a height of the sun, in radians above the horizon.
+    /// Returns the daylight of a clear sky when the sun is `elevation` radians above the horizon.
     pub fn of(elevation: f32) -> Self {
         let (air, usual) = (air_mass(elevation), air_mass(USUAL));
         let below = f64::from(-elevation).max(0.0);

@@ -87,7 +87,7 @@ impl Camera {
         2.0 * libm::atan(self.sensor_width / (2.0 * self.focal_length))
     }
 
-    /// Returns the direction of the ray through a point of the image, in the camera's coordinates with x = 1.
+    /// Returns the direction of the ray through an image point, as a vector with x = 1 in the camera's coordinates.
     pub fn ray(&self, pixel: Point2<f64>) -> Vector3<f64> {
         let middle = self.middle();
         let focal = self.focal_pixels();

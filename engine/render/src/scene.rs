@@ -54,7 +54,7 @@ pub struct Atmosphere {
 }
 
 impl Atmosphere {
-    /// Returns the light and the fog of a weather. The fog is the fog that the other sensors see through
+    /// Returns the light and the fog in the given weather. The fog is the fog that the other sensors see through
     /// ([`sensor::Air::of`]).
     pub fn of(weather: &Weather) -> Self {
         Self {

@@ -35,7 +35,7 @@ pub struct Actor {
 
 struct Moving {
     path: Path,
-    /// The present place and the start, in metres along the path.
+    /// The object's present place (`at`) and its place at the start, in metres along the path.
     at: f64,
     start: f64,
     /// The distance to the left of the path, in metres.

@@ -41,7 +41,7 @@ struct SceneryKind {
     /// The share of this kind among all things.
     share: f64,
     body: fn(&mut Chance) -> Body,
-    /// The distance of the disc from the sidewalk in metres, and as much again at most, by chance.
+    /// The least distance from the road in metres beyond `FROM_ROAD`, to which chance adds at most as much again.
     back: f64,
     /// The heading, in radians counter-clockwise from the direction of the traffic beside it.
     faces: f64,

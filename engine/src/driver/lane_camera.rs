@@ -116,7 +116,7 @@ impl LaneCamera {
 /// A row of an image, which shows a strip of flat ground.
 struct Row<'a> {
     pixels: &'a [u8],
-    /// The slope of the ray through the row's middle, as its way down per metre along the camera's axis.
+    /// The slope of the ray through the row's middle, as its descent per metre along the camera's axis.
     down: f64,
 }
 

@@ -86,7 +86,7 @@ impl Outline {
         }
     }
 
-    /// Returns half the sides in metres of the smallest rectangle along the axes around the outline at a heading.
+    /// Returns half the extent in metres of the outline along each axis, for a body with the given heading.
     pub fn enclosing(&self, heading: f64) -> Vector2<f64> {
         let half = self.half_extent();
         match self {

@@ -118,7 +118,7 @@ pub trait Geometric: 'static {
         Ok(())
     }
 
-    /// Shows the object's outputs at the beginning of a tick. An output without a value is absent.
+    /// Writes the values of the object's outputs at the beginning of a tick. An output without a value is absent.
     fn show(&self, outputs: &mut Outputs<'_>) {
         let _ = outputs;
     }
@@ -140,7 +140,7 @@ pub trait Geometric: 'static {
 
 /// The behaviour of an object that the physics moves as a body with a mass, gravity, and friction on the ground.
 pub trait Physical: 'static {
-    /// Shows the object's outputs at the beginning of a tick. `body` is the state of the object's body at this time.
+    /// Writes the values of the object's outputs at the beginning of a tick. `body` is the state of its body then.
     fn show(&self, body: &BodyState, outputs: &mut Outputs<'_>) {
         let _ = (body, outputs);
     }

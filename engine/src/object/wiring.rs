@@ -117,7 +117,7 @@ impl<T> fmt::Debug for Output<T> {
     }
 }
 
-/// The storage in which objects show the values of their outputs at a tick.
+/// The storage to which objects write the values of their outputs at a tick.
 #[derive(Debug)]
 pub struct Outputs<'a> {
     pub(crate) samples: &'a mut [DatumSample],
@@ -148,7 +148,7 @@ impl Tick<'_> {
         self.dt
     }
 
-    /// Returns the friction coefficient between tyre and road during the tick, a number from 0 on. At the beginning of
+    /// Returns the friction coefficient between tyre and road during the tick, which is at least 0. At the beginning of
     /// the run it is not known yet and NaN.
     pub fn friction(&self) -> f64 {
         self.friction

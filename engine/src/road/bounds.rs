@@ -80,7 +80,7 @@ struct Node {
 enum Below {
     /// A leaf of the tree, with a range of items.
     Leaf(Range<usize>),
-    /// An inner node of the tree. The children are the next node and the node with this index.
+    /// An inner node with the index of its second child; the first child is the next node.
     Second(usize),
 }
 

@@ -16,6 +16,26 @@ pub struct Path {
     /// The lane of each piece, if the path was made from lanes.
     lanes: Option<Arc<[LaneId]>>,
     length: f64,
+    /// The poses at the start and at the end, with the directions in which the path continues there.
+    ends: [End; 2],
+}
+
+/// An end of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct End {
+    pose: Pose,
+    forward: Vector2<f64>,
+}
+
+impl End {
+    fn of(pose: Pose) -> Self {
+        Self { pose, forward: pose.forward() }
+    }
+
+    /// Returns the distance in metres from the end to a position, along the direction of the path at the end.
+    fn beyond(&self, position: Vector2<f64>) -> f64 {
+        self.forward.dot(&(position - self.pose.position))
+    }
 }
 
 impl Path {
@@ -32,7 +52,11 @@ impl Path {
         };
         let pieces: Arc<[_]> = curves.into_iter().map(begun).collect();
         assert!(!pieces.is_empty(), "a path has at least one curve");
-        Self { pieces, lanes: None, length }
+        let ends = [0.0, length].map(|s| {
+            let (from, curve) = &pieces[index(&pieces, s)];
+            End::of(curve.at(s - from))
+        });
+        Self { pieces, lanes: None, length, ends }
     }
 
     /// Sets the lane of each piece.
@@ -103,12 +127,12 @@ impl Path {
         let inside = s.max(0.0).min(self.length);
         let (from, curve) = &self.pieces[self.index(inside)];
         let at = inside - from;
-        let (position, heading) = (curve.beside(at, offset), curve.heading(at));
         if s == inside {
-            return Pose { position, heading };
+            return Pose { position: curve.beside(at, offset), heading: curve.heading(at) };
         }
-        let ahead = Pose { position, heading }.forward() * (s - inside);
-        Pose { position: position + ahead, heading }
+        let End { pose, forward } = self.ends[usize::from(s > 0.0)];
+        let position = if offset == 0.0 { pose.position } else { curve.beside(at, offset) };
+        Pose { position: position + forward * (s - inside), heading: pose.heading }
     }
 
     /// Returns the point `s` metres along the path, like [`Path::at`], without the heading, which costs more.
@@ -142,16 +166,16 @@ impl Path {
             }
         }
         if best.1 >= self.length {
-            best.1 += self.at(self.length).to_local(position).x.max(0.0);
+            best.1 += self.ends[1].beyond(position).max(0.0);
         } else if best.1 <= 0.0 {
-            best.1 += self.at(0.0).to_local(position).x.min(0.0);
+            best.1 += self.ends[0].beyond(position).min(0.0);
         }
         best.1
     }
 
     /// Returns the index of the curve that contains the point `s` metres along the path.
     fn index(&self, s: f64) -> usize {
-        self.pieces.partition_point(|(from, _)| *from <= s).max(1) - 1
+        index(&self.pieces, s)
     }
 
     /// Returns the path in the opposite direction, without lanes.
@@ -163,6 +187,11 @@ impl Path {
     pub fn shifted(&self, left: f64) -> Self {
         Self::new(self.pieces.iter().map(|(_, curve)| curve.offset(left)))
     }
+}
+
+/// Returns the index of the last piece that begins at most `s` metres along the path.
+fn index(pieces: &[(f64, Curve)], s: f64) -> usize {
+    pieces.partition_point(|(from, _)| *from <= s).max(1) - 1
 }
 
 impl RoadNetwork {

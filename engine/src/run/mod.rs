@@ -43,7 +43,7 @@ pub struct Setup {
     pub model: VehicleModel,
 }
 
-/// The reason why a run has paused, which is the need of a control or the end of the run.
+/// The state of a paused run, which either needs a control or is over.
 #[derive(Debug)]
 pub enum Step<'a> {
     /// The run needs a control for an observation. Call [`Run::supply`] or [`Run::answer`], and advance again.

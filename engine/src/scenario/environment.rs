@@ -12,7 +12,7 @@ const DRY_ASPHALT: f64 = 0.8;
 /// and 0.5 to 0.7 on wet asphalt (Wong, Theory of Ground Vehicles, table 1.3, after Taborek 1957): 0.6 of 0.85.
 const LOST_IN_RAIN: f64 = 0.3;
 
-/// The conditions of a world, not placed yet. The default is broad daylight, no fog, no rain and dry asphalt.
+/// The light, weather and friction of a world, not placed yet. Default: broad daylight, no fog, no rain, dry asphalt.
 #[derive(Debug, Clone)]
 pub struct Environment {
     light: Stream<f64>,
@@ -22,7 +22,7 @@ pub struct Environment {
     friction: Option<Stream<f64>>,
 }
 
-/// The conditions of a world, as streams that the program can read.
+/// The light, weather and friction of a world, as streams that the program can read.
 #[derive(Debug, Clone)]
 pub struct Conditions {
     /// The amount of daylight, from 0 (night) to 1 (broad daylight).
@@ -35,7 +35,7 @@ pub struct Conditions {
     pub sun_elevation: Stream<f64>,
     /// The azimuth of the sun, in radians counter-clockwise from x.
     pub sun_azimuth: Stream<f64>,
-    /// The friction coefficient between tyre and road, with the loss by rain.
+    /// The friction coefficient between tyre and road, reduced by the rain.
     pub friction: Stream<f64>,
 }
 

@@ -61,7 +61,7 @@ pub struct Scenario {
     pub(crate) conditions: Conditions,
     /// The conditions that the program has defined.
     said: Said,
-    /// The names that programs asked for, with how often they did. Only looked up, so their order does not matter.
+    /// The number of requests for each name by programs. Only looked up, so the order of the names does not matter.
     names: HashMap<String, usize>,
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
@@ -135,7 +135,7 @@ impl Scenario {
         self.declare(name, Domain::Interval { lo, hi }, None, Read::number())
     }
 
-    /// Declares a closed parameter with values in an interval. It stays at its nominal value until a study opens it.
+    /// Declares a closed parameter, which stays at `nominal` until a study opens it within the interval `range`.
     pub fn nominal(&mut self, name: &str, range: RangeInclusive<f64>, nominal: f64) -> Param<f64> {
         let (lo, hi) = range.into_inner();
         self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()), Read::number())
@@ -147,7 +147,7 @@ impl Scenario {
         self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))
     }
 
-    /// Declares a closed parameter that takes one of the given values. It stays nominal until a study opens it.
+    /// Declares a closed parameter, which stays at `nominal` until a study opens it to all values in `levels`.
     pub fn nominal_choice<T: Into<Value> + Clone + 'static, const N: usize>(
         &mut self,
         name: &str,
@@ -293,7 +293,7 @@ impl Scenario {
             self.flaw(WorldFlaw::DefinedTwice { stream: equation.name.clone() });
         }
         let definitions = equations.iter().filter_map(|equation| equation.definition.as_ref());
-        match Graph::new(readers.iter().map(|(_, node)| node).chain(definitions), &equations) {
+        match Graph::new(readers.iter().map(|(_, node)| node).chain(definitions), &equations, self.wiring.samples()) {
             Ok(graph) => self.graph = graph,
             Err(flaw) => self.flaw(flaw.into()),
         }
@@ -307,7 +307,8 @@ impl Scenario {
         let readers = self.wiring.readers();
         let friction = &self.conditions.friction.node;
         let roots = readers.iter().map(|(_, node)| node).chain([friction]).chain(definitions);
-        let graph = Graph::new(roots, &equations).expect("what has been laid out can be laid out again");
+        let graph =
+            Graph::new(roots, &equations, self.wiring.samples()).expect("what has been laid out can be laid out again");
         let slot = graph.slot(friction);
         (graph, slot)
     }

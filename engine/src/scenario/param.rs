@@ -97,8 +97,8 @@ impl<T: Clone> Param<T> {
         self
     }
 
-    /// Declares that the parameter's nominal value has no effect. A test with this value has the key of a test without
-    /// the parameter, and so the same camera noise, which otherwise differs. It is for parameters added later.
+    /// Declares that a test with the nominal value is the same as a test without the parameter. Both have the same key,
+    /// and so the same camera noise, which otherwise differs. It is for parameters added later.
     pub fn incidental(self) -> Self {
         let value = self.given_or_nominal();
         if self.given.value.is_some() && value == self.declared.borrow()[self.index].nominal() {

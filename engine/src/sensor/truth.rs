@@ -17,11 +17,11 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
 /// The settings of a sensor that knows the ground truth, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundTruthSettings {
-    /// The mounting of the sensor, which determines the hidden bodies.
+    /// The mounting of the sensor, which determines which bodies are hidden.
     pub mount: Mount,
     /// The seconds between two readings.
     pub period: f64,
-    /// The greatest free distance in metres between the car and the bodies that the sensor knows.
+    /// The greatest distance in metres between the outlines of the car and of a body that the sensor measures.
     pub range: f64,
 }
 
@@ -47,7 +47,7 @@ pub struct TrueBody {
     pub heading: f64,
     /// The velocity of the body over the ground in m/s, along the axes of the car.
     pub velocity: Vector2<f64>,
-    /// The free distance between the body and the car, in metres.
+    /// The distance between the outlines of the body and of the car, in metres.
     pub distance: f64,
     /// True if a large body stands between the sensor and the middle of the observed body.
     pub hidden: bool,

@@ -7,7 +7,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::rc::Rc;
 
-/// A stream of values of type `T`, which is a cheap handle on an expression ([module](crate::stream)).
+/// A sequence of values of type `T`, at most one at each tick; cheap to clone ([module](crate::stream)).
 pub struct Stream<T> {
     pub(crate) node: Rc<Node>,
     carries: PhantomData<T>,
@@ -25,7 +25,7 @@ impl<T> fmt::Debug for Stream<T> {
     }
 }
 
-/// A side effect at the ticks of a stream. [`Stream::for_each`] makes the effect, and
+/// A side effect at every tick at which a stream has a value. [`Stream::for_each`] makes the effect, and
 /// [`Scenario::place`](crate::Scenario::place) makes it part of the world.
 #[must_use = "an effect only happens if you place it in the scenario"]
 #[derive(Debug)]
@@ -75,7 +75,7 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Named(name.to_owned()))
     }
 
-    /// Returns the stream of `f` of each value of this stream. `f` should be pure: the number of calls is not defined.
+    /// Applies `f` to each value of the stream. `f` should be pure: the number of calls is not defined.
     pub fn map<U: Datum>(&self, f: impl Fn(T) -> U + 'static) -> Stream<U> {
         let map = move |input: &[_], output: &mut [_]| {
             if let Some(value) = T::get(input) {
@@ -105,7 +105,7 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Take(count))
     }
 
-    /// Returns this stream until it is over, and from then on the present values of `next`, which are not queued.
+    /// Returns a stream that is this stream until it is over, and then `next`, whose earlier values are lost.
     pub fn concat(&self, next: &Stream<T>) -> Self {
         self.with(NodeKind::Concat, next)
     }
@@ -116,8 +116,8 @@ impl<T: Datum> Stream<T> {
         value.into().take(1).concat(self)
     }
 
-    /// Folds the values of the stream, at the ticks at which it has a value. The result is `f` of the previous result
-    /// (`initial` at first) and the value. `f` should be a pure function.
+    /// Returns the fold of the stream's values so far, at the ticks at which the stream has a value. Each result is
+    /// `f` of the previous result (`initial` at first) and the value. `f` should be a pure function.
     pub fn scan<A: Datum>(&self, initial: A, f: impl Fn(A, T) -> A + 'static) -> Stream<A> {
         let step = move |sum: &mut [_], input: &[_]| {
             if let (Some(before), Some(value)) = (A::get(sum), T::get(input)) {

@@ -1,8 +1,10 @@
 //! The streams of a run laid out for evaluation: operands first, all values in one place, no allocation per tick.
 
 use super::datum::{Datum, DatumSample};
-use super::node::{Equation, Node, NodeKind};
+use super::node::{Equation, Node, NodeKind, Source};
 use super::order::{GraphFlaw, order};
+use crate::geometry::Line;
+use paracosm_oracles::Comparison;
 use paracosm_space::Shape;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -52,6 +54,7 @@ enum Memory {
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     operations: Vec<Operation>,
+    /// The values of all nodes. The samples of the objects' outputs come first, so that they need no operations.
     values: Vec<DatumSample>,
     /// For each value, true if its stream is over.
     over: Vec<bool>,
@@ -66,14 +69,22 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// Lays out the given roots and all nodes that the roots depend on.
+    /// Makes the graph of the given roots and all nodes that the roots depend on. `outputs` is the number of samples of
+    /// all outputs of objects.
     pub fn new<'a>(
         roots: impl IntoIterator<Item = &'a Rc<Node>>,
         equations: &'a [Equation],
+        outputs: usize,
     ) -> Result<Self, GraphFlaw> {
-        let mut graph = Self::default();
+        let mut graph = Self {
+            values: vec![DatumSample::Absent; outputs],
+            over: vec![false; outputs],
+            constant: vec![false; outputs],
+            ..Self::default()
+        };
         for node in order(roots, equations)? {
             let slot = match &node.kind {
+                NodeKind::Output { source: Source(at), .. } => Slot(*at),
                 // Other names of a stream share its slot.
                 NodeKind::Named(_) => graph.slot(&node.inputs[0]),
                 NodeKind::Forward { equation, .. } => {
@@ -128,8 +139,7 @@ impl Graph {
         if constant {
             // Evaluated here once, and at no tick. No such operation reads the clock or an output of an object.
             let clock = Clock { tick: 0, ticks: 0, dt: 0.0 };
-            let (values, rest) = self.values.split_at_mut(at);
-            self.over[at] = operation.evaluate(clock, values, &mut rest[..node.width], &self.over, &[]);
+            operation.evaluate(clock, &mut self.values, &mut self.over);
             self.constant[at] = true;
         } else {
             self.operations.push(operation);
@@ -152,10 +162,9 @@ impl Graph {
 
     /// Evaluates every stream for a tick. `outputs` are the outputs of the objects at the beginning of the tick.
     pub fn tick(&mut self, clock: Clock, outputs: &[DatumSample]) {
+        self.values[..outputs.len()].copy_from_slice(outputs);
         for operation in &mut self.operations {
-            let (values, rest) = self.values.split_at_mut(operation.at);
-            let over = operation.evaluate(clock, values, &mut rest[..operation.width], &self.over, outputs);
-            self.over[operation.at] = over;
+            operation.evaluate(clock, &mut self.values, &mut self.over);
         }
         for &delay in &self.delays {
             let Operation { inputs: [at, _], width, memory, .. } = &mut self.operations[delay];
@@ -182,24 +191,44 @@ fn occurs(value: &[DatumSample]) -> bool {
 }
 
 impl Operation {
+    /// Writes the value of a tick, and whether the stream is over, to the operation's place.
+    fn evaluate(&mut self, clock: Clock, values: &mut [DatumSample], over: &mut [bool]) {
+        if !self.evaluate_simple(values, over) {
+            let (before, rest) = values.split_at_mut(self.at);
+            over[self.at] = self.evaluate_wide(clock, before, &mut rest[..self.width], over);
+        }
+    }
+
+    /// Evaluates an operation on single samples in place. Returns `false` if the operation is of another kind.
+    fn evaluate_simple(&mut self, values: &mut [DatumSample], over: &mut [bool]) -> bool {
+        let [left, right] = self.inputs;
+        let (value, is_over) = match &self.node.kind {
+            NodeKind::Unary(function) => (function.of(values[left]), over[left]),
+            NodeKind::Binary(function) => (function.of(values[left], values[right]), over[left] || over[right]),
+            NodeKind::Compare(comparison) => {
+                (compared(*comparison, values[left], values[right]), over[left] || over[right])
+            }
+            NodeKind::Towards(line) => (distance_to(line, values[left]), over[left]),
+            _ => return false,
+        };
+        values[self.at] = value;
+        over[self.at] = is_over;
+        true
+    }
+
     /// Writes a tick's value and returns `true` if the stream is over. `values` are those of earlier operations.
-    fn evaluate(
+    fn evaluate_wide(
         &mut self,
         clock: Clock,
         values: &[DatumSample],
         output: &mut [DatumSample],
         over: &[bool],
-        outputs: &[DatumSample],
     ) -> bool {
         let Self { node, width, inputs: [left, right], memory, .. } = self;
         let width = *width;
         let ([left, right], [left_over, right_over]) = ([*left, *right], [over[*left], over[*right]]);
         let from = |at: usize| &values[at..at + width];
         match (&node.kind, memory) {
-            (NodeKind::Output { source, .. }, _) => {
-                copy(&outputs[source.0..][..width], output);
-                false
-            }
             (NodeKind::Time, _) => {
                 output[0] = (clock.tick as f64 * clock.dt).into();
                 false
@@ -214,34 +243,12 @@ impl Operation {
                 copy(&values[piece * width..][..width], output);
                 false
             }
-            (NodeKind::Unary(function), _) => {
-                output[0] = function.of(values[left]);
-                left_over
-            }
-            (NodeKind::Binary(function), _) => {
-                output[0] = function.of(values[left], values[right]);
-                left_over || right_over
-            }
-            (NodeKind::Compare(comparison), _) => {
-                output[0] = match (values[left], values[right]) {
-                    (DatumSample::Number(left), DatumSample::Number(right)) => comparison.holds(left, right).into(),
-                    _ => DatumSample::Absent,
-                };
-                left_over || right_over
-            }
             (NodeKind::Equal, _) => {
                 let width = node.inputs[0].width;
                 let absent = values[left].is_absent() || values[right].is_absent();
                 let equal = values[left..left + width] == values[right..right + width];
                 output[0] = if absent { DatumSample::Absent } else { equal.into() };
                 left_over || right_over
-            }
-            (NodeKind::Towards(line), _) => {
-                output[0] = match values[left] {
-                    DatumSample::Vector(position) => line.ahead_of(position).into(),
-                    _ => DatumSample::Absent,
-                };
-                left_over
             }
             (NodeKind::Map(map), _) => {
                 output[0] = DatumSample::Absent;
@@ -319,8 +326,24 @@ impl Operation {
                 (effect.borrow_mut())(&values[left..]);
                 left_over
             }
-            _ => unreachable!("constants and other names have no operation, and every memory fits its node"),
+            _ => unreachable!("simple operations are done elsewhere, others have none, and every memory fits its node"),
         }
+    }
+}
+
+/// Compares two numbers; absent if a number is absent.
+fn compared(comparison: Comparison, left: DatumSample, right: DatumSample) -> DatumSample {
+    match (left, right) {
+        (DatumSample::Number(left), DatumSample::Number(right)) => comparison.holds(left, right).into(),
+        _ => DatumSample::Absent,
+    }
+}
+
+/// Returns the distance from a position to a line; absent if the position is absent.
+fn distance_to(line: &Line, position: DatumSample) -> DatumSample {
+    match position {
+        DatumSample::Vector(position) => line.ahead_of(position).into(),
+        _ => DatumSample::Absent,
     }
 }
 

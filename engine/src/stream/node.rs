@@ -70,7 +70,7 @@ pub(crate) enum NodeKind {
         source: Source,
         name: String,
     },
-    /// The definition of the equation with this number.
+    /// The stream that the equation with this index defines.
     Forward {
         equation: usize,
         name: String,
@@ -144,8 +144,8 @@ impl Node {
         }
     }
 
-    /// Returns `true` if two nodes mean the same, which is the same operations on the same inputs. Closures mean the
-    /// same only if they are the same closure.
+    /// Returns `true` if two nodes stand for the same operations on the same inputs. Two closures are the same
+    /// operation only if they are the same closure.
     pub fn means(self: &Rc<Self>, other: &Rc<Self>) -> bool {
         let (left, right) = (self.unnamed(), other.unnamed());
         if Rc::ptr_eq(left, right) {
@@ -168,7 +168,7 @@ impl Node {
             && left.inputs.iter().zip(&right.inputs).all(|(left, right)| left.means(right))
     }
 
-    /// Returns `true` if the node is an output of an object, under its own name.
+    /// Returns `true` if the node is an output of an object that the program has not renamed.
     pub fn is_output(&self) -> bool {
         matches!(self.kind, NodeKind::Output { .. })
     }
@@ -183,8 +183,8 @@ impl Node {
 }
 
 impl NodeKind {
-    /// Returns `true` if the operation depends on nothing but the present values of its inputs. Closures of a program do not
-    /// count, because they may have effects.
+    /// Returns `true` if the operation depends on nothing but the present values of its inputs. Closures of a program
+    /// do not count, because they may have effects.
     pub fn is_pure(&self) -> bool {
         match self {
             NodeKind::Unary(_)

@@ -19,7 +19,7 @@ fn y() -> Stream<f64> {
 
 /// Runs `stream` over ticks at which `x` and `y` are these.
 fn over<T: Datum>(stream: &Stream<T>, ticks: &[(Option<f64>, Option<f64>)]) -> Vec<Option<T>> {
-    let mut graph = Graph::new([&stream.node], &[]).unwrap();
+    let mut graph = Graph::new([&stream.node], &[], 2).unwrap();
     let slot = graph.slot(&stream.node);
     let mut values = Vec::new();
     for (tick, (x, y)) in ticks.iter().enumerate() {
@@ -125,7 +125,7 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
     let seen = Rc::new(RefCell::new(Vec::new()));
     let sink = seen.clone();
     let effect = y().for_each(move |y| sink.borrow_mut().push(y));
-    let mut graph = Graph::new([&effect.0], &[]).unwrap();
+    let mut graph = Graph::new([&effect.0], &[], 2).unwrap();
     for (tick, y) in [None, Some(7.0), Some(8.0)].into_iter().enumerate() {
         graph.tick(
             Clock { tick, ticks: 2, dt: 0.5 },

@@ -37,7 +37,7 @@ pub(super) struct Ahead {
     /// The greatest safe speed of the car after this step, in m/s.
     pub safe: f64,
     pub ask: Option<Ask>,
-    /// The distance in metres from the car's front to the next place where it has to stop, without the line of `ask`.
+    /// The distance in metres from the car's front to the next place where it has to stop, except the line of `ask`.
     pub wall: f64,
     /// `true` if the known path of the car is too short for a decision.
     pub short: bool,
@@ -46,7 +46,7 @@ pub(super) struct Ahead {
 }
 
 impl Ahead {
-    /// Returns empty limits, for a car that has left the network.
+    /// Returns limits without effect, for a car that has left the network.
     pub fn nothing() -> Self {
         let (short, far) = (false, f64::INFINITY);
         Self { acceleration: 0.0, following: 0.0, safe: far, ask: None, wall: far, short, held_up: far }
@@ -76,7 +76,7 @@ impl Ahead {
 }
 
 impl View<'_> {
-    /// Returns the limits that everything ahead sets to a car, without the next line that the car needs leave to pass.
+    /// Returns the limits that everything ahead sets for a car, except the next line that it needs permission to pass.
     pub fn ahead_of(&self, index: usize, dt: f64) -> Ahead {
         let car = &self.cars[index];
         let free = car.idm.free(car.speed, car.desired);

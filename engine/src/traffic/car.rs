@@ -281,7 +281,7 @@ fn changed_earlier(lanes: &[LaneId], at: usize, map: &Map) -> Option<Vec<LaneId>
 /// The choices of a car at forks.
 #[derive(Debug)]
 pub(super) enum Itinerary {
-    /// Random choices, with the number of arms that the car has passed since it entered a roundabout.
+    /// The car chooses at random; the number counts the arms that it has passed since it entered a roundabout.
     Wander(Pcg64, usize),
     Lanes {
         lanes: Vec<LaneId>,

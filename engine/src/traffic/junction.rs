@@ -51,13 +51,13 @@ pub(super) struct Passage {
     pub sure: bool,
 }
 
-/// A car that asks for leave and could use it.
+/// A car that asks for permission to pass a line and could use the permission.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asker {
     car: usize,
     ask: Ask,
     passage: Passage,
-    /// The time in seconds since which the car asks.
+    /// The time at which the car began to ask, in seconds.
     since: f64,
     impatient: bool,
     /// `true` if the car does not ask yet, but others already let it go first.

@@ -9,7 +9,7 @@ use crate::road::LaneId;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Body {
     pub lane: LaneId,
-    /// The place of the body's rear (here) and front (`front`), in metres along the lane or beyond the lane's ends.
+    /// The place of the body's rear in metres along the lane, which may lie beyond the lane's ends; `front` likewise.
     pub rear: f64,
     pub front: f64,
     /// The speed of the body along the lane, in m/s.

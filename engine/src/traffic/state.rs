@@ -14,15 +14,15 @@ pub(super) const WALKING: f64 = 5.0;
 /// The greatest distance in metres that a car may want to drive around a roundabout.
 const LONGEST_ROUND: f64 = 500.0;
 
-/// The next line on the path of a car, which it needs leave to pass.
+/// The next line on the path of a car that the car needs permission to pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ask {
-    /// The index of the lane behind the line in the car's path; `base` is the distance from the car's middle.
+    /// The index in the car's path of the lane behind the line; `base` is the distance from the car's middle to it.
     pub index: usize,
     pub base: f64,
     /// The distance from the car's front to the line, in metres.
     pub distance: f64,
-    /// `true` if the car has leave to pass the line.
+    /// `true` if the car has permission to pass the line.
     pub held: bool,
     /// `true` if no other car will stop before the line or right behind it.
     pub first: bool,
@@ -158,7 +158,7 @@ impl Car {
         self.half + 30.0 + speed * (2.0 + 0.6 * speed / self.deceleration())
     }
 
-    /// Returns the distance in metres from a line at which the car asks for leave early enough that it need not brake.
+    /// Returns the distance in metres from a line at which the car asks to pass, early enough that it need not brake.
     pub fn asking_distance(&self) -> f64 {
         let speed = self.soon();
         5.0 + speed * (1.0 + 0.5 * speed / self.deceleration())

@@ -200,7 +200,7 @@ impl VehicleState {
         (self.position.sum() + self.heading + self.travelled + motion).is_finite()
     }
 
-    /// Returns `true` if a step from this state makes sense. Otherwise, it sets the state to NaN.
+    /// Returns `true` if the state and the inputs of a step are valid. Otherwise, it sets the state to NaN.
     fn accepts(&mut self, pedals: Pedals, friction: f64, dt: f64) -> bool {
         let inputs = pedals.throttle + pedals.steering + friction;
         let accepted = inputs.is_finite() && friction >= 0.0 && dt > 0.0 && self.is_finite();

@@ -48,7 +48,7 @@ struct Straight {
 struct Axle {
     load: f64,
     tyre: Tyre,
-    /// The rates at which its speeds along and across grow with `u`, `v` and `r`. Its forces act on them likewise.
+    /// The rates at which the axle's speeds along and across grow with `u`, `v`, `r`. Its forces act on them likewise.
     forward: Vector3<f64>,
     left: Vector3<f64>,
     /// The speeds of the axle in m/s along and across.

@@ -11,12 +11,12 @@ use nalgebra::Vector2;
 pub(super) struct Tyre {
     /// The greatest force of the tyre in newtons, which is `mu N`.
     pub limit: f64,
-    /// `theta` divided by the slip.
+    /// The ratio of `theta` to the slip, which is `C / (3 mu)`.
     stiffness: f64,
 }
 
 impl Tyre {
-    /// Makes a tyre with a stiffness by load in 1/rad and with a load in newtons. Without friction it has no force.
+    /// Makes a tyre from its stiffness divided by its load, in 1/rad, and its load in newtons. No friction, no force.
     pub fn new(stiffness: f64, friction: f64, load: f64) -> Self {
         if friction > 0.0 {
             Self { limit: friction * load, stiffness: stiffness / (3.0 * friction) }
@@ -25,8 +25,8 @@ impl Tyre {
         }
     }
 
-    /// Returns the side force in newtons at a slip (the tangent of the slip angle), and the derivative of the force by
-    /// the slip. The force acts against the slip.
+    /// Returns the side force in newtons at a slip (the tangent of the slip angle), and the force's derivative with
+    /// respect to the slip. The force acts against the slip.
     pub fn side_force(&self, slip: f64) -> (f64, f64) {
         let sticking = (1.0 - self.stiffness * slip.abs()).max(0.0);
         let square = sticking * sticking;

@@ -9,7 +9,7 @@ use rapier3d::prelude::{CoefficientCombineRule, ColliderBuilder, ColliderHandle,
 
 /// The bodies that rapier integrates.
 pub(super) struct Physics {
-    /// The indices of the bodies that it moves.
+    /// The indices of the bodies that the physics moves.
     moved: Vec<usize>,
     ground: ColliderHandle,
 }

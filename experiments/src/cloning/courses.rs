@@ -7,7 +7,7 @@ use paracosm::{Error, Study, StudyBuilder, scenarios};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
 
-/// A round of a course: tests in which lessons are noted, and then epochs over all lessons so far.
+/// A round of training, in which tests record lessons, and the network then learns from all lessons so far.
 pub struct Round {
     pub tests: usize,
     pub epochs: usize,

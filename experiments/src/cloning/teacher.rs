@@ -25,7 +25,7 @@ const LOST: f64 = 3.0;
 /// The lesson ends when all other road users are this many metres behind the car.
 const PAST: f64 = 60.0;
 
-/// A driver that notes lessons.
+/// A driver that records lessons (an expert's control for an image) to train a network.
 pub struct Teacher {
     expert: Box<dyn Driver>,
     /// The network that drives instead of the expert, if any.

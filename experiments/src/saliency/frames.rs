@@ -63,11 +63,11 @@ impl Seen {
     }
 }
 
-/// A studio that draws scenes.
+/// A renderer of scenes with and without a leader.
 pub struct Studio {
     projector: Projector,
     film: Film,
-    /// The shot that all scenes are made from.
+    /// The camera exposure that is altered to make each scene.
     first: Shot,
 }
 

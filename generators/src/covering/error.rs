@@ -71,6 +71,6 @@ pub enum CoveringError {
 }
 
 impl CoveringError {
-    /// The greatest lower bound on the number of tests for which a covering array is constructed.
+    /// The limit for the lower bound on the number of tests; no covering array with a larger bound is constructed.
     pub const MOST_ROWS: u128 = 10_000_000;
 }

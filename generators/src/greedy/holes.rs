@@ -15,8 +15,8 @@ pub(super) struct Holes {
 }
 
 impl Holes {
-    /// Collects the large empty boxes that overlap a room. The room has a lower end and a width along each axis.
-    /// `largest` is the volume of the largest empty box, here or elsewhere, with which the boxes are compared.
+    /// Collects the large empty boxes that overlap the box `room`. The room has a lower end and a width along each
+    /// axis. `largest` is the volume of the largest empty box, here or elsewhere, with which the boxes are compared.
     pub fn around(boxes: &EmptyBoxes, room: &[(f64, f64)], largest: f64) -> Self {
         let dims = room.len();
         let mut holes = Self { dims, weights: Vec::new(), sides: Vec::new() };
@@ -34,7 +34,7 @@ impl Holes {
         holes
     }
 
-    /// Returns `true` if no large empty box overlaps the room.
+    /// Returns `true` if no large empty box overlaps the room given to [`Holes::around`].
     pub fn is_empty(&self) -> bool {
         self.weights.is_empty()
     }

@@ -57,7 +57,7 @@ pub type BuildOwn = fn(&Request) -> Result<Box<dyn Generator>, GeneratorError>;
 pub(crate) enum MethodKind {
     /// The method is a sequence, which computes each point from its index.
     Sequence(Endless),
-    /// The method makes sets of points for the number of tests of a row.
+    /// The method makes a set of points for each row, with as many points as the row has tests.
     Sets {
         /// `true` if the method makes a set without random numbers when there is no seed.
         plain: bool,
@@ -100,7 +100,7 @@ pub(crate) trait Sequence: Send + Sync {
 }
 
 impl Method {
-    /// Makes a method from a function that builds a custom generator, which counts as open loop. The generator must
+    /// Makes a method from a function that builds a custom generator, which counts as not adaptive. The generator must
     /// handle all parameters of a request itself, including the discrete ones.
     pub const fn own(build: BuildOwn) -> Self {
         Self(MethodKind::Own(build))

@@ -14,8 +14,8 @@ pub(super) struct Track {
     /// The time up to which samples after the end of the trace have no influence on the robustness. It is negative if
     /// such samples always have influence.
     pub settled: f64,
-    /// The robustness over time for the worst and the best continuation of the trace, from `settled` on (or from time 0
-    /// on). Times are counted from this time.
+    /// The robustness over time for the worst and the best continuation of the trace, from `settled` or time 0 on,
+    /// whichever is later. Times are counted from this time.
     pub open: Option<[Wave; 2]>,
 }
 

@@ -110,7 +110,7 @@ impl Clip {
         Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
     }
 
-    /// Returns the destination with a flag that interrupts the writing and leaves no file behind.
+    /// Returns the destination with a flag that, once set, stops the writing of a film, so that no file is left behind.
     pub fn until(self, stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..self }
     }

@@ -137,7 +137,7 @@ pub enum ConstraintFlaw {
         /// The level that the author probably meant.
         meant: Option<Value>,
     },
-    /// A parameter is compared with a word by size.
+    /// A parameter is compared with a word by a relation that needs numbers, such as `<`.
     #[error("`{relation}` compares numbers, found {}", Written(.value))]
     Size {
         /// The relation that compares sizes, such as `<`.
@@ -145,7 +145,7 @@ pub enum ConstraintFlaw {
         /// The word that the parameter is compared with.
         value: Value,
     },
-    /// A parameter with words among its levels is compared by size.
+    /// A parameter with words among its levels is compared by a relation that needs numbers, such as `<`.
     #[error("`{relation}` compares numbers, but `{}` takes the word {}", Name(.parameter), Written(.word))]
     SizeOfWord {
         /// The relation that compares sizes, such as `<`.

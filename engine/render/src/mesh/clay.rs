@@ -94,7 +94,7 @@ impl Clay {
         self.loft(&[level(min[2]).to_vec(), level(max[2]).to_vec()], of);
     }
 
-    /// Adds the solid through a series of rings with equally many points, counter-clockwise as seen from the next ring.
+    /// Adds a solid that connects rings of equally many points, each ring counter-clockwise as seen from the next ring.
     pub fn loft(&mut self, rings: &[Vec<Point>], of: Matter) {
         self.hose(rings, of);
         let (first, last) = (&rings[0], &rings[rings.len() - 1]);

@@ -18,7 +18,7 @@ pub(super) struct Layer<'a> {
     pub index: usize,
     pub camera: &'a Camera,
     pub prepared: Prepared,
-    /// The range of image rows in which the layer draws the masks of objects alone.
+    /// The range of image rows in which the layer draws the masks of objects without occlusion.
     pub rows: Range<u32>,
 }
 

@@ -16,7 +16,7 @@ const HIGH: f32 = 2.5;
 pub(super) struct GpuMesh {
     pub corners: wgpu::Buffer,
     pub indices: wgpu::Buffer,
-    /// The range of indices of the surfaces of each finish.
+    /// The ranges of the mesh's indices that belong to each finish, in the order of [`Finish::ALL`].
     pub parts: [Range<u32>; 3],
     pub low: Vector3<f64>,
     pub high: Vector3<f64>,
@@ -51,7 +51,7 @@ impl Finish {
 pub(super) enum Unfit {
     /// A corner of the mesh has a number that is not finite.
     Corner(InstanceFlaw),
-    /// The mesh is larger than a buffer of the adapter, and has this size in bytes.
+    /// The mesh needs a buffer of this size in bytes, which is more than the adapter allows.
     TooLarge(u64),
 }
 

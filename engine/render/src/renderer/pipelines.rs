@@ -17,7 +17,7 @@ pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    /// The shadow map as an input of the programs for surfaces, and as the image that the adapter draws it into.
+    /// The shadow map as an input of the programs that draw surfaces, and as the image into which it is drawn.
     pub sun: wgpu::BindGroup,
     pub sun_depth: wgpu::TextureView,
     shaded: wgpu::PipelineLayout,

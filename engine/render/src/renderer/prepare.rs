@@ -19,7 +19,7 @@ pub(super) struct Prepared {
     pub instances: Vec<RawInstance>,
     pub draws: Vec<Draw>,
     pub casters: Vec<Draw>,
-    /// The index of each object's bit in the masks of objects alone, by the object's id; empty if masks are not wanted.
+    /// The index of each object's bit in the masks without occlusion, by the object's id; empty without masks.
     pub bits: BTreeMap<u16, u32>,
 }
 
@@ -39,12 +39,12 @@ pub(super) struct Draw {
 }
 
 impl Prepared {
-    /// Returns the conditions of the weather on which the programs of the adapter depend.
+    /// Returns the weather conditions that determine which shader programs draw the view.
     pub fn weather(&self) -> Weather {
         Weather { lamps: self.raw.sun[3] > 0.0, fog: self.raw.up[3] > 0.0 }
     }
 
-    /// Returns the number of 32-bit words for each pixel in the masks of objects alone.
+    /// Returns the number of 32-bit words for each pixel in the masks of objects without occlusion.
     pub fn words(&self) -> u32 {
         (self.bits.len() as u32).div_ceil(32)
     }

@@ -66,7 +66,7 @@ pub(super) struct Targets {
     pub masks: Option<Masks>,
 }
 
-/// The masks of objects alone.
+/// The masks of objects without occlusion.
 #[derive(Debug)]
 pub(super) struct Masks {
     pub words: wgpu::Buffer,
@@ -117,7 +117,7 @@ impl Targets {
         }
     }
 
-    /// Enlarges the buffers to the given numbers of instances and of words of masks.
+    /// Enlarges the buffers so that they hold the given numbers of instances and of 32-bit words of masks.
     pub fn reserve(&mut self, gpu: &Gpu, pipelines: &Pipelines, instances: usize, words: u64) {
         if instance_bytes(instances) > self.instances.size() {
             let room = instance_bytes(instances.next_power_of_two());
@@ -131,7 +131,7 @@ impl Targets {
         }
     }
 
-    /// Begins to draw a view into its layer of all wanted images, or of no image if only masks are wanted.
+    /// Begins a render pass that draws the images of a view into a layer, or only its masks if `images` is false.
     pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, layer: u32, images: bool) -> wgpu::RenderPass<'a> {
         let attachment = |image: Image| {
             let (_, _, views) = self.textures.iter().find(|(of, _, _)| *of == image)?;

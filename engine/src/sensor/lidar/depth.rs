@@ -12,7 +12,7 @@ pub struct Pinhole {
     pub size: [usize; 2],
     /// The horizontal and the vertical focal length in pixels.
     pub focal: [f64; 2],
-    /// The place in the image of the direction straight ahead, in pixels from the image's upper left corner.
+    /// The point of the image that lies straight ahead, in pixels from the image's upper left corner.
     pub centre: [f64; 2],
 }
 

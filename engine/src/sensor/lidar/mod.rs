@@ -51,7 +51,7 @@ pub struct LidarSettings {
     pub noise: f64,
     /// The attenuation of the intensity in clear air, in 1/m.
     pub attenuation: f64,
-    /// The least intensity at which no echo is lost for its weakness. Below, the loss is 1 - intensity / `sure`.
+    /// The least intensity at which no echo is lost because it is too weak. Below, the loss is 1 - intensity / `sure`.
     pub sure: f64,
     /// The probability that an echo is lost independently of its intensity.
     pub loss: f64,

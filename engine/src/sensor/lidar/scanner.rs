@@ -32,7 +32,7 @@ pub(super) struct Scanner {
 struct Channel {
     cos: f64,
     sin: f64,
-    /// The horizontal distance in metres on which the beam rises by a metre, cos / sin.
+    /// The horizontal distance in metres over which the beam rises by a metre, cos / sin.
     along: f64,
 }
 
