@@ -35,7 +35,7 @@ impl Pose {
         Frame { origin: self.position, ahead: self.forward() }
     }
 
-    /// Returns a pose of the plane as seen from this pose.
+    /// Converts a pose in the ground plane to the coordinates of this pose, with x ahead and y to the left.
     pub fn relative(&self, pose: &Pose) -> Pose {
         Pose { position: self.to_local(pose.position), heading: wrapped(pose.heading - self.heading) }
     }

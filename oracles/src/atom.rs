@@ -26,10 +26,20 @@ impl Number {
         })
     }
 
+    #[inline]
     fn at(&self, row: &[f64]) -> f64 {
         match self {
             Number::Constant(number) => *number,
             Number::Column(column) => row[*column],
+            _ => self.composed(row),
+        }
+    }
+
+    /// Returns the value of an expression with parts. It is apart, so that signals and constants need no call.
+    #[inline(never)]
+    fn composed(&self, row: &[f64]) -> f64 {
+        match self {
+            Number::Constant(_) | Number::Column(_) => self.at(row),
             Number::Negate(inner) => -inner.at(row),
             Number::Absolute(inner) => inner.at(row).abs(),
             Number::Binary(operation, left, right) => operation.apply(left.at(row), right.at(row)),

@@ -134,5 +134,5 @@ fn an_unknown_actor_and_a_broken_file_are_said() {
     succeeds(fuzz(dir, &[&["follow-leader", "--budget", "1", "--out", "trees"][..], &trees].concat()));
     let system = ["--system", "cat", "--space", "space.toml", "--model", "car=box.glb", "--out", "y"];
     fs::write(dir.join("space.toml"), "[[parameter]]\nname = \"x\"\ninterval = [0.0, 1.0]\n").expect("a file");
-    refused(&fuzz(dir, &system), &["no scenario"]);
+    refused(&fuzz(dir, &system), &["is not a scenario"]);
 }

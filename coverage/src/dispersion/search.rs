@@ -69,7 +69,7 @@ struct Node {
 /// The result of the depth-first search for the largest empty box.
 #[derive(Debug)]
 pub(super) struct Found {
-    /// The first of the largest empty boxes above the bar; `None` if no empty box is above the bar.
+    /// The first of the largest empty boxes that exceed the search's limits in volume; `None` if no box does.
     pub witness: Option<LargestEmptyBox>,
     /// The boxes that the search did not explore before its end.
     pub open: Vec<Open>,

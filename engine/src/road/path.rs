@@ -137,8 +137,11 @@ impl Path {
 
     /// Returns the point `s` metres along the path, like [`Path::at`], without the heading, which costs more.
     pub(crate) fn point(&self, s: f64) -> Vector2<f64> {
-        let inside = (0.0..=self.length).contains(&s);
-        if !inside {
+        if s > self.length {
+            let End { pose, forward } = self.ends[1];
+            return pose.position + forward * (s - self.length);
+        }
+        if s.is_nan() || s < 0.0 {
             return self.at(s).position;
         }
         let (from, curve) = &self.pieces[self.index(s)];

@@ -41,7 +41,7 @@ pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
     (duration / dt).round() as usize
 }
 
-/// A world under construction, for a test or for the declaration of a program.
+/// A world under construction, for a test, or for the list of the parameters and requirements of a program.
 pub struct Scenario {
     /// The test's values of parameters, by name; empty if the program is only asked for its parameters.
     given: Vec<(String, param::Given)>,

@@ -192,6 +192,7 @@ fn occurs(value: &[DatumSample]) -> bool {
 
 impl Operation {
     /// Writes the value of a tick, and whether the stream is over, to the operation's place.
+    #[inline(always)]
     fn evaluate(&mut self, clock: Clock, values: &mut [DatumSample], over: &mut [bool]) {
         if !self.evaluate_simple(values, over) {
             let (before, rest) = values.split_at_mut(self.at);
@@ -200,6 +201,7 @@ impl Operation {
     }
 
     /// Evaluates an operation on single samples in place. Returns `false` if the operation is of another kind.
+    #[inline(always)]
     fn evaluate_simple(&mut self, values: &mut [DatumSample], over: &mut [bool]) -> bool {
         let [left, right] = self.inputs;
         let (value, is_over) = match &self.node.kind {
@@ -217,6 +219,7 @@ impl Operation {
     }
 
     /// Writes a tick's value and returns `true` if the stream is over. `values` are those of earlier operations.
+    #[inline(never)]
     fn evaluate_wide(
         &mut self,
         clock: Clock,

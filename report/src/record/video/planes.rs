@@ -53,7 +53,7 @@ impl Planes {
         [&self.y, &self.cb, &self.cr]
     }
 
-    /// Converts a picture to the colour planes, given as red, green and blue of each pixel. Pixels beyond an odd width
+    /// Converts a picture, given as red, green and blue of each pixel, to the colour planes. Pixels beyond an odd width
     /// or height repeat their neighbours.
     pub fn take(&mut self, rgb: &[u8]) {
         let Matrix { red, blue, .. } = self.matrix;
