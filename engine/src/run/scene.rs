@@ -76,7 +76,10 @@ impl Scene {
         }
         let mut world = World::new(&bodies, &masses);
         Self {
-            contact: world.contact(&bodies),
+            contact: {
+                let clearance = world.clearance(&bodies);
+                world.contact(&bodies, clearance)
+            },
             clearance: world.clearance(&bodies[..told]),
             told,
             world,
@@ -207,8 +210,10 @@ impl Scene {
         self.bodies.copy_from_slice(&self.next);
         self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
         self.next.copy_from_slice(&self.bodies);
-        self.contact = self.world.contact(&self.bodies);
+        let clearance = self.world.clearance(&self.bodies);
+        self.contact = self.world.contact(&self.bodies, clearance);
         self.clearance = match self.contact {
+            None if self.told == self.bodies.len() => clearance,
             None => self.world.clearance(self.told()),
             Some(contact) => -self.missing_distance(contact, friction),
         };

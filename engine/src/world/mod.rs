@@ -99,8 +99,9 @@ impl World {
     }
 
     /// Returns the first body that touches the ego vehicle at this tick, and the touched side of the ego vehicle.
-    pub fn contact(&mut self, bodies: &[BodyState]) -> Option<Touching> {
-        if self.clearance(bodies) > REACH {
+    /// `clearance` is the [clearance](World::clearance) from all bodies.
+    pub fn contact(&mut self, bodies: &[BodyState], clearance: f64) -> Option<Touching> {
+        if clearance > REACH {
             return None;
         }
         self.show(bodies);
