@@ -42,7 +42,7 @@ fn exact_dispersion_of_sobol(bencher: Bencher, (dims, n): (usize, usize)) {
     bencher.bench(|| dispersion(black_box(&points), Deadline::never()));
 }
 
-#[divan::bench(args = [(5, 500), (8, 100)], sample_count = 10)]
+#[divan::bench(args = [(2, 100_000), (5, 500), (8, 100)], sample_count = 10)]
 fn exact_star(bencher: Bencher, (dims, n): (usize, usize)) {
     let points = halton(dims, n);
     bencher.bench(|| star_discrepancy(black_box(&points), Deadline::never()));

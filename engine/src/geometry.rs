@@ -73,17 +73,17 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// Returns the unit vector in the direction of the heading.
-    pub fn ahead(&self) -> Vector2<f64> {
+    pub fn ahead(self) -> Vector2<f64> {
         self.ahead
     }
 
     /// Returns a point of the plane as seen from the pose, like [`Pose::to_local`].
-    pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
+    pub fn to_local(self, point: Vector2<f64>) -> Vector2<f64> {
         self.turn_to_local(point - self.origin)
     }
 
     /// Returns a direction of the plane as seen from the pose, like [`Pose::turn_to_local`].
-    pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
+    pub fn turn_to_local(self, direction: Vector2<f64>) -> Vector2<f64> {
         Vector2::new(self.ahead.dot(&direction), self.ahead.perp(&direction))
     }
 }

@@ -65,7 +65,7 @@ impl Options {
                 table.row("axes", &format!("{} and {}", map.x.label, map.y.label));
                 match estimate {
                     None => {
-                        table.row("estimated failing", "unknown: an estimate needs a failing test and a passing test")
+                        table.row("estimated failing", "unknown: an estimate needs a failing test and a passing test");
                     }
                     Some(estimate) => {
                         table.row("estimated failing", &percent(estimate.mean()));

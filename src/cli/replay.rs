@@ -122,11 +122,7 @@ impl Options {
             let default = || dir.join(format!("trace-{index}.csv"));
             let path = self.trace.clone().unwrap_or_else(default);
             write_trace(&path, trace)?;
-            verbosity.note(format_args!(
-                "trace of {} written to {}",
-                plural(trial.ticks as usize, "tick"),
-                path.display()
-            ));
+            verbosity.note(format_args!("trace of {} written to {}", plural(trial.ticks, "tick"), path.display()));
         } else if let Some(path) = &self.trace {
             verbosity.note(format_args!("the test has no trace to write to {}", path.display()));
         }

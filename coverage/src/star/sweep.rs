@@ -1,15 +1,15 @@
 //! The star discrepancy of points in the plane, exact in nearly linear time.
 //!
-//! The sweep moves the right side of boxes over the points in the order of x. At each position the top of the box may be
-//! at the y of any point, or at 1. The tops are divided into blocks of neighbours. For each block the sweep keeps a bound
-//! on the differences of its boxes. It was the exact maximum when the block was last looked at. Since then, a point below
-//! the whole block has changed all counts of the block by the same number, and a wider box has changed all volumes at least
-//! as much as the volume of the block's lowest (or highest) box. So the bound stays close to the truth, at no cost. Only if
-//! it exceeds the best difference so far is the block looked at again.
+//! The sweep moves the right side of boxes over the points in the order of x. At each position the top of the box may
+//! be at the y of any point, or at 1. The tops are divided into blocks of neighbours. For each block the sweep keeps a
+//! bound on the differences of its boxes. It was the exact maximum when the block was last looked at. Since then, a
+//! point below the whole block has changed all counts of the block by the same number, and a wider box has changed all
+//! volumes at least as much as the volume of the block's lowest (or highest) box. So the bound stays close to the
+//! truth, at no cost. Only if it exceeds the best difference so far is the block looked at again.
 //!
 //! The time is O(n sqrt(n)) with a small constant: a block of b tops is looked at again after about as many new points
-//! inside it as the best difference has points more than the block's own. Differences are computed as those of the general
-//! search, so both give the same number to the last bit.
+//! inside it as the best difference has points more than the block's own. Differences are computed as those of the
+//! general search, so both give the same number to the last bit.
 
 use super::sides::Sides;
 use crate::bracket::Watch;
@@ -34,7 +34,8 @@ struct Blocks<'a> {
     size: usize,
     /// For each top, the number of points to the left whose y is at most the top, among the points of the block.
     inside: Vec<u32>,
-    /// For each block, the number of points to the left whose y is less than the block's lowest top; at last, all points.
+    /// For each block, the number of points to the left whose y is less than the block's lowest top; at last, all
+    /// points.
     below: Vec<u32>,
     /// For each block, the constant part of its bounds: for open boxes, and for closed boxes.
     constant: [Vec<f64>; 2],
@@ -113,8 +114,8 @@ impl<'a> Blocks<'a> {
         block * self.size..((block + 1) * self.size).min(self.tops.len())
     }
 
-    /// Returns the bound, in points, above which a block has to be looked at. Bounds are rounded some ten times, each time by
-    /// half an ulp of n at most.
+    /// Returns the bound, in points, above which a block has to be looked at. Bounds are rounded some ten times, each
+    /// time by half an ulp of n at most.
     fn limit(&self) -> f64 {
         (self.best - 16.0 * f64::EPSILON) * self.n
     }

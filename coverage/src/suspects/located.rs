@@ -17,8 +17,8 @@ pub struct Located {
     pub witness: Vec<usize>,
     /// The number of tests that the search for the combination requested.
     pub tests: usize,
-    /// The number of tests that suffices to find a single guilty combination of the same size. It is k (ceil(log2 N) +
-    /// 1) for k of N values. `None` if constraints kept the questions from halving the values in doubt, so that no
+    /// The number of tests that suffices to find a single guilty combination of the same size. For k of N
+    /// values it is k (ceil(log2 N) + 1). `None` if constraints kept the questions from halving the values in doubt, so that no
     /// number is promised.
     pub bound: Option<usize>,
 }

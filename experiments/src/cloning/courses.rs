@@ -23,8 +23,8 @@ pub struct Course {
     pub disturbance: [f64; 2],
     /// The weights of the squared errors of steering and throttle.
     pub weights: [f32; 2],
-    /// The distance n between held-out runs: every n-th run is left out of the training and measures the network's error. `None` if no
-    /// run can be spared.
+    /// The distance n between held-out runs: every n-th run is left out of the training and measures the network's
+    /// error. `None` if no run can be spared.
     pub held_out: Option<usize>,
     /// The rounds of the training, in their order. In the first round the expert drives, in later rounds the network.
     pub rounds: &'static [Round],
