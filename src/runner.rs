@@ -71,8 +71,8 @@ pub struct Report {
     /// The combinations of discrete values that only failing tests have, or `None` if the search was not possible. The
     /// search needs an open discrete parameter, a failing test and a passing test.
     pub suspects: Option<SuspectReport>,
-    /// The combinations that further tests found guilty, or `None` if no search was asked for, no test failed or no
-    /// test passed.
+    /// The combinations of discrete values that make tests fail, as further tests have shown; `None` if no search was
+    /// asked for, no test failed or no test passed.
     pub located: Option<LocatedReport>,
     /// The failure modes of the campaign.
     pub modes: Modes,

@@ -17,9 +17,9 @@ pub struct Located {
     pub witness: Vec<usize>,
     /// The number of tests that the search for the combination requested.
     pub tests: usize,
-    /// The number of tests that suffices to find a single guilty combination of the same size. For k of N
-    /// values it is k (ceil(log2 N) + 1). `None` if constraints kept the questions from halving the values in doubt, so that no
-    /// number is promised.
+    /// The greatest number of tests that the search requests for a combination of this size, if no other is guilty. For
+    /// k of N values it is k (ceil(log2 N) + 1). `None` if constraints kept the questions from halving the values in
+    /// doubt, so that no number is promised.
     pub bound: Option<usize>,
 }
 

@@ -119,11 +119,16 @@ impl Tree {
     /// an item, never less than that of its box, or `None` for an item to leave out.
     pub fn nearest(&self, point: Vector2<f64>, distance_squared: impl Fn(u32) -> Option<f64>) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
-        let mut open = Vec::with_capacity(64);
+        // The tree is halved at each level, so no search of a tree in memory has more open nodes.
+        let mut open = [(0.0, 0); usize::BITS as usize + 1];
+        let mut count = 0;
         if let Some(root) = self.nodes.first() {
-            open.push((root.bounds.distance_squared(point), 0));
+            open[0] = (root.bounds.distance_squared(point), 0);
+            count = 1;
         }
-        while let Some((bound, index)) = open.pop() {
+        while count > 0 {
+            count -= 1;
+            let (bound, index) = open[count];
             if best.is_some_and(|(least, _)| bound > least) {
                 continue;
             }
@@ -143,7 +148,8 @@ impl Tree {
                     if children[0].0 < children[1].0 {
                         children.swap(0, 1);
                     }
-                    open.extend(children);
+                    open[count..count + 2].copy_from_slice(&children);
+                    count += 2;
                 }
             }
         }

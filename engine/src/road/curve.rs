@@ -60,6 +60,14 @@ impl Curve {
         wrapped(self.start.heading + self.curvature * s)
     }
 
+    /// Returns the unit vector in the direction of the curve, `s` metres along the curve. It is the direction of
+    /// [`Curve::at`], to the last bit; on a straight line it takes no sine.
+    pub(super) fn forward(&self, s: f64) -> Vector2<f64> {
+        let heading = self.heading(s);
+        let is_start = heading.to_bits() == self.start.heading.to_bits();
+        if is_start { self.forward } else { Pose { heading, ..self.start }.forward() }
+    }
+
     /// Returns the position and the heading of the curve, `s` metres along the curve.
     pub fn at(&self, s: f64) -> Pose {
         Pose { position: self.point(s), heading: self.heading(s) }

@@ -45,8 +45,8 @@ impl RoadNetwork {
         let forward = pose.forward();
         let lane = self.tree.nearest(pose.position, |index| {
             let curve = &self.lanes()[index as usize].curve;
-            let at = curve.at(curve.nearest(pose.position));
-            (at.forward().dot(&forward) > 0.0).then(|| (at.position - pose.position).norm_squared())
+            let s = curve.nearest(pose.position);
+            (curve.forward(s).dot(&forward) > 0.0).then(|| (curve.point(s) - pose.position).norm_squared())
         })?;
         Some(self.project_onto(LaneId(lane), pose.position))
     }
@@ -60,7 +60,7 @@ impl RoadNetwork {
         let s = curve.nearest(position);
         let at = curve.at(s);
         let beyond = position - at.position;
-        LanePosition { lane, s, offset: at.forward().perp(&beyond), heading: at.heading, distance: beyond.norm() }
+        LanePosition { lane, s, offset: curve.forward(s).perp(&beyond), heading: at.heading, distance: beyond.norm() }
     }
 
     /// Visits all lanes that meet a box and some lanes that are only near it, in no particular order. `open` is the
