@@ -119,10 +119,10 @@ fn what_goes_wrong_in_python_is_said_with_its_place() {
     let set = run(dir, &command, &["--set", "driver.gian=2", "--out", "out"]);
     refused(&set, &["Mine has no setting `gian` (did you mean `gain`?)"]);
     let Some(command) = driver(dir, "lidars = {'roof': Lidar(channels=1000)}") else { return };
-    refused(&run(dir, &command, &["--out", "out"]), &["a sensor that cannot be", "`channels` is 1000"]);
+    refused(&run(dir, &command, &["--out", "out"]), &["an impossible sensor", "`channels` is 1000"]);
     let Some(command) = driver(dir, "camera = Camera(wide=3)") else { return };
     let broken = run(dir, &command, &["--out", "out"]);
-    refused(&broken, &["it ended before it listened", "unexpected keyword argument 'wide'"]);
+    refused(&broken, &["the process ended before it listened", "unexpected keyword argument 'wide'"]);
 }
 
 #[test]
