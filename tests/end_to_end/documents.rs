@@ -29,11 +29,17 @@ fn root() -> &'static Path {
 
 /// README.md and the chapters of the book.
 fn documents() -> Vec<PathBuf> {
-    let chapters = fs::read_dir(root().join("docs")).expect("the book is there").map(|entry| entry.unwrap().path());
-    let mut all: Vec<PathBuf> = chapters.filter(|path| path.extension().is_some_and(|ending| ending == "md")).collect();
+    let mut all = pages("docs");
     all.push(root().join("README.md"));
-    all.sort();
     all
+}
+
+/// The pages in a folder.
+fn pages(folder: &str) -> Vec<PathBuf> {
+    let files = fs::read_dir(root().join(folder)).expect("the folder is there").map(|entry| entry.unwrap().path());
+    let mut pages: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|ending| ending == "md")).collect();
+    pages.sort();
+    pages
 }
 
 /// The commands in the blocks of a kind: lines in `sh`, lines that begin with `$` in `console`, joined where they go
@@ -155,10 +161,10 @@ fn the_first_command_of_the_readme_is_the_first_of_its_tour_and_the_picture_stan
 fn the_book_has_every_chapter_and_every_link_leads_somewhere() {
     let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the book has a summary");
     let mut wrong = Vec::new();
-    for document in documents() {
-        let name = document.file_name().expect("it is a file").to_string_lossy().into_owned();
-        if document.starts_with(root().join("docs")) && name != "SUMMARY.md" && !summary.contains(&format!("({name})"))
-        {
+    for document in documents().into_iter().chain(pages("docs/decisions")) {
+        let chapter = document.strip_prefix(root().join("docs")).ok().map(|path| path.display().to_string());
+        let name = chapter.clone().unwrap_or_else(|| "README.md".to_owned());
+        if chapter.is_some_and(|name| name != "SUMMARY.md" && !summary.contains(&format!("({name})"))) {
             wrong.push(format!("docs/SUMMARY.md does not name {name}"));
         }
         let text = fs::read_to_string(&document).expect("a document is text");
