@@ -35,9 +35,9 @@ impl Measure {
 /// and `#{x <= y} / n - vol [0,y)` over all `y` in the unit cube (Niederreiter, Random Number Generation and
 /// Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
-/// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short; in the
-/// plane the time is O(n sqrt(n)). The
-/// discrepancy of a set without points is 1, because the whole cube is uncovered.
+/// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. In the
+/// plane the time is O(n sqrt(n)) for evenly spread points, and O(n^2) in the worst case. The discrepancy of a set
+/// without points is 1, because the whole cube is uncovered.
 pub fn star_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
     if points.is_empty() {
         return Bracket::exact(1.0);

@@ -10,7 +10,7 @@
 //! explain all failures. If such a test still passes, it refutes the values. It is then a new start, from which the
 //! search must find more than these values. Later tests avoid all values found guilty, as if a constraint forbade them.
 //! So the search continues from failure to failure, until each failure has a guilty combination or no combination can
-//! be found for the failure. It runs no test twice, those of the campaign included.
+//! be found for the failure. It runs no test twice, and no test that the campaign ran.
 
 use super::Evidence;
 use super::location::{Conclusion, Location};

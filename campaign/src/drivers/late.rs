@@ -1,4 +1,4 @@
-//! Drivers whose answers take effect later, like those of a computer that is slower than simulated time.
+//! Drivers whose answers take effect later, like the answers of a computer that is slower than simulated time.
 
 use paracosm_engine::driver::{Driver, Equipment, Fault};
 use paracosm_engine::sensor::{Image, Rig};

@@ -42,8 +42,8 @@ impl Reason for FormulaFlaw {}
 impl Reason for SpecFlaw {}
 
 impl Study {
-    /// Judges every trace by this formula as well. Its id is `spec-1`, that of the next formula `spec-2`; it has no
-    /// unit and no scale.
+    /// Judges every trace by this formula as well. Its id is the first of `spec-1`, `spec-2` and so on that
+    /// is free. The formula has no unit and no scale.
     pub(super) fn ask(&mut self, time: Semantics, text: &str) -> Result<(), SpecFlaw> {
         let formula = self.checked(text, time).map_err(|flaw| SpecFlaw { text: text.to_owned(), flaw: flaw.into() })?;
         let mut ids = (1..).map(|number| format!("spec-{number}"));

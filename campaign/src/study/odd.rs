@@ -1,9 +1,9 @@
 //! The part of the operational design domain (ODD) that a study's tests are about, as its owner states it. For each
 //! attribute it says by which parameters it is varied, what it is fixed at, or what is excluded and why.
 //!
-//! The owner may give attributes any names; those of ISO 34503 and BSI PAS 1883 (scenery, environmental conditions,
-//! dynamic elements, and their parts) are a good start. The software checks that the named parameters are varied; it
-//! does not check texts.
+//! The owner may give attributes any names. The names in ISO 34503 and BSI PAS 1883 (scenery, environmental
+//! conditions, dynamic elements, and their parts) are a good start. The software checks that the named parameters are
+//! varied; it does not check texts.
 
 use super::Study;
 use super::toml_file::TomlFile;

@@ -1,4 +1,4 @@
-//! The star discrepancy of points in the plane, exact in nearly linear time.
+//! The star discrepancy of points in the plane, exact by a sweep over the points.
 //!
 //! The sweep moves the right side of boxes over the points in the order of x. At each position the top of the box may
 //! be at the y of any point, or at 1. The tops are divided into blocks of neighbours. For each block the sweep keeps a
@@ -7,9 +7,9 @@
 //! volumes at least as much as the volume of the block's lowest (or highest) box. So the bound stays close to the
 //! truth, at no cost. Only if it exceeds the best difference so far is the block looked at again.
 //!
-//! The time is O(n sqrt(n)) with a small constant: a block of b tops is looked at again after about as many new points
-//! inside it as the best difference has points more than the block's own. Differences are computed as those of the
-//! general search, so both give the same number to the last bit.
+//! The time is O(n sqrt(n)) as long as few blocks are looked at again, which holds for evenly spread points. In the
+//! worst case all blocks are looked at again at each position, in O(n^2). The sweep and the general search compute
+//! differences in the same way, so both give the same number to the last bit.
 
 use super::sides::Sides;
 use crate::bracket::Watch;

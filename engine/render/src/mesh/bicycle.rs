@@ -4,7 +4,8 @@ use super::clay::{Clay, Matter, Point, at, oval};
 use super::colours::{BLACK, HAIR, RUBBER, SKIN, STEEL, TROUSERS};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// Length, width and height of the model in metres: those of [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
+/// Length, width and height of the model in metres, equal to the size of
+/// [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
 pub(crate) const SIZE: [f32; 3] = [1.8, 0.6, 1.75];
 
 /// The size of a parked bicycle: that of [`Body::parked_bicycle`](paracosm_engine::object::Body::parked_bicycle).
