@@ -42,7 +42,7 @@ impl Chance {
     /// Returns a normal random number with mean 0 and standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         self.spare.take().unwrap_or_else(|| {
-            let pair = gaussian(&mut self.random);
+            let pair = gaussian([self.unit(), self.unit()]);
             self.spare = Some(pair.y);
             pair.x
         })
@@ -85,11 +85,12 @@ pub(crate) fn mixed(number: u64) -> u64 {
     z ^ z >> 31
 }
 
-/// Returns two independent standard normal numbers (Box and Muller 1958), equal on all machines.
-pub(crate) fn gaussian(random: &mut Pcg64) -> Vector2<f64> {
+/// Returns two independent standard normal numbers from two independent numbers that are evenly distributed in [0, 1)
+/// (Box and Muller 1958), equal on all machines.
+pub(crate) fn gaussian([first, second]: [f64; 2]) -> Vector2<f64> {
     // 1 - u is in (0, 1], where the logarithm is finite.
-    let radius = libm::sqrt(-2.0 * libm::log(1.0 - random.random::<f64>()));
-    let (sin, cos) = libm::sincos(std::f64::consts::TAU * random.random::<f64>());
+    let radius = libm::sqrt(-2.0 * libm::log(1.0 - first));
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * second);
     Vector2::new(radius * cos, radius * sin)
 }
 

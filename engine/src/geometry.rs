@@ -47,7 +47,8 @@ impl Pose {
 
     /// Returns a direction that is given as seen from this pose as a direction of the plane.
     pub(crate) fn turn_to_plane(&self, local: Vector2<f64>) -> Vector2<f64> {
-        self.forward() * local.x + self.left() * local.y
+        let forward = self.forward();
+        forward * local.x + Vector2::new(-forward.y, forward.x) * local.y
     }
 
     /// Returns `true` if position and heading are neither infinite nor NaN.

@@ -92,8 +92,8 @@ impl Trace {
             hasher.update(signal.as_bytes());
             hasher.update(&[0]);
         }
-        let mut bytes = [0; 8 * 64];
-        for block in self.samples.chunks(64) {
+        let mut bytes = [0; 8 * 512];
+        for block in self.samples.chunks(512) {
             for (bytes, sample) in bytes.chunks_exact_mut(8).zip(block) {
                 bytes.copy_from_slice(&sample.to_le_bytes());
             }

@@ -25,6 +25,7 @@ use super::frenet::Frenet;
 use super::perception::{Perception, Sensor, Track};
 use super::{Descriptor, Driver, Fault, Setting, Settings, setting, whole};
 use crate::observation::{Briefing, Control, Observation, Other};
+use std::cell::LazyCell;
 
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "aeb",
@@ -139,7 +140,8 @@ impl Driver for Aeb {
         self.perception.see(observation, self.half_length);
         let (horizon, speed) =
             if self.braking { (self.clear_ttc, observation.speed.max(CREEP)) } else { (self.ttc, observation.speed) };
-        let way = Frenet::of(observation);
+        // Mostly there is nobody in sight, and then the way does not matter.
+        let way = LazyCell::new(|| Frenet::of(observation));
         let ahead = |track: Track| {
             let ttc = self.time_to_collision(&way.straightened(&track.body, track.age), speed);
             ttc.is_some_and(|ttc| ttc <= horizon)

@@ -13,6 +13,7 @@ use super::frenet::Frenet;
 use super::{Descriptor, Driver, Fault, Settings};
 use crate::object::Class;
 use crate::observation::{Briefing, Control, Observation, Other};
+use std::cell::LazyCell;
 
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "expert",
@@ -89,7 +90,7 @@ impl Driver for Expert {
     }
 
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
-        let way = Frenet::of(observation);
+        let way = LazyCell::new(|| Frenet::of(observation));
         let speed = observation.speed;
         let allowed = observation.others.iter().filter_map(|body| self.allowed(&way.straightened(body, 0.0), speed));
         let held_back = allowed.map(|allowed| RELAXATION * (allowed - speed)).fold(f64::INFINITY, f64::min);

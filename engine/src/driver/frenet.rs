@@ -35,9 +35,11 @@ struct Foot {
 /// The coordinate system along and across the way of the car.
 #[derive(Debug, Clone)]
 pub(super) struct Frenet {
+    /// The offset of the car from the way, and the direction of the way beside the car.
     offset: f64,
-    points: [Point; POINTS],
-    straight: bool,
+    tangent: Vector2<f64>,
+    /// The points of the way; `None` if the way is straight.
+    points: Option<[Point; POINTS]>,
 }
 
 impl Frenet {
@@ -46,14 +48,13 @@ impl Frenet {
         let Way { offset, heading, ahead } = observation.way;
         let (sin, cos) = libm::sincos(heading);
         let (tangent, left) = (Vector2::new(cos, -sin), Vector2::new(sin, cos));
+        let straight = ahead.iter().all(|point| (left.dot(&point.position) + offset).abs() < STRAIGHT);
+        if straight {
+            return Self { offset, tangent, points: None };
+        }
         let mut points = [Point { position: -left * offset, tangent }; POINTS];
         for (point, ahead) in points[1..].iter_mut().zip(&ahead) {
             point.position = ahead.position;
-        }
-        let straight = ahead.iter().all(|point| (left.dot(&point.position) + offset).abs() < STRAIGHT);
-        if straight {
-            // Only the first tangent of a straight way is ever read.
-            return Self { offset, points, straight };
         }
         // A point that coincides with the next has the direction of the point before.
         for i in 1..POINTS {
@@ -67,30 +68,32 @@ impl Frenet {
                 came * (2.0 * came.dot(&before)) - before
             };
         }
-        Self { offset, points, straight }
+        Self { offset, tangent, points: Some(points) }
     }
 
     /// Returns the body as the car would see it if the way were straight and the car pointed along the way. The body
     /// was seen `age` seconds ago; its position assumes straight motion since then, the result motion along the way.
     pub fn straightened(&self, body: &Other, age: f64) -> Other {
         let turned = |tangent: Vector2<f64>, v: &Vector2<f64>| Vector2::new(tangent.dot(v), tangent.perp(v));
-        let here = if self.straight { self.points[0].tangent } else { self.foot(body.position).point.tangent };
-        let (position, velocity) = if self.straight {
-            (turned(here, &body.position), turned(here, &body.velocity))
-        } else {
+        let (here, position, velocity) = if let Some(points) = &self.points {
             let then = body.position - body.velocity * age;
-            let Foot { along, point } = self.foot(then);
+            let Foot { along, point } = Foot::of(then, points);
             let from_way = then - point.position;
             let beside = from_way.norm().copysign(point.tangent.perp(&from_way));
             let velocity = turned(point.tangent, &body.velocity);
-            (Vector2::new(along, beside - self.offset) + velocity * age, velocity)
+            let position = Vector2::new(along, beside - self.offset) + velocity * age;
+            (Foot::of(body.position, points).point.tangent, position, velocity)
+        } else {
+            (self.tangent, turned(self.tangent, &body.position), turned(self.tangent, &body.velocity))
         };
         Other { position, velocity, heading: body.heading - libm::atan2(here.y, here.x), ..*body }
     }
+}
 
-    /// Returns the point of the way nearest to a position.
-    fn foot(&self, position: Vector2<f64>) -> Foot {
-        let (first, last) = (self.points[0], self.points[POINTS - 1]);
+impl Foot {
+    /// Returns the point of a way nearest to a position.
+    fn of(position: Vector2<f64>, points: &[Point; POINTS]) -> Self {
+        let (first, last) = (points[0], points[POINTS - 1]);
         let beyond = |point: Point| point.tangent.dot(&(position - point.position));
         let straight_on =
             |point: Point, metres: f64| Point { position: point.position + point.tangent * metres, ..point };
@@ -99,7 +102,7 @@ impl Frenet {
             Foot { along: behind, point: straight_on(first, behind) },
             Foot { along: Way::SPACING * (POINTS - 1) as f64 + onward, point: straight_on(last, onward) },
         ];
-        let chords = self.points.windows(2).enumerate().filter_map(|(i, ends)| {
+        let chords = points.windows(2).enumerate().filter_map(|(i, ends)| {
             let way = ends[1].position - ends[0].position;
             let length = way.norm_squared();
             let share = ((position - ends[0].position).dot(&way) / length).clamp(0.0, 1.0);

@@ -12,7 +12,7 @@ use crate::object::crosses;
 use crate::observation::{Observation, Other};
 use crate::sensor::hides;
 use nalgebra::Vector2;
-use rand::SeedableRng;
+use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;
 
@@ -84,11 +84,12 @@ impl Perception {
         for body in &observation.others {
             let seen = &mut self.seen[body.id];
             let from_sensor = body.position - Vector2::new(front, 0.0);
-            let bearing = libm::atan2(from_sensor.y, from_sensor.x).abs();
+            let bearing = || libm::atan2(from_sensor.y, from_sensor.x).abs();
             // Drawn for every body in every frame: a body out of sight does not change the noise of later detections.
-            let noise = gaussian(&mut self.random) * self.sensor.noise;
-            let visible = from_sensor.norm() <= self.sensor.range && bearing <= half_angle;
+            let drawn = [self.random.random(), self.random.random()];
+            let visible = from_sensor.norm() <= self.sensor.range && bearing() <= half_angle;
             if visible && !hidden(body, observation, front) {
+                let noise = gaussian(drawn) * self.sensor.noise;
                 let odometry = observation.odometry;
                 let position = odometry.position + odometry.turn_to_plane(body.position + noise);
                 seen.push_back(Detection { time: observation.time, position });

@@ -201,13 +201,12 @@ impl BodyState {
         Self { body, pose, velocity: Vector2::zeros(), altitude: 0.0, travelled: 0.0, present: true }
     }
 
-    /// Moves the body to a pose within a tick of `dt` seconds. With `None`, it leaves the world.
-    pub(crate) fn move_to(&mut self, pose: Option<Pose>, dt: f64) {
-        self.present = pose.is_some();
+    /// Returns the state of the body after it moved to a pose within a tick of `dt` seconds. With `None`, it leaves the
+    /// world.
+    pub(crate) fn moved(&self, pose: Option<Pose>, dt: f64) -> Self {
+        let present = pose.is_some();
         let pose = pose.unwrap_or(self.pose);
         let way = pose.position - self.pose.position;
-        self.velocity = way / dt;
-        self.travelled += way.norm();
-        self.pose = pose;
+        Self { present, pose, velocity: way / dt, travelled: self.travelled + way.norm(), ..*self }
     }
 }

@@ -135,17 +135,24 @@ impl Path {
         Pose { position: position + forward * (s - inside), heading: pose.heading }
     }
 
-    /// Returns the point `s` metres along the path, like [`Path::at`], without the heading, which costs more.
-    pub(crate) fn point(&self, s: f64) -> Vector2<f64> {
-        if s > self.length {
-            let End { pose, forward } = self.ends[1];
-            return pose.position + forward * (s - self.length);
-        }
-        if s.is_nan() || s < 0.0 {
-            return self.at(s).position;
-        }
-        let (from, curve) = &self.pieces[self.index(s)];
-        curve.point(s - from)
+    /// Returns the points and the curvatures of the path at the given distances along the path, which ascend. They are
+    /// the positions of [`Path::at`] and the curvatures of [`Path::curvature`], at a lower cost.
+    pub(crate) fn points<const N: usize>(&self, places: [f64; N]) -> [(Vector2<f64>, f64); N] {
+        let mut piece = self.index(places[0]);
+        places.map(|s| {
+            if s > self.length {
+                let End { pose, forward } = self.ends[1];
+                return (pose.position + forward * (s - self.length), 0.0);
+            }
+            if s.is_nan() || s < 0.0 {
+                return (self.at(s).position, 0.0);
+            }
+            while self.pieces.get(piece + 1).is_some_and(|(from, _)| *from <= s) {
+                piece += 1;
+            }
+            let (from, curve) = &self.pieces[piece];
+            (curve.point(s - from), curve.curvature())
+        })
     }
 
     /// Returns the curvature of the path at the place `s`, in 1/m, positive to the left; 0 beyond the ends of the path.
@@ -158,6 +165,21 @@ impl Path {
     /// at `s` and its two neighbours are searched: a path may cross itself, and an object on it must not jump from one
     /// branch to the other. Before its start and beyond its end the path continues straight.
     pub fn nearest(&self, position: Vector2<f64>, s: f64) -> f64 {
+        let nearest = match &*self.pieces {
+            [(from, curve)] => from + curve.nearest(position),
+            _ => self.nearest_of_three(position, s),
+        };
+        if nearest >= self.length {
+            nearest + self.ends[1].beyond(position).max(0.0)
+        } else if nearest <= 0.0 {
+            nearest + self.ends[0].beyond(position).min(0.0)
+        } else {
+            nearest
+        }
+    }
+
+    /// Returns the distance along the path to the nearest point of the curve at `s` and its two neighbours.
+    fn nearest_of_three(&self, position: Vector2<f64>, s: f64) -> f64 {
         let here = self.index(s);
         let mut best = (f64::INFINITY, s);
         for piece in here.saturating_sub(1)..(here + 2).min(self.pieces.len()) {
@@ -167,11 +189,6 @@ impl Path {
             if distance < best.0 {
                 best = (distance, from + at);
             }
-        }
-        if best.1 >= self.length {
-            best.1 += self.ends[1].beyond(position).max(0.0);
-        } else if best.1 <= 0.0 {
-            best.1 += self.ends[0].beyond(position).min(0.0);
         }
         best.1
     }

@@ -21,7 +21,7 @@ use crate::outcome::{Breakdown, Ending, Judgement, Outcome, Violation};
 use crate::program::{Program, ProgramError};
 use crate::road::{Path, RoadNetwork};
 use crate::scenario::ticks;
-use crate::stream::{Clock, DatumSample, Graph, Slot, Source};
+use crate::stream::{Clock, Graph, Slot};
 use crate::test::Test;
 use crate::upset::Upset;
 use crate::vehicle::VehicleModel;
@@ -62,12 +62,6 @@ impl Step<'_> {
     }
 }
 
-/// A column of the trace.
-enum Column {
-    Output(Source),
-    Stream(Slot),
-}
-
 /// The simulation of one test.
 pub struct Run {
     dt: f64,
@@ -86,7 +80,8 @@ pub struct Run {
     premise: Option<Slot>,
     triggered: bool,
     requirements: Vec<Requirement>,
-    columns: Vec<Column>,
+    /// The slot of each column of the trace.
+    columns: Vec<Slot>,
     row: Vec<f64>,
     trace: Trace,
     observation: Observation,
@@ -114,14 +109,14 @@ impl Run {
         let graph = std::mem::take(&mut scenario.graph);
         let premise = scenario.premise.as_ref().map(|event| graph.slot(&event.node));
         let signals = std::mem::take(&mut scenario.signals);
-        let (mut names, mut columns): (Vec<String>, Vec<Column>) =
-            signals.into_iter().map(|(name, source)| (name, Column::Output(source))).unzip();
+        let (mut names, mut columns): (Vec<String>, Vec<Slot>) =
+            signals.into_iter().map(|(name, source)| (name, Graph::output(source))).unzip();
         let mut requirements = Vec::new();
         for stated in scenario.requirements.take() {
             for signal in stated.signals {
                 let name = signal.to_string();
                 if !names.contains(&name) {
-                    columns.push(Column::Stream(graph.slot(&signal)));
+                    columns.push(graph.slot(&signal));
                     names.push(name);
                 }
             }
@@ -265,18 +260,12 @@ impl Run {
 
     /// Evaluates the streams and records the tick.
     fn look(&mut self) -> Result<(), Upset> {
-        self.scene.show();
-        self.graph.tick(Clock { tick: self.tick, ticks: self.ticks, dt: self.dt }, &self.scene.outputs);
+        self.scene.show(self.graph.outputs());
+        self.graph.tick(Clock { tick: self.tick, ticks: self.ticks, dt: self.dt });
         self.triggered |= self.premise.is_some_and(|slot| self.graph.value(slot) == Some(true));
-        for (index, column) in self.columns.iter().enumerate() {
-            let sample = match column {
-                Column::Output(Source(at)) => self.scene.outputs[*at],
-                Column::Stream(slot) => self.graph.sample(*slot),
-            };
-            self.row[index] = as_number(sample);
-            if self.row[index].is_nan() {
-                return Err(Upset::NoValue { signal: self.trace.signals()[index].clone() });
-            }
+        self.graph.read(&self.columns, &mut self.row);
+        if let Some(index) = self.row.iter().position(|number| number.is_nan()) {
+            return Err(Upset::NoValue { signal: self.trace.signals()[index].clone() });
         }
         self.trace.record(&self.row);
         Ok(())
@@ -332,15 +321,6 @@ impl Run {
         let measured = metrics::measured(&self.scene, self.triggered);
         let trace = std::mem::replace(&mut self.trace, Trace::new(self.dt, vec![String::new()]));
         Outcome { ending, judgements, measured: Some(measured), trace: Some(trace) }
-    }
-}
-
-/// Converts a sample to the number in a trace (truths to 1 and 0, absent samples to NaN).
-fn as_number(sample: DatumSample) -> f64 {
-    match sample {
-        DatumSample::Number(number) => number,
-        DatumSample::Truth(truth) => f64::from(u8::from(truth)),
-        DatumSample::Absent | DatumSample::Event | DatumSample::Vector(_) | DatumSample::Word(_) => f64::NAN,
     }
 }
 

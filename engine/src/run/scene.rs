@@ -33,8 +33,6 @@ pub(super) struct Scene {
     pub bodies: Vec<BodyState>,
     /// The number of bodies that are no scenery. Only sensors and the physics know of the scenery.
     told: usize,
-    /// The outputs of the objects at this tick.
-    pub outputs: Vec<DatumSample>,
     wiring: Wiring,
     /// The graph's slots of the values of the objects' inputs.
     inputs: Vec<Slot>,
@@ -50,8 +48,8 @@ pub(super) struct Scene {
     clearance: f64,
     /// The poses of one object's bodies at the end of a tick.
     poses: Vec<Option<Pose>>,
-    /// The states of all bodies at the end of a tick.
-    next: Vec<BodyState>,
+    /// The states of all bodies at the previous tick. During a tick, the states at its end are written here.
+    others: Vec<BodyState>,
     pushes: Vec<Vector2<f64>>,
     velocities: Vec<Vector2<f64>>,
 }
@@ -78,7 +76,7 @@ impl Scene {
         Self {
             contact: {
                 let clearance = world.clearance(&bodies);
-                world.contact(&bodies, clearance)
+                world.contact(&bodies, &bodies, clearance)
             },
             clearance: world.clearance(&bodies[..told]),
             told,
@@ -86,12 +84,11 @@ impl Scene {
             ego,
             network,
             inputs: scenario.wiring.slots(graph),
-            outputs: vec![DatumSample::Absent; scenario.wiring.samples()],
             wiring: scenario.wiring,
             friction: graph.slot(&scenario.conditions.friction.node),
             unchecked: weather.clone(),
             weather,
-            next: bodies.clone(),
+            others: bodies.clone(),
             poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
             pushes: Vec::with_capacity(masses.len()),
             velocities: Vec::new(),
@@ -103,8 +100,8 @@ impl Scene {
     /// Sets the velocities of all objects at the start of the run, from the objects' inputs at the first tick. `graph`
     /// is a copy of the run's graph that is used for nothing else.
     pub fn begin(&mut self, (mut graph, friction): (Graph, Slot), clock: Clock) -> Result<(), Upset> {
-        self.show();
-        graph.tick(clock, &self.outputs);
+        self.show(graph.outputs());
+        graph.tick(clock);
         let inputs = self.wiring.slots(&graph);
         let friction = graph.value(friction).unwrap_or(f64::NAN);
         for object in &mut self.objects {
@@ -121,7 +118,7 @@ impl Scene {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
                 behaviour.begin(&tick, &mut self.velocities)?;
-                for (state, velocity) in self.next[first..end].iter_mut().zip(&self.velocities) {
+                for (state, velocity) in self.others[first..end].iter_mut().zip(&self.velocities) {
                     if !velocity.iter().all(|speed| speed.is_finite()) {
                         return Err(Upset::Velocity { object: object.name.clone(), velocity: *velocity });
                     }
@@ -129,7 +126,7 @@ impl Scene {
                 }
             }
         }
-        self.bodies.copy_from_slice(&self.next);
+        self.bodies.copy_from_slice(&self.others);
         Ok(())
     }
 
@@ -150,10 +147,10 @@ impl Scene {
         object.map_or("car", |object| &object.name)
     }
 
-    /// Sets the outputs of all objects from their present states.
-    pub fn show(&mut self) {
-        self.outputs.fill(DatumSample::Absent);
-        let mut outputs = Outputs { samples: &mut self.outputs };
+    /// Writes the outputs of all objects in their present states.
+    pub fn show(&self, outputs: &mut [DatumSample]) {
+        outputs.fill(DatumSample::Absent);
+        let mut outputs = Outputs { samples: outputs };
         self.ego.show(self.clearance, &self.bodies[..self.told], &self.network, &mut outputs);
         for object in &self.objects {
             match &object.behaviour {
@@ -181,8 +178,8 @@ impl Scene {
             return Err(Upset::Condition { what, value: friction, expected: "a number from 0 on" });
         }
         self.ego.step(friction, dt)?;
-        self.next[0].move_to(Some(self.ego.pose()), dt);
-        self.next[0].velocity = self.ego.velocity();
+        let velocity = self.ego.velocity();
+        self.others[0] = BodyState { velocity, ..self.bodies[0].moved(Some(self.ego.pose()), dt) };
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
@@ -194,24 +191,23 @@ impl Scene {
                     self.poses.clear();
                     self.poses.extend(self.bodies[first..end].iter().map(|body| Some(body.pose)));
                     behaviour.poses(&mut self.poses);
-                    for (state, pose) in self.next[first..end].iter_mut().zip(&self.poses) {
+                    for (index, pose) in (first..end).zip(&self.poses) {
                         if let Some(pose) = pose.filter(|pose| !pose.is_finite()) {
                             return Err(Upset::Place { object: object.name.clone(), pose });
                         }
-                        state.move_to(*pose, dt);
+                        self.others[index] = self.bodies[index].moved(*pose, dt);
                     }
                 }
                 Behaviour::Physical(_, behaviour) => {
                     self.pushes.push(behaviour.push(&self.bodies[first], &tick)?);
+                    self.others[first] = self.bodies[first];
                 }
             }
         }
-        self.world.begin_tick(&self.bodies);
-        self.bodies.copy_from_slice(&self.next);
+        std::mem::swap(&mut self.bodies, &mut self.others);
         self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
-        self.next.copy_from_slice(&self.bodies);
         let clearance = self.world.clearance(&self.bodies);
-        self.contact = self.world.contact(&self.bodies, clearance);
+        self.contact = self.world.contact(&self.others, &self.bodies, clearance);
         self.clearance = match self.contact {
             None if self.told == self.bodies.len() => clearance,
             None => self.world.clearance(self.told()),

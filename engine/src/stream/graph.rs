@@ -6,7 +6,7 @@ use super::order::{GraphFlaw, order};
 use crate::geometry::Line;
 use paracosm_oracles::Comparison;
 use paracosm_space::Shape;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
 /// The place of a node's value in the memory of a graph.
@@ -56,6 +56,8 @@ pub(crate) struct Graph {
     operations: Vec<Operation>,
     /// The values of all nodes. The samples of the objects' outputs come first, so that they need no operations.
     values: Vec<DatumSample>,
+    /// The number of samples of all outputs of objects.
+    outputs: usize,
     /// For each value, true if its stream is over.
     over: Vec<bool>,
     /// For each value, true if it is the same at every tick.
@@ -63,7 +65,7 @@ pub(crate) struct Graph {
     /// The operations that take in their operand when the tick is over.
     delays: Vec<usize>,
     /// The slot of each node. The map is only looked up and never iterated over, because addresses differ between runs.
-    slots: HashMap<*const Node, Slot>,
+    slots: FxHashMap<*const Node, Slot>,
     /// Keeps the nodes without an operation alive, so that no address is used twice.
     nodes: Vec<Rc<Node>>,
 }
@@ -78,6 +80,7 @@ impl Graph {
     ) -> Result<Self, GraphFlaw> {
         let mut graph = Self {
             values: vec![DatumSample::Absent; outputs],
+            outputs,
             over: vec![false; outputs],
             constant: vec![false; outputs],
             ..Self::default()
@@ -160,9 +163,18 @@ impl Graph {
         self.slots[&Rc::as_ptr(node)]
     }
 
-    /// Evaluates every stream for a tick. `outputs` are the outputs of the objects at the beginning of the tick.
-    pub fn tick(&mut self, clock: Clock, outputs: &[DatumSample]) {
-        self.values[..outputs.len()].copy_from_slice(outputs);
+    /// Returns the slot of an output.
+    pub fn output(Source(at): Source) -> Slot {
+        Slot(at)
+    }
+
+    /// Returns the outputs of all objects, which have to be written before each tick.
+    pub fn outputs(&mut self) -> &mut [DatumSample] {
+        &mut self.values[..self.outputs]
+    }
+
+    /// Evaluates every stream for a tick.
+    pub fn tick(&mut self, clock: Clock) {
         for operation in &mut self.operations {
             operation.evaluate(clock, &mut self.values, &mut self.over);
         }
@@ -180,14 +192,34 @@ impl Graph {
         T::get(&self.values[slot.0..])
     }
 
-    pub fn sample(&self, slot: Slot) -> DatumSample {
-        self.values[slot.0]
+    /// Reads the values in some slots at the last tick as the numbers of a trace: truths as 1 and 0, and all other
+    /// values that are no numbers as NaN.
+    pub fn read(&self, slots: &[Slot], numbers: &mut [f64]) {
+        for (number, slot) in numbers.iter_mut().zip(slots) {
+            let sample = &self.values[slot.0];
+            *number = if let DatumSample::Number(number) = sample { *number } else { truth(sample) };
+        }
     }
 }
 
+/// Returns a truth as 1 or 0, and any other sample as NaN.
+#[cold]
+fn truth(sample: &DatumSample) -> f64 {
+    if let DatumSample::Truth(truth) = sample { f64::from(u8::from(*truth)) } else { f64::NAN }
+}
+
 /// Returns `true` if an event occurs, which is a truth that holds, or any other value that is present.
-fn occurs(value: &[DatumSample]) -> bool {
-    !matches!(value[0], DatumSample::Absent | DatumSample::Truth(false))
+fn occurs(value: DatumSample) -> bool {
+    !matches!(value, DatumSample::Absent | DatumSample::Truth(false))
+}
+
+impl Memory {
+    /// Returns `true` if the event with the given value at this tick has occurred, now or before.
+    fn occurred(&mut self, value: DatumSample) -> bool {
+        let Self::Occurred(occurred) = self else { unreachable!("every memory fits its node") };
+        *occurred = *occurred || occurs(value);
+        *occurred
+    }
 }
 
 impl Operation {
@@ -211,6 +243,14 @@ impl Operation {
                 (compared(*comparison, values[left], values[right]), over[left] || over[right])
             }
             NodeKind::Towards(line) => (distance_to(line, values[left]), over[left]),
+            NodeKind::SkipUntil if self.width == 1 => {
+                let begun = self.memory.occurred(values[right]);
+                (if begun { values[left] } else { DatumSample::Absent }, over[left])
+            }
+            NodeKind::TakeUntil if self.width == 1 => {
+                let ended = self.memory.occurred(values[right]);
+                (if ended { DatumSample::Absent } else { values[left] }, ended || over[left])
+            }
             _ => return false,
         };
         values[self.at] = value;
@@ -263,7 +303,7 @@ impl Operation {
                 left_over
             }
             (NodeKind::When, _) => {
-                put(output, occurs(&values[right..]), from(left));
+                put(output, occurs(values[right]), from(left));
                 left_over || right_over
             }
             (NodeKind::Zip, _) => {
@@ -305,15 +345,14 @@ impl Operation {
                 copy(from(if values[left].is_absent() { right } else { left }), output);
                 left_over && right_over
             }
-            (NodeKind::SkipUntil, Memory::Occurred(begun)) => {
-                *begun |= occurs(&values[right..]);
-                put(output, *begun, from(left));
+            (NodeKind::SkipUntil, memory) => {
+                put(output, memory.occurred(values[right]), from(left));
                 left_over
             }
-            (NodeKind::TakeUntil, Memory::Occurred(ended)) => {
-                *ended |= occurs(&values[right..]);
-                put(output, !*ended, from(left));
-                *ended || left_over
+            (NodeKind::TakeUntil, memory) => {
+                let ended = memory.occurred(values[right]);
+                put(output, !ended, from(left));
+                ended || left_over
             }
             (NodeKind::Pre, Memory::Value { samples, over }) => {
                 copy(samples, output);

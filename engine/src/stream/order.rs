@@ -5,7 +5,8 @@
 //! This is a causal cycle, as compilers of synchronous languages know it (Halbwachs et al., Proc. IEEE 79(9), 1991).
 
 use super::node::{Equation, Node, NodeKind};
-use std::collections::{HashMap, VecDeque};
+use rustc_hash::FxHashMap;
+use std::collections::VecDeque;
 use std::rc::Rc;
 use thiserror::Error;
 
@@ -49,7 +50,7 @@ pub(crate) fn order<'a>(
 ) -> Result<Vec<&'a Rc<Node>>, GraphFlaw> {
     let mut ordered = Vec::new();
     // True for a node that is done, false for one on the path. Only looked up: addresses differ between runs.
-    let mut done: HashMap<*const Node, bool> = HashMap::new();
+    let mut done: FxHashMap<*const Node, bool> = FxHashMap::default();
     let mut waiting: VecDeque<&Rc<Node>> = roots.into_iter().collect();
     while let Some(root) = waiting.pop_front() {
         let mut path = vec![(root, 0)];

@@ -24,7 +24,9 @@ fn over<T: Datum>(stream: &Stream<T>, ticks: &[(Option<f64>, Option<f64>)]) -> V
     let mut values = Vec::new();
     for (tick, (x, y)) in ticks.iter().enumerate() {
         let clock = Clock { tick, ticks: ticks.len() - 1, dt: 0.5 };
-        graph.tick(clock, &[x, y].map(|output| output.map_or(DatumSample::Absent, DatumSample::Number)));
+        let outputs = [x, y].map(|output| output.map_or(DatumSample::Absent, DatumSample::Number));
+        graph.outputs().copy_from_slice(&outputs);
+        graph.tick(clock);
         values.push(graph.value(slot));
     }
     values
@@ -127,10 +129,8 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
     let effect = y().for_each(move |y| sink.borrow_mut().push(y));
     let mut graph = Graph::new([&effect.0], &[], 2).unwrap();
     for (tick, y) in [None, Some(7.0), Some(8.0)].into_iter().enumerate() {
-        graph.tick(
-            Clock { tick, ticks: 2, dt: 0.5 },
-            &[DatumSample::Absent, y.map_or(DatumSample::Absent, DatumSample::Number)],
-        );
+        graph.outputs()[1] = y.map_or(DatumSample::Absent, DatumSample::Number);
+        graph.tick(Clock { tick, ticks: 2, dt: 0.5 });
     }
     assert_eq!(*seen.borrow(), [7.0, 8.0]);
 }

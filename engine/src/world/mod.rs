@@ -41,8 +41,6 @@ struct Solid {
     shape: SharedShape,
     /// The height of the shape's middle above the ground, in metres.
     middle: f64,
-    /// The pose one tick ago.
-    before: Pose,
 }
 
 /// The ego vehicle and the other bodies. The ego vehicle is the first body.
@@ -77,21 +75,14 @@ impl World {
         }
     }
 
-    /// Stores the poses of all bodies before they move on.
-    pub fn begin_tick(&mut self, bodies: &[BodyState]) {
-        for (solid, state) in self.solids.iter_mut().zip(bodies) {
-            solid.before = state.pose;
-        }
-    }
-
     /// Returns the distance in metres between the ego vehicle and the nearest other body; infinite if no other body is
     /// present. If both touch or overlap, it returns [`TOUCH`], and the contact gives the details.
     pub fn clearance(&self, bodies: &[BodyState]) -> f64 {
         let Some((car, others)) = bodies.split_first() else { return f64::INFINITY };
         let mut nearest = f64::INFINITY;
         for other in others.iter().filter(|other| other.present) {
-            let apart = (other.pose.position - car.pose.position).norm();
-            if apart - car.body.outline.reach() - other.body.outline.reach() < nearest {
+            // Most worlds have one other body, whose reach does not matter.
+            if nearest == f64::INFINITY || apart(car, other) < nearest {
                 nearest = nearest.min(distance(car, other));
             }
         }
@@ -99,8 +90,9 @@ impl World {
     }
 
     /// Returns the first body that touches the ego vehicle at this tick, and the touched side of the ego vehicle.
-    /// `clearance` is the [clearance](World::clearance) from all bodies.
-    pub fn contact(&mut self, bodies: &[BodyState], clearance: f64) -> Option<Touching> {
+    /// `before` are the bodies at the previous tick, and `clearance` is the [clearance](World::clearance) from all
+    /// bodies.
+    pub fn contact(&mut self, before: &[BodyState], bodies: &[BodyState], clearance: f64) -> Option<Touching> {
         if clearance > REACH {
             return None;
         }
@@ -112,7 +104,7 @@ impl World {
             state.present && deepest.is_some_and(|(_, contact)| contact.dist <= 0.0)
         };
         let body = 1 + self.solids[1..].iter().zip(&bodies[1..]).position(touches)?;
-        Some(Touching { body, face: self.face(bodies, body) })
+        Some(Touching { body, face: self.face(before, bodies, body) })
     }
 
     /// Sets the present poses in rapier and finds contacts.
@@ -140,12 +132,13 @@ impl World {
     /// Returns the side of the ego vehicle that a body touched: the side where the two shapes first met on their way
     /// through the last tick. The deepest overlap is not enough: a car that hits a person with its corner at 15 m/s
     /// overlaps more from the front than from the side.
-    fn face(&self, bodies: &[BodyState], other: usize) -> Face {
+    fn face(&self, before: &[BodyState], bodies: &[BodyState], other: usize) -> Face {
         let (car, solid) = (&self.solids[0], &self.solids[other]);
+        let [car_before, other_before] = [0, other].map(|body| before[body].pose);
         // The motion as seen from the car; the rotation of the car within one tick is neglected.
-        let start = car.before.to_local(solid.before.position);
+        let start = car_before.to_local(other_before.position);
         let end = bodies[0].pose.to_local(bodies[other].pose.position);
-        let turned = Pose { position: start, heading: solid.before.heading - car.before.heading };
+        let turned = Pose { position: start, heading: other_before.heading - car_before.heading };
         let hit = cast_shapes(
             &parry3d::math::Pose::IDENTITY,
             at_height(Vector2::zeros(), 0.0),
@@ -177,6 +170,11 @@ pub(crate) fn overlapping(bodies: &[BodyState]) -> Option<(usize, usize)> {
         let reach = a.body.outline.reach() + b.body.outline.reach();
         (a.pose.position - b.pose.position).norm() <= reach && distance(a, b) <= 0.0
     })
+}
+
+/// Returns the distance in metres between the discs that enclose two bodies: a lower bound on their distance.
+fn apart(a: &BodyState, b: &BodyState) -> f64 {
+    (a.pose.position - b.pose.position).norm() - a.body.outline.reach() - b.body.outline.reach()
 }
 
 /// Returns the distance in metres between two bodies, seen from above.
@@ -214,7 +212,7 @@ fn insert(physics: &mut PhysicsWorld, state: &BodyState, mass: Option<f64>) -> S
         None => collider,
     };
     let (handle, collider) = physics.insert(body.pose(at), collider);
-    Solid { handle, collider, shape, middle, before: state.pose }
+    Solid { handle, collider, shape, middle }
 }
 
 fn isometry(pose: &Pose, middle: f64) -> parry3d::math::Pose {

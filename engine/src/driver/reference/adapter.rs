@@ -16,6 +16,7 @@ use super::super::perception::hidden;
 use super::super::{Driver, Fault};
 use crate::kinematic::{BrakingModel, DT, Situation};
 use crate::observation::{Briefing, Control, Observation, Other};
+use std::cell::LazyCell;
 
 /// The seconds within which a body that comes over sideways counts as in the way.
 const COMES_OVER: f64 = 3.0;
@@ -110,7 +111,7 @@ impl<M: BrakingModel + 'static> Driver for Reference<M> {
         let unknown = Watched { model: self.fresh.clone(), seen: false, braked_for: false, speed: None };
         let bodies = observation.others.iter().map(|other| other.id + 1).max().unwrap_or(0);
         self.watched.resize(bodies.max(self.watched.len()), unknown);
-        let way = Frenet::of(observation);
+        let way = LazyCell::new(|| Frenet::of(observation));
         let mut brake = 0.0_f64;
         let mut limit = f64::INFINITY;
         for other in &observation.others {

@@ -336,10 +336,9 @@ impl Ego {
     pub fn way(&self) -> Way {
         let (pose, here) = (self.pose(), self.car.way.at(self.at));
         let frame = pose.frame();
-        let ahead = std::array::from_fn(|i| {
-            let s = self.at + Way::SPACING * (i + 1) as f64;
-            Ahead { position: frame.to_local(self.car.way.point(s)), curvature: self.car.way.curvature(s) }
-        });
+        let places = std::array::from_fn(|i| self.at + Way::SPACING * (i + 1) as f64);
+        let points = self.car.way.points(places);
+        let ahead = points.map(|(point, curvature)| Ahead { position: frame.to_local(point), curvature });
         let offset = here.to_local(pose.position).y;
         Way { offset, heading: wrapped(pose.heading - here.heading), ahead }
     }
