@@ -8,6 +8,10 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use paracosm_analysis::{LiveCoverage, Summary};
 use paracosm_campaign::{Error, Extension, Observer, Study, Trial};
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// The time between two messages beside the bar. The bar is drawn at most 20 times a second anyway.
+const BETWEEN_MESSAGES: Duration = Duration::from_millis(50);
 
 /// Makes a progress bar for `tests` tests; `--quiet` hides the bar.
 pub(super) fn bar(verbosity: Verbosity, tests: usize) -> ProgressBar {
@@ -27,6 +31,8 @@ pub(super) struct Progress<'a> {
     /// True if the campaign has begun, so that its folder exists.
     pub begun: bool,
     coverage: Option<LiveCoverage>,
+    /// The time at which the message beside the bar was last written.
+    shown: Option<Instant>,
     quiet: bool,
     verbose: bool,
 }
@@ -39,7 +45,7 @@ impl<'a> Progress<'a> {
             extension.points(study.space())?.iter().try_for_each(|test| coverage.add(test))?;
         }
         let Verbosity { quiet, verbose } = verbosity;
-        Ok(Self { study, bar, summary: Summary::default(), begun: false, coverage, quiet, verbose })
+        Ok(Self { study, bar, summary: Summary::default(), begun: false, coverage, shown: None, quiet, verbose })
     }
 
     fn count(&mut self, trial: &Trial) {
@@ -54,7 +60,8 @@ impl<'a> Progress<'a> {
         }
     }
 
-    fn show(&mut self, trial: &Trial) {
+    /// Returns the counts beside the bar.
+    fn message(&self) -> String {
         let coverage = self.coverage.as_ref();
         let dispersion = coverage.and_then(LiveCoverage::dispersion);
         let dispersion =
@@ -62,7 +69,14 @@ impl<'a> Progress<'a> {
         let combinations = coverage.and_then(LiveCoverage::combinations);
         let combinations = combinations.map(|(covered, valid)| format!("  {covered}/{valid} combinations"));
         let combinations = combinations.unwrap_or_default();
-        self.bar.set_message(format!("{} fail{dispersion}{combinations}", self.summary.count(Verdict::Fail)));
+        format!("{} fail{dispersion}{combinations}", self.summary.count(Verdict::Fail))
+    }
+
+    fn show(&mut self, trial: &Trial) {
+        if !self.bar.is_hidden() && self.shown.is_none_or(|at| at.elapsed() >= BETWEEN_MESSAGES) {
+            self.bar.set_message(self.message());
+            self.shown = Some(Instant::now());
+        }
         self.bar.inc(1);
         // The error of a test may be the error of all tests, and a user who sees it can stop the campaign.
         let is_first = trial.verdict == Verdict::Error && self.summary.count(Verdict::Error) == 1;

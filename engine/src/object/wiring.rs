@@ -125,6 +125,7 @@ pub struct Outputs<'a> {
 
 impl Outputs<'_> {
     /// Sets the value of an output for this tick.
+    #[inline]
     pub fn set<T: Datum>(&mut self, output: &Output<T>, value: T) {
         value.put(&mut self.samples[output.at..]);
     }

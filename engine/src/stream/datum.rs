@@ -9,7 +9,8 @@ pub enum DatumSample {
     Event,
     Truth(bool),
     Number(f64),
-    Vector(Vector2<f64>),
+    /// The coordinates of a vector.
+    Vector(f64, f64),
     Word(&'static str),
 }
 
@@ -38,8 +39,11 @@ macro_rules! datum {
         impl Datum for $type {
             const WIDTH: usize = 1;
 
+            #[inline(always)]
             fn put(self, samples: &mut [DatumSample]) {
-                samples[0] = self.into();
+                // The place comes first: the value is then written to it without a copy on the stack.
+                let sample = &mut samples[0];
+                *sample = DatumSample::$variant(self);
             }
 
             fn get(samples: &[DatumSample]) -> Option<Self> {
@@ -60,8 +64,30 @@ macro_rules! datum {
 
 datum!(bool, Truth);
 datum!(f64, Number);
-datum!(Vector2<f64>, Vector);
 datum!(&'static str, Word);
+
+impl Datum for Vector2<f64> {
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn put(self, samples: &mut [DatumSample]) {
+        let sample = &mut samples[0];
+        *sample = DatumSample::Vector(self.x, self.y);
+    }
+
+    fn get(samples: &[DatumSample]) -> Option<Self> {
+        match samples[0] {
+            DatumSample::Vector(x, y) => Some(Self::new(x, y)),
+            _ => None,
+        }
+    }
+}
+
+impl From<Vector2<f64>> for DatumSample {
+    fn from(value: Vector2<f64>) -> Self {
+        DatumSample::Vector(value.x, value.y)
+    }
+}
 
 impl Datum for i32 {
     const WIDTH: usize = 1;

@@ -1,9 +1,10 @@
 //! The streams of a run laid out for evaluation: operands first, all values in one place, no allocation per tick.
 
 use super::datum::{Datum, DatumSample};
-use super::node::{Equation, Node, NodeKind, Source};
+use super::node::{Binary, Equation, Node, NodeKind, Source};
 use super::order::{GraphFlaw, order};
 use crate::geometry::Line;
+use nalgebra::Vector2;
 use paracosm_oracles::Comparison;
 use paracosm_space::Shape;
 use rustc_hash::FxHashMap;
@@ -209,13 +210,13 @@ fn truth(sample: &DatumSample) -> f64 {
 }
 
 /// Returns `true` if an event occurs, which is a truth that holds, or any other value that is present.
-fn occurs(value: DatumSample) -> bool {
+fn occurs(value: &DatumSample) -> bool {
     !matches!(value, DatumSample::Absent | DatumSample::Truth(false))
 }
 
 impl Memory {
     /// Returns `true` if the event with the given value at this tick has occurred, now or before.
-    fn occurred(&mut self, value: DatumSample) -> bool {
+    fn occurred(&mut self, value: &DatumSample) -> bool {
         let Self::Occurred(occurred) = self else { unreachable!("every memory fits its node") };
         *occurred = *occurred || occurs(value);
         *occurred
@@ -233,28 +234,43 @@ impl Operation {
     }
 
     /// Evaluates an operation on single samples in place. Returns `false` if the operation is of another kind.
+    ///
+    /// Samples are read and written part by part. A processor waits when it loads a whole sample at once whose parts
+    /// it has just stored one by one.
     #[inline(always)]
     fn evaluate_simple(&mut self, values: &mut [DatumSample], over: &mut [bool]) -> bool {
         let [left, right] = self.inputs;
-        let (value, is_over) = match &self.node.kind {
-            NodeKind::Unary(function) => (function.of(values[left]), over[left]),
-            NodeKind::Binary(function) => (function.of(values[left], values[right]), over[left] || over[right]),
-            NodeKind::Compare(comparison) => {
-                (compared(*comparison, values[left], values[right]), over[left] || over[right])
+        let (values, rest) = values.split_at_mut(self.at);
+        let output = &mut rest[0];
+        over[self.at] = match &self.node.kind {
+            NodeKind::Unary(function) => {
+                function.of(&values[left], output);
+                over[left]
             }
-            NodeKind::Towards(line) => (distance_to(line, values[left]), over[left]),
+            NodeKind::Binary(function) => {
+                function.of(&values[left], &values[right], output);
+                over[left] || over[right]
+            }
+            NodeKind::Compare(comparison) => {
+                compare(*comparison, &values[left], &values[right], output);
+                over[left] || over[right]
+            }
+            NodeKind::Towards(line) => {
+                measure(line, &values[left], output);
+                over[left]
+            }
             NodeKind::SkipUntil if self.width == 1 => {
-                let begun = self.memory.occurred(values[right]);
-                (if begun { values[left] } else { DatumSample::Absent }, over[left])
+                let begun = self.memory.occurred(&values[right]);
+                put(std::slice::from_mut(output), begun, &values[left..=left]);
+                over[left]
             }
             NodeKind::TakeUntil if self.width == 1 => {
-                let ended = self.memory.occurred(values[right]);
-                (if ended { DatumSample::Absent } else { values[left] }, ended || over[left])
+                let ended = self.memory.occurred(&values[right]);
+                put(std::slice::from_mut(output), !ended, &values[left..=left]);
+                ended || over[left]
             }
             _ => return false,
         };
-        values[self.at] = value;
-        over[self.at] = is_over;
         true
     }
 
@@ -303,7 +319,7 @@ impl Operation {
                 left_over
             }
             (NodeKind::When, _) => {
-                put(output, occurs(values[right]), from(left));
+                put(output, occurs(&values[right]), from(left));
                 left_over || right_over
             }
             (NodeKind::Zip, _) => {
@@ -328,7 +344,8 @@ impl Operation {
             }
             (NodeKind::Sum(_), Memory::Value { samples, .. }) => {
                 if !values[left].is_absent() {
-                    samples[0] = super::node::Binary::Sum.of(samples[0], values[left]);
+                    let before = samples[0];
+                    Binary::Sum.of(&before, &values[left], &mut samples[0]);
                 }
                 put(output, !values[left].is_absent(), samples);
                 left_over
@@ -346,11 +363,11 @@ impl Operation {
                 left_over && right_over
             }
             (NodeKind::SkipUntil, memory) => {
-                put(output, memory.occurred(values[right]), from(left));
+                put(output, memory.occurred(&values[right]), from(left));
                 left_over
             }
             (NodeKind::TakeUntil, memory) => {
-                let ended = memory.occurred(values[right]);
+                let ended = memory.occurred(&values[right]);
                 put(output, !ended, from(left));
                 ended || left_over
             }
@@ -373,19 +390,21 @@ impl Operation {
     }
 }
 
-/// Compares two numbers; absent if a number is absent.
-fn compared(comparison: Comparison, left: DatumSample, right: DatumSample) -> DatumSample {
+/// Writes the result of comparing two numbers; absent if a number is absent.
+fn compare(comparison: Comparison, left: &DatumSample, right: &DatumSample, output: &mut DatumSample) {
     match (left, right) {
-        (DatumSample::Number(left), DatumSample::Number(right)) => comparison.holds(left, right).into(),
-        _ => DatumSample::Absent,
+        (DatumSample::Number(left), DatumSample::Number(right)) => {
+            *output = DatumSample::Truth(comparison.holds(*left, *right));
+        }
+        _ => *output = DatumSample::Absent,
     }
 }
 
-/// Returns the distance from a position to a line; absent if the position is absent.
-fn distance_to(line: &Line, position: DatumSample) -> DatumSample {
+/// Writes the distance from a position to a line; absent if the position is absent.
+fn measure(line: &Line, position: &DatumSample, output: &mut DatumSample) {
     match position {
-        DatumSample::Vector(position) => line.ahead_of(position).into(),
-        _ => DatumSample::Absent,
+        DatumSample::Vector(x, y) => *output = DatumSample::Number(line.ahead_of(Vector2::new(*x, *y))),
+        _ => *output = DatumSample::Absent,
     }
 }
 
@@ -401,6 +420,7 @@ fn put(output: &mut [DatumSample], present: bool, value: &[DatumSample]) {
 /// Copies a value. Nearly all are one sample, for which a call to copy memory would take longer than the rest.
 fn copy(value: &[DatumSample], output: &mut [DatumSample]) {
     match (value, output) {
+        ([DatumSample::Number(number)], [output]) => *output = DatumSample::Number(*number),
         ([value], [output]) => *output = *value,
         (value, output) => output.copy_from_slice(value),
     }

@@ -2,6 +2,7 @@
 
 use super::datum::DatumSample;
 use crate::geometry::Line;
+use nalgebra::Vector2;
 use paracosm_oracles::Comparison;
 use paracosm_space::Shape;
 use std::cell::RefCell;
@@ -257,19 +258,20 @@ impl Unary {
         }
     }
 
-    /// Returns the value of the function; absent if its argument is absent.
-    pub fn of(self, value: DatumSample) -> DatumSample {
+    /// Writes the value of the function; absent if its argument is absent.
+    #[inline(always)]
+    pub fn of(self, value: &DatumSample, output: &mut DatumSample) {
         use DatumSample::{Absent, Number, Truth, Vector};
         match (self, value) {
-            (Unary::Negative, Number(x)) => Number(-x),
-            (Unary::Negative, Vector(v)) => Vector(-v),
-            (Unary::Absolute, Number(x)) => Number(x.abs()),
-            (Unary::SquareRoot, Number(x)) => Number(x.sqrt()),
-            (Unary::Not, Truth(x)) => Truth(!x),
-            (Unary::Norm, Vector(v)) => Number(v.norm()),
-            (Unary::X, Vector(v)) => Number(v.x),
-            (Unary::Y, Vector(v)) => Number(v.y),
-            _ => Absent,
+            (Unary::Negative, Number(x)) => *output = Number(-x),
+            (Unary::Negative, Vector(x, y)) => *output = Vector(-x, -y),
+            (Unary::Absolute, Number(x)) => *output = Number(x.abs()),
+            (Unary::SquareRoot, Number(x)) => *output = Number(x.sqrt()),
+            (Unary::Not, Truth(x)) => *output = Truth(!x),
+            (Unary::Norm, Vector(x, y)) => *output = Number(Vector2::new(*x, *y).norm()),
+            (Unary::X, Vector(x, _)) => *output = Number(*x),
+            (Unary::Y, Vector(_, y)) => *output = Number(*y),
+            _ => *output = Absent,
         }
     }
 }
@@ -290,25 +292,26 @@ impl Binary {
         }
     }
 
-    /// Returns the value of the function; absent if an argument is absent.
-    pub fn of(self, left: DatumSample, right: DatumSample) -> DatumSample {
+    /// Writes the value of the function; absent if an argument is absent.
+    #[inline(always)]
+    pub fn of(self, left: &DatumSample, right: &DatumSample, output: &mut DatumSample) {
         use DatumSample::{Absent, Number, Truth, Vector};
         match (self, left, right) {
-            (Binary::Sum, Number(a), Number(b)) => Number(a + b),
-            (Binary::Difference, Number(a), Number(b)) => Number(a - b),
-            (Binary::Product, Number(a), Number(b)) => Number(a * b),
-            (Binary::Quotient, Number(a), Number(b)) => Number(a / b),
-            (Binary::Least, Number(a), Number(b)) => Number(if a <= b || a.is_nan() { a } else { b }),
-            (Binary::Greatest, Number(a), Number(b)) => Number(if a >= b || a.is_nan() { a } else { b }),
-            (Binary::Vector, Number(a), Number(b)) => Vector([a, b].into()),
-            (Binary::Sum, Vector(a), Vector(b)) => Vector(a + b),
-            (Binary::Difference, Vector(a), Vector(b)) => Vector(a - b),
-            (Binary::Product, Vector(a), Number(b)) => Vector(a * b),
-            (Binary::Quotient, Vector(a), Number(b)) => Vector(a / b),
-            (Binary::Dot, Vector(a), Vector(b)) => Number(a.dot(&b)),
-            (Binary::And, Truth(a), Truth(b)) => Truth(a && b),
-            (Binary::Or, Truth(a), Truth(b)) => Truth(a || b),
-            _ => Absent,
+            (Binary::Sum, Number(a), Number(b)) => *output = Number(a + b),
+            (Binary::Difference, Number(a), Number(b)) => *output = Number(a - b),
+            (Binary::Product, Number(a), Number(b)) => *output = Number(a * b),
+            (Binary::Quotient, Number(a), Number(b)) => *output = Number(a / b),
+            (Binary::Least, Number(a), Number(b)) => *output = Number(if a <= b || a.is_nan() { *a } else { *b }),
+            (Binary::Greatest, Number(a), Number(b)) => *output = Number(if a >= b || a.is_nan() { *a } else { *b }),
+            (Binary::Vector, Number(a), Number(b)) => *output = Vector(*a, *b),
+            (Binary::Sum, Vector(ax, ay), Vector(bx, by)) => *output = Vector(ax + bx, ay + by),
+            (Binary::Difference, Vector(ax, ay), Vector(bx, by)) => *output = Vector(ax - bx, ay - by),
+            (Binary::Product, Vector(x, y), Number(b)) => *output = Vector(x * b, y * b),
+            (Binary::Quotient, Vector(x, y), Number(b)) => *output = Vector(x / b, y / b),
+            (Binary::Dot, Vector(ax, ay), Vector(bx, by)) => *output = Number(ax * bx + ay * by),
+            (Binary::And, Truth(a), Truth(b)) => *output = Truth(*a && *b),
+            (Binary::Or, Truth(a), Truth(b)) => *output = Truth(*a || *b),
+            _ => *output = Absent,
         }
     }
 }
@@ -319,7 +322,7 @@ fn text(sample: &DatumSample) -> String {
         DatumSample::Event => "tick".to_owned(),
         DatumSample::Truth(truth) => truth.to_string(),
         DatumSample::Number(number) => number.to_string(),
-        DatumSample::Vector(vector) => format!("({}, {})", vector.x, vector.y),
+        DatumSample::Vector(x, y) => format!("({x}, {y})"),
         DatumSample::Word(word) => (*word).to_owned(),
     }
 }
