@@ -166,6 +166,7 @@ impl Path {
     /// branch to the other. Before its start and beyond its end the path continues straight.
     pub fn nearest(&self, position: Vector2<f64>, s: f64) -> f64 {
         let nearest = match &*self.pieces {
+            // Without neighbours, no distances need to be compared.
             [(from, curve)] => from + curve.nearest(position),
             _ => self.nearest_of_three(position, s),
         };

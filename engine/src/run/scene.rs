@@ -49,7 +49,7 @@ pub(super) struct Scene {
     /// The poses of one object's bodies at the end of a tick.
     poses: Vec<Option<Pose>>,
     /// The states of all bodies at the previous tick. During a tick, the states at its end are written here.
-    others: Vec<BodyState>,
+    previous: Vec<BodyState>,
     pushes: Vec<Vector2<f64>>,
     velocities: Vec<Vector2<f64>>,
 }
@@ -88,7 +88,7 @@ impl Scene {
             friction: graph.slot(&scenario.conditions.friction.node),
             unchecked: weather.clone(),
             weather,
-            others: bodies.clone(),
+            previous: bodies.clone(),
             poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
             pushes: Vec::with_capacity(masses.len()),
             velocities: Vec::new(),
@@ -118,7 +118,7 @@ impl Scene {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
                 behaviour.begin(&tick, &mut self.velocities)?;
-                for (state, velocity) in self.others[first..end].iter_mut().zip(&self.velocities) {
+                for (state, velocity) in self.previous[first..end].iter_mut().zip(&self.velocities) {
                     if !velocity.iter().all(|speed| speed.is_finite()) {
                         return Err(Upset::Velocity { object: object.name.clone(), velocity: *velocity });
                     }
@@ -126,7 +126,7 @@ impl Scene {
                 }
             }
         }
-        self.bodies.copy_from_slice(&self.others);
+        self.bodies.copy_from_slice(&self.previous);
         Ok(())
     }
 
@@ -179,7 +179,7 @@ impl Scene {
         }
         self.ego.step(friction, dt)?;
         let velocity = self.ego.velocity();
-        self.others[0] = BodyState { velocity, ..self.bodies[0].moved(Some(self.ego.pose()), dt) };
+        self.previous[0] = BodyState { velocity, ..self.bodies[0].moved(Some(self.ego.pose()), dt) };
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
@@ -195,19 +195,19 @@ impl Scene {
                         if let Some(pose) = pose.filter(|pose| !pose.is_finite()) {
                             return Err(Upset::Place { object: object.name.clone(), pose });
                         }
-                        self.others[index] = self.bodies[index].moved(*pose, dt);
+                        self.previous[index] = self.bodies[index].moved(*pose, dt);
                     }
                 }
                 Behaviour::Physical(_, behaviour) => {
                     self.pushes.push(behaviour.push(&self.bodies[first], &tick)?);
-                    self.others[first] = self.bodies[first];
+                    self.previous[first] = self.bodies[first];
                 }
             }
         }
-        std::mem::swap(&mut self.bodies, &mut self.others);
+        std::mem::swap(&mut self.bodies, &mut self.previous);
         self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
         let clearance = self.world.clearance(&self.bodies);
-        self.contact = self.world.contact(&self.others, &self.bodies, clearance);
+        self.contact = self.world.contact(&self.previous, &self.bodies, clearance);
         self.clearance = match self.contact {
             None if self.told == self.bodies.len() => clearance,
             None => self.world.clearance(self.told()),

@@ -35,7 +35,7 @@ pub trait Datum: Copy + 'static {
 }
 
 macro_rules! datum {
-    ($type:ty, $variant:ident) => {
+    ($type:ty, $value:ident => $sample:expr, $pattern:pat => $read:expr) => {
         impl Datum for $type {
             const WIDTH: usize = 1;
 
@@ -43,51 +43,30 @@ macro_rules! datum {
             fn put(self, samples: &mut [DatumSample]) {
                 // The place comes first: the value is then written to it without a copy on the stack.
                 let sample = &mut samples[0];
-                *sample = DatumSample::$variant(self);
+                let $value = self;
+                *sample = $sample;
             }
 
             fn get(samples: &[DatumSample]) -> Option<Self> {
                 match samples[0] {
-                    DatumSample::$variant(value) => Some(value),
+                    $pattern => Some($read),
                     _ => None,
                 }
             }
         }
 
         impl From<$type> for DatumSample {
-            fn from(value: $type) -> Self {
-                DatumSample::$variant(value)
+            fn from($value: $type) -> Self {
+                $sample
             }
         }
     };
 }
 
-datum!(bool, Truth);
-datum!(f64, Number);
-datum!(&'static str, Word);
-
-impl Datum for Vector2<f64> {
-    const WIDTH: usize = 1;
-
-    #[inline(always)]
-    fn put(self, samples: &mut [DatumSample]) {
-        let sample = &mut samples[0];
-        *sample = DatumSample::Vector(self.x, self.y);
-    }
-
-    fn get(samples: &[DatumSample]) -> Option<Self> {
-        match samples[0] {
-            DatumSample::Vector(x, y) => Some(Self::new(x, y)),
-            _ => None,
-        }
-    }
-}
-
-impl From<Vector2<f64>> for DatumSample {
-    fn from(value: Vector2<f64>) -> Self {
-        DatumSample::Vector(value.x, value.y)
-    }
-}
+datum!(bool, truth => DatumSample::Truth(truth), DatumSample::Truth(truth) => truth);
+datum!(f64, number => DatumSample::Number(number), DatumSample::Number(number) => number);
+datum!(Vector2<f64>, vector => DatumSample::Vector(vector.x, vector.y), DatumSample::Vector(x, y) => Self::new(x, y));
+datum!(&'static str, word => DatumSample::Word(word), DatumSample::Word(word) => word);
 
 impl Datum for i32 {
     const WIDTH: usize = 1;

@@ -197,16 +197,13 @@ impl Graph {
     /// values that are no numbers as NaN.
     pub fn read(&self, slots: &[Slot], numbers: &mut [f64]) {
         for (number, slot) in numbers.iter_mut().zip(slots) {
-            let sample = &self.values[slot.0];
-            *number = if let DatumSample::Number(number) = sample { *number } else { truth(sample) };
+            *number = match self.values[slot.0] {
+                DatumSample::Number(number) => number,
+                DatumSample::Truth(truth) => f64::from(u8::from(truth)),
+                _ => f64::NAN,
+            };
         }
     }
-}
-
-/// Returns a truth as 1 or 0, and any other sample as NaN.
-#[cold]
-fn truth(sample: &DatumSample) -> f64 {
-    if let DatumSample::Truth(truth) = sample { f64::from(u8::from(*truth)) } else { f64::NAN }
 }
 
 /// Returns `true` if an event occurs, which is a truth that holds, or any other value that is present.
@@ -233,13 +230,14 @@ impl Operation {
         }
     }
 
-    /// Evaluates an operation on single samples in place. Returns `false` if the operation is of another kind.
+    /// Evaluates one of the most common operations in place. Returns `false` if the operation is of another kind.
     ///
     /// Samples are read and written part by part. A processor waits when it loads a whole sample at once whose parts
     /// it has just stored one by one.
     #[inline(always)]
     fn evaluate_simple(&mut self, values: &mut [DatumSample], over: &mut [bool]) -> bool {
         let [left, right] = self.inputs;
+        let width = self.width;
         let (values, rest) = values.split_at_mut(self.at);
         let output = &mut rest[0];
         over[self.at] = match &self.node.kind {
@@ -259,14 +257,14 @@ impl Operation {
                 measure(line, &values[left], output);
                 over[left]
             }
-            NodeKind::SkipUntil if self.width == 1 => {
+            NodeKind::SkipUntil => {
                 let begun = self.memory.occurred(&values[right]);
-                put(std::slice::from_mut(output), begun, &values[left..=left]);
+                put(&mut rest[..width], begun, &values[left..left + width]);
                 over[left]
             }
-            NodeKind::TakeUntil if self.width == 1 => {
+            NodeKind::TakeUntil => {
                 let ended = self.memory.occurred(&values[right]);
-                put(std::slice::from_mut(output), !ended, &values[left..=left]);
+                put(&mut rest[..width], !ended, &values[left..left + width]);
                 ended || over[left]
             }
             _ => return false,
@@ -361,15 +359,6 @@ impl Operation {
             (NodeKind::Merge, _) => {
                 copy(from(if values[left].is_absent() { right } else { left }), output);
                 left_over && right_over
-            }
-            (NodeKind::SkipUntil, memory) => {
-                put(output, memory.occurred(&values[right]), from(left));
-                left_over
-            }
-            (NodeKind::TakeUntil, memory) => {
-                let ended = memory.occurred(&values[right]);
-                put(output, !ended, from(left));
-                ended || left_over
             }
             (NodeKind::Pre, Memory::Value { samples, over }) => {
                 copy(samples, output);
