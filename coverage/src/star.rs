@@ -8,12 +8,15 @@
 
 mod ascent;
 mod cell;
+mod region;
 mod search;
 mod sides;
 mod sweep;
 
 use crate::measure::{Compare, Computation, Descriptor, Measure};
 use crate::{Bracket, Deadline, PointSet};
+pub(crate) use cell::Cell;
+pub(crate) use region::{BoxKind, Region, Relaxed};
 pub(crate) use search::largest_difference;
 pub(crate) use sides::Sides;
 
@@ -43,5 +46,6 @@ pub fn star_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
         return Bracket::exact(1.0);
     }
     let swept = if points.dims() == 2 { sweep::star_in_the_plane(points, deadline) } else { None };
-    swept.map_or_else(|| largest_difference(&Sides::of_anchored_boxes(points), deadline), Bracket::exact)
+    let sides = Sides::of_anchored_boxes(points);
+    swept.map_or_else(|| largest_difference::<Cell>(&sides, &sides, deadline), Bracket::exact)
 }

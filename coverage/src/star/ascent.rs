@@ -4,7 +4,7 @@
 //! neighbours. This search looks at all positions of a side at once, which takes no longer than counting the points
 //! of one box.
 
-use super::cell::BoxKind;
+use super::region::BoxKind;
 use super::sides::Sides;
 use crate::Deadline;
 

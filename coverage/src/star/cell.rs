@@ -1,15 +1,7 @@
 //! Cells of boxes, and upper bounds on the value of their boxes.
 
+use super::region::{BoxKind, Region, Relaxed};
 use super::sides::{Sides, above_0};
-
-/// The kind of difference between volume and share of points that a search maximises.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum BoxKind {
-    /// The volume of an open box less the share of points inside the box.
-    Open,
-    /// The share of points in a closed box, including its faces, less the volume of the box.
-    Closed,
-}
 
 /// A point that is inside part of the boxes of a cell, and outside the remaining boxes.
 #[derive(Debug, Clone, Copy)]
@@ -25,23 +17,14 @@ pub(super) struct Undecided {
 /// upper` for open boxes and `lower <= position < upper` for closed boxes. In both, a point is inside along a side if
 /// its coordinate is `<= lower`, and outside if it is `>= upper`.
 #[derive(Debug, Clone)]
-pub(super) struct Cell {
+pub(crate) struct Cell {
+    kind: BoxKind,
     lower: Vec<f64>,
     upper: Vec<f64>,
     inside: usize,
     undecided: Vec<Undecided>,
     /// An upper bound on the difference of every box of the cell.
-    pub(super) bound: f64,
-}
-
-/// The result of the relaxation of a cell.
-pub(super) enum Relaxed {
-    /// No box of the cell has a difference above the threshold.
-    Nothing,
-    /// The largest difference of a box of the cell, if the relaxation has solved the cell.
-    Solved(f64),
-    /// The relaxation has lowered the upper bound of the cell, but has not solved the cell.
-    Bounded,
+    bound: f64,
 }
 
 /// The result of filling the profiles with the undecided points.
@@ -61,7 +44,7 @@ const AGAIN_PER_BUDGET: usize = 3;
 
 /// Working memory of the relaxation of a cell.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     /// For each side: the positions that take in (open) or leave out (closed) 0, 1, 2, .. of its points.
     profiles: Vec<Vec<f64>>,
     /// For each number of points, the most extreme volume over the axes so far.
@@ -72,9 +55,102 @@ pub(super) struct Scratch {
     coordinates: Vec<f64>,
 }
 
+impl Region for Cell {
+    type Points<'a> = Sides<'a>;
+    type Scratch = Scratch;
+    const TIME_TO_THE_END: f64 = 0.2;
+
+    fn all(sides: &Sides) -> Vec<Self> {
+        BoxKind::BOTH.map(|kind| Self::root(sides, kind)).into()
+    }
+
+    fn bound(&self) -> f64 {
+        self.bound
+    }
+
+    fn size(&self) -> usize {
+        self.undecided.len() + self.lower.len()
+    }
+
+    /// Shrinks the cell and lowers the upper bound of the cell by its relaxation. In the relaxation the sides are
+    /// independent: only the number of points that each side takes in (or leaves out) counts. A point that is undecided
+    /// along one side counts along this side. A point that is undecided along several sides counts
+    ///
+    /// - for closed boxes: along the side where it costs most, because it is inside only if all sides take it in;
+    /// - for open boxes: along all these sides, less the repeated counts, if no box above the threshold leaves it out
+    ///   along two sides; otherwise it does not count. The point is certainly outside if exactly one side leaves it
+    ///   out.
+    ///
+    /// The best choice of positions for each number of points follows by dynamic programming over the axes (Dobkin,
+    /// Eppstein, Mitchell, Computing the discrepancy with applications to supersampling patterns, ACM Trans. Graphics
+    /// 15, 1996, who subdivide until no point is undecided along several sides). If there are no points that are
+    /// undecided along several sides, the bound is exact.
+    fn relax(&mut self, sides: &Sides, threshold: f64, scratch: &mut Scratch) -> Relaxed {
+        self.shrink(sides, threshold);
+        if self.bound <= threshold {
+            return Relaxed::Nothing;
+        }
+        let room = (self.simple_bound(sides) - threshold) * sides.points() as f64;
+        let budget = (room as usize).saturating_add(2).min(self.undecided.len());
+        if budget.saturating_mul(budget).saturating_mul(sides.count()) > MOST_STEPS {
+            return Relaxed::Bounded;
+        }
+        let Profiled { several, again } = self.profile(sides, budget, threshold, scratch);
+        let (largest, least) = (|a, b| if a > b { a } else { b }, |a, b| if a < b { a } else { b });
+        match self.kind {
+            BoxKind::Open => self.combine(sides, budget + again, scratch, f64::NEG_INFINITY, largest),
+            BoxKind::Closed => self.combine(sides, budget, scratch, f64::INFINITY, least),
+        }
+        let (inside, all) = (self.inside, self.inside + self.undecided.len());
+        let values = scratch.volumes.iter().enumerate().map(|(count, volume)| match self.kind {
+            // A box that takes in fewer points than the repeated counts would be below the threshold anyway.
+            BoxKind::Open => volume - sides.share((inside + count).saturating_sub(again)),
+            BoxKind::Closed => sides.share(all - count) - volume,
+        });
+        let value = values.fold(f64::NEG_INFINITY, f64::max);
+        if value <= threshold {
+            return Relaxed::Nothing;
+        }
+        self.bound = self.bound.min(value);
+        if several { Relaxed::Bounded } else { Relaxed::Solved(value) }
+    }
+
+    /// Cuts the cell into two cells, below and above a coordinate.
+    fn split(mut self, sides: &Sides, _: f64, scratch: &mut Scratch, parts: &mut Vec<Self>) {
+        let (side, at) = self.cut(sides, scratch);
+        // Below the cut, points at the cut and beyond are outside. The other points stay as undecided as they were.
+        let below_it = |undecided: &&Undecided| sides.coordinate(undecided.point as usize, side) < at;
+        let mut below = Self {
+            kind: self.kind,
+            lower: self.lower.clone(),
+            upper: self.upper.clone(),
+            inside: self.inside,
+            undecided: self.undecided.iter().filter(below_it).copied().collect(),
+            bound: self.bound,
+        };
+        below.upper[side] = at;
+        // Above the cut, points up to it are inside along this side, and then perhaps along all sides.
+        let (from, inside) = (self.lower[side], &mut self.inside);
+        self.undecided.retain_mut(|undecided| {
+            let coordinate = sides.coordinate(undecided.point as usize, side);
+            if from < coordinate && coordinate <= at {
+                undecided.sides -= 1;
+                undecided.sum = undecided.sum.wrapping_sub(side as u32);
+                *inside += usize::from(undecided.sides == 0);
+            }
+            undecided.sides > 0
+        });
+        self.lower[side] = at;
+        for cell in [&mut below, &mut self] {
+            cell.bound = cell.bound.min(cell.simple_bound(sides));
+        }
+        parts.extend([below, self]);
+    }
+}
+
 impl Cell {
     /// Makes the cell of all boxes that can have the largest difference.
-    pub(super) fn root(sides: &Sides, kind: BoxKind) -> Self {
+    fn root(sides: &Sides, kind: BoxKind) -> Self {
         let all = 0..sides.points();
         let least = |side| all.clone().map(|point| sides.coordinate(point, side)).fold(f64::INFINITY, f64::min);
         let (lower, upper) = match kind {
@@ -84,17 +160,12 @@ impl Cell {
             // If no point supports a side of a closed box, the box can be shrunk there.
             BoxKind::Closed => ((0..sides.count()).map(least).collect(), vec![f64::INFINITY; sides.count()]),
         };
-        let mut cell = Self { lower, upper, inside: 0, undecided: Vec::new(), bound: 1.0 };
+        let mut cell = Self { kind, lower, upper, inside: 0, undecided: Vec::new(), bound: 1.0 };
         let every = all.map(|point| Undecided { point: point as u32, sides: 0, sum: 0 });
         cell.undecided.extend(every);
         cell.sort_out(sides);
-        cell.bound = cell.simple_bound(sides, kind);
+        cell.bound = cell.simple_bound(sides);
         cell
-    }
-
-    /// Returns the number of numbers that the cell stores.
-    pub(super) fn size(&self) -> usize {
-        self.undecided.len() + self.lower.len()
     }
 
     /// Decides again which of the undecided points are inside or outside.
@@ -118,26 +189,26 @@ impl Cell {
     }
 
     /// The bound that follows from the cell's largest and smallest box alone.
-    fn simple_bound(&self, sides: &Sides, kind: BoxKind) -> f64 {
-        match kind {
+    fn simple_bound(&self, sides: &Sides) -> f64 {
+        match self.kind {
             BoxKind::Open => sides.volume(&self.upper) - sides.share(self.inside),
             BoxKind::Closed => sides.share(self.inside + self.undecided.len()) - sides.volume(&self.lower),
         }
     }
 
     /// Takes away the ends of the cell that hold no box above the threshold, as long as that decides points.
-    fn shrink(&mut self, sides: &Sides, kind: BoxKind, threshold: f64) {
+    fn shrink(&mut self, sides: &Sides, threshold: f64) {
         // The margin is far more than the rounding of a product and two quotients.
         let margin = (sides.count() + 8) as f64 * 4.0 * f64::EPSILON;
         loop {
-            self.bound = self.bound.min(self.simple_bound(sides, kind));
+            self.bound = self.bound.min(self.simple_bound(sides));
             if self.bound <= threshold || self.undecided.is_empty() {
                 return;
             }
             let mut moved = false;
             for side in 0..sides.count() {
                 let axis = side / sides.per_axis();
-                match kind {
+                match self.kind {
                     BoxKind::Open => {
                         let across = sides.volume_across(axis, &self.upper);
                         let width = (threshold + sides.share(self.inside)) / across;
@@ -168,50 +239,8 @@ impl Cell {
         }
     }
 
-    /// Shrinks the cell and lowers the upper bound of the cell by its relaxation. In the relaxation the sides are
-    /// independent: only the number of points that each side takes in (or leaves out) counts. A point that is undecided
-    /// along one side counts along this side. A point that is undecided along several sides counts * for closed boxes:
-    /// along the side where it costs most, because it is inside only if all sides take it in; * for open boxes: along
-    /// all these sides, less the repeated counts, if no box above the threshold leaves it out
-    ///   along two sides; otherwise it does not count. The point is certainly outside if exactly one side leaves it
-    ///   out.
-    ///
-    /// The best choice of positions for each number of points follows by dynamic programming over the axes (Dobkin,
-    /// Eppstein, Mitchell, Computing the discrepancy with applications to supersampling patterns, ACM Trans. Graphics
-    /// 15, 1996, who subdivide until no point is undecided along several sides). If there are no points that are
-    /// undecided along several sides, the bound is exact.
-    pub(super) fn relax(&mut self, sides: &Sides, kind: BoxKind, threshold: f64, scratch: &mut Scratch) -> Relaxed {
-        self.shrink(sides, kind, threshold);
-        if self.bound <= threshold {
-            return Relaxed::Nothing;
-        }
-        let room = (self.simple_bound(sides, kind) - threshold) * sides.points() as f64;
-        let budget = (room as usize).saturating_add(2).min(self.undecided.len());
-        if budget.saturating_mul(budget).saturating_mul(sides.count()) > MOST_STEPS {
-            return Relaxed::Bounded;
-        }
-        let Profiled { several, again } = self.profile(sides, kind, budget, threshold, scratch);
-        let (largest, least) = (|a, b| if a > b { a } else { b }, |a, b| if a < b { a } else { b });
-        match kind {
-            BoxKind::Open => self.combine(sides, budget + again, scratch, f64::NEG_INFINITY, largest),
-            BoxKind::Closed => self.combine(sides, budget, scratch, f64::INFINITY, least),
-        }
-        let (inside, all) = (self.inside, self.inside + self.undecided.len());
-        let values = scratch.volumes.iter().enumerate().map(|(count, volume)| match kind {
-            // A box that takes in fewer points than the repeated counts would be below the threshold anyway.
-            BoxKind::Open => volume - sides.share((inside + count).saturating_sub(again)),
-            BoxKind::Closed => sides.share(all - count) - volume,
-        });
-        let value = values.fold(f64::NEG_INFINITY, f64::max);
-        if value <= threshold {
-            return Relaxed::Nothing;
-        }
-        self.bound = self.bound.min(value);
-        if several { Relaxed::Bounded } else { Relaxed::Solved(value) }
-    }
-
     /// Fills the profiles with the undecided points.
-    fn profile(&self, sides: &Sides, kind: BoxKind, budget: usize, threshold: f64, scratch: &mut Scratch) -> Profiled {
+    fn profile(&self, sides: &Sides, budget: usize, threshold: f64, scratch: &mut Scratch) -> Profiled {
         scratch.profiles.resize_with(sides.count(), Vec::new);
         scratch.profiles.iter_mut().for_each(Vec::clear);
         let mut profiled = Profiled { several: false, again: 0 };
@@ -226,7 +255,7 @@ impl Cell {
                 continue;
             }
             profiled.several = true;
-            match kind {
+            match self.kind {
                 BoxKind::Closed => {
                     let side = self.costliest(sides, point);
                     scratch.profiles[side].push(sides.coordinate(point, side));
@@ -247,7 +276,7 @@ impl Cell {
         }
         let budget = budget + profiled.again;
         for (side, profile) in scratch.profiles.iter_mut().enumerate() {
-            match kind {
+            match self.kind {
                 BoxKind::Open => {
                     profile.sort_unstable_by(f64::total_cmp);
                     profile.push(self.upper[side]);
@@ -324,37 +353,6 @@ impl Cell {
                 std::mem::swap(volumes, next);
             }
         }
-    }
-
-    /// Cuts the cell into two cells, below and above a coordinate.
-    pub(super) fn split(mut self, sides: &Sides, kind: BoxKind, scratch: &mut Scratch) -> [Self; 2] {
-        let (side, at) = self.cut(sides, scratch);
-        // Below the cut, points at the cut and beyond are outside. The other points stay as undecided as they were.
-        let below_it = |undecided: &&Undecided| sides.coordinate(undecided.point as usize, side) < at;
-        let mut below = Self {
-            lower: self.lower.clone(),
-            upper: self.upper.clone(),
-            inside: self.inside,
-            undecided: self.undecided.iter().filter(below_it).copied().collect(),
-            bound: self.bound,
-        };
-        below.upper[side] = at;
-        // Above the cut, points up to it are inside along this side, and then perhaps along all sides.
-        let (from, inside) = (self.lower[side], &mut self.inside);
-        self.undecided.retain_mut(|undecided| {
-            let coordinate = sides.coordinate(undecided.point as usize, side);
-            if from < coordinate && coordinate <= at {
-                undecided.sides -= 1;
-                undecided.sum = undecided.sum.wrapping_sub(side as u32);
-                *inside += usize::from(undecided.sides == 0);
-            }
-            undecided.sides > 0
-        });
-        self.lower[side] = at;
-        for cell in [&mut below, &mut self] {
-            cell.bound = cell.bound.min(cell.simple_bound(sides, kind));
-        }
-        [below, self]
     }
 
     /// The side and the coordinate of a cut: the side with the most points that are undecided along several sides, at

@@ -1,16 +1,16 @@
-//! Branch and bound over cells of boxes.
+//! Branch and bound over regions of boxes.
 //!
-//! Cells are cut until their relaxation is exact or shows that they hold nothing above the best value. Tasks explore
-//! cells depth first. Each task has its own stack, and gives half of it away while a thread is idle. The result does
+//! Regions are cut until their relaxation is exact or shows that they hold nothing above the best value. Tasks explore
+//! regions depth first. Each task has its own stack, and gives half of it away while a thread is idle. The result does
 //! not depend on the order: bounds and values are computed by monotone operations, so that the result is the largest
 //! computed value of all boxes, wherever it is found.
 //!
-//! Depth first alone narrows a bracket badly, because it leaves large cells for last. With a deadline the search
-//! therefore proves one upper bound after the other: a pass drops all cells whose bound is at most a target, and a
-//! pass that ends has proved its target. Only the open cells on the way to one cell are kept.
+//! Depth first alone narrows a bracket badly, because it leaves large regions for last. With a deadline the search
+//! therefore proves one upper bound after the other: a pass drops all regions whose bound is at most a target, and a
+//! pass that ends has proved its target. Only the open regions on the way to one region are kept.
 
 use super::ascent::Ascent;
-use super::cell::{BoxKind, Cell, Relaxed, Scratch};
+use super::region::{Region, Relaxed};
 use super::sides::Sides;
 use crate::bracket::Watch;
 use crate::{Bracket, Deadline};
@@ -19,8 +19,6 @@ use std::time::{Duration, Instant};
 
 /// The number of ascents before the search; more cost more time than they save.
 const ASCENTS: usize = 64;
-/// The share of the time in which the search tries to end without proving bounds on the way.
-const TIME_TO_THE_END: f64 = 0.2;
 /// The share of the remaining time in which ascents then raise the lower bound.
 const TIME_FOR_ASCENTS: f64 = 0.15;
 /// The target of the next pass, as a share of the way from the best value to the bound. With the first share a pass
@@ -29,10 +27,11 @@ const NEXT_TARGET: [f64; 2] = [0.76, 0.9];
 /// The number of numbers that the stack of a task may hold: some 200 MiB.
 const MOST_NUMBERS: usize = 1 << 24;
 
-/// Finds the largest difference between volume and share of points, over the boxes that `sides` describes.
-pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
+/// Finds the largest difference between volume and share of points, over the boxes that `sides` describes. The search
+/// cuts regions of the type `R`, which read the points in the form `points`.
+pub(crate) fn largest_difference<R: Region>(points: &R::Points<'_>, sides: &Sides, deadline: Deadline) -> Bracket {
     let best = Ascent::new(sides).run(0..ASCENTS, deadline.part(TIME_FOR_ASCENTS));
-    let first = Pass::over(sides, best, best, deadline.part(TIME_TO_THE_END));
+    let first = Pass::<R>::over(points, best, best, deadline.part(R::TIME_TO_THE_END));
     if first.left <= first.best {
         return Bracket::exact(first.best);
     }
@@ -45,7 +44,7 @@ pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
         let begun = Instant::now();
         let is_short = deadline.left().is_some_and(|left| left < 4 * last);
         let target = best + NEXT_TARGET[usize::from(is_short)] * (upper - best);
-        let pass = Pass::over(sides, best, target, deadline);
+        let pass = Pass::<R>::over(points, best, target, deadline);
         let got_no_further = pass.left >= upper;
         (best, upper) = (pass.best, pass.left.min(upper));
         last = begun.elapsed();
@@ -62,9 +61,9 @@ pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
 }
 
 /// A pass over all boxes.
-struct Pass<'a> {
-    sides: &'a Sides<'a>,
-    /// The value above which a cell must hold boxes; other cells are dropped.
+struct Pass<'a, 'p, R: Region> {
+    points: &'a R::Points<'p>,
+    /// The value above which a region must hold boxes; other regions are dropped.
     target: f64,
     deadline: Deadline,
     stopped: AtomicBool,
@@ -72,7 +71,7 @@ struct Pass<'a> {
     tasks: AtomicUsize,
     /// The largest value of a box so far.
     best: Most,
-    /// The largest bound of a cell that was left unexplored.
+    /// The largest bound of a region that was left unexplored.
     left: Most,
 }
 
@@ -83,11 +82,10 @@ struct Outcome {
     left: f64,
 }
 
-impl<'a> Pass<'a> {
-    fn over(sides: &'a Sides<'a>, best: f64, target: f64, deadline: Deadline) -> Outcome {
-        let roots = [BoxKind::Open, BoxKind::Closed].map(|kind| (kind, Cell::root(sides, kind)));
+impl<'a, 'p, R: Region> Pass<'a, 'p, R> {
+    fn over(points: &'a R::Points<'p>, best: f64, target: f64, deadline: Deadline) -> Outcome {
         let pass = Self {
-            sides,
+            points,
             target,
             deadline,
             stopped: AtomicBool::new(false),
@@ -95,21 +93,22 @@ impl<'a> Pass<'a> {
             best: Most::new(best),
             left: Most::new(target),
         };
-        rayon::scope(|scope| pass.explore(scope, roots.into()));
+        rayon::scope(|scope| pass.explore(scope, R::all(points)));
         Outcome { best: pass.best.get(), left: pass.left.get().max(pass.best.get()) }
     }
 
-    /// Explores the cells of a stack.
-    fn explore<'s>(&'s self, scope: &rayon::Scope<'s>, mut stack: Vec<(BoxKind, Cell)>) {
-        let (mut scratch, mut watch) = (Scratch::default(), Watch::new(self.deadline));
-        let mut numbers: usize = stack.iter().map(|(_, cell)| cell.size()).sum();
-        while let Some((kind, mut cell)) = stack.pop() {
-            numbers -= cell.size();
+    /// Explores the regions of a stack.
+    fn explore<'s>(&'s self, scope: &rayon::Scope<'s>, mut stack: Vec<R>) {
+        let (mut scratch, mut watch) = (R::Scratch::default(), Watch::new(self.deadline));
+        let mut numbers: usize = stack.iter().map(R::size).sum();
+        let mut parts = Vec::new();
+        while let Some(mut region) = stack.pop() {
+            numbers -= region.size();
             let threshold = self.best.get().max(self.target);
-            if cell.bound <= threshold {
+            if region.bound() <= threshold {
                 continue;
             }
-            match cell.relax(self.sides, kind, threshold, &mut scratch) {
+            match region.relax(self.points, threshold, &mut scratch) {
                 Relaxed::Nothing => continue,
                 Relaxed::Solved(value) => {
                     self.best.raise(value);
@@ -117,25 +116,25 @@ impl<'a> Pass<'a> {
                 }
                 Relaxed::Bounded => {}
             }
-            if watch.passed_after(cell.size()) || self.stopped.load(Ordering::Relaxed) {
+            if watch.passed_after(region.size()) || self.stopped.load(Ordering::Relaxed) {
                 self.stopped.store(true, Ordering::Relaxed);
-                self.left.raise(cell.bound);
-                stack.iter().for_each(|(_, cell)| self.left.raise(cell.bound));
+                self.left.raise(region.bound());
+                stack.iter().for_each(|region| self.left.raise(region.bound()));
                 break;
             }
-            if numbers + 2 * cell.size() > MOST_NUMBERS {
-                self.left.raise(cell.bound);
+            if numbers + 2 * region.size() > MOST_NUMBERS {
+                self.left.raise(region.bound());
                 continue;
             }
-            let [below, above] = cell.split(self.sides, kind, &mut scratch);
-            numbers += below.size() + above.size();
-            let [worse, better] = if above.bound > below.bound { [below, above] } else { [above, below] };
-            stack.push((kind, worse));
-            stack.push((kind, better));
+            region.split(self.points, threshold, &mut scratch, &mut parts);
+            numbers += parts.iter().map(R::size).sum::<usize>();
+            // The region with the highest bound is explored first.
+            parts.sort_by(|a, b| a.bound().total_cmp(&b.bound()));
+            stack.append(&mut parts);
             if self.tasks.load(Ordering::Relaxed) < rayon::current_num_threads() {
-                // The bottom of the stack has the largest cells.
+                // The bottom of the stack has the largest regions.
                 let given: Vec<_> = stack.drain(..stack.len() / 2).collect();
-                numbers -= given.iter().map(|(_, cell)| cell.size()).sum::<usize>();
+                numbers -= given.iter().map(R::size).sum::<usize>();
                 self.tasks.fetch_add(1, Ordering::Relaxed);
                 scope.spawn(|scope| self.explore(scope, given));
             }

@@ -35,7 +35,7 @@ impl<'a> Sides<'a> {
         if self.anchored { 1 } else { 2 }
     }
 
-    pub(super) fn points(&self) -> usize {
+    pub(crate) fn points(&self) -> usize {
         self.points.len()
     }
 
@@ -75,7 +75,7 @@ impl<'a> Sides<'a> {
     }
 
     /// Returns a number of points as a share of all points.
-    pub(super) fn share(&self, count: usize) -> f64 {
+    pub(crate) fn share(&self, count: usize) -> f64 {
         count as f64 / self.points.len() as f64
     }
 }

@@ -164,7 +164,7 @@ impl<'a> Blocks<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::star::largest_difference;
+    use crate::star::{Cell, largest_difference};
     use proptest::prelude::*;
 
     /// Up to 150 points, many of which share coordinates or lie on the border.
@@ -180,7 +180,8 @@ mod tests {
         #[test]
         fn the_sweep_finds_what_the_general_search_finds(points in points()) {
             let points = PointSet::new(2, &points).unwrap();
-            let searched = largest_difference(&Sides::of_anchored_boxes(&points), Deadline::never());
+            let sides = Sides::of_anchored_boxes(&points);
+            let searched = largest_difference::<Cell>(&sides, &sides, Deadline::never());
             prop_assert!(searched.is_exact());
             prop_assert_eq!(star_in_the_plane(&points, Deadline::never()), Some(searched.lower));
         }

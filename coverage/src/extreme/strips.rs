@@ -1,0 +1,286 @@
+//! The boxes in the plane, as regions of boxes whose left and right sides are in two strips.
+//!
+//! For a fixed left and right side, the best bottom and top of a box follow from one pass over the points in the order
+//! of y. A box is then a part of the sequence of points and of gaps between their y, and its difference is the sum of
+//! weights of these points and gaps. For closed boxes, a point weighs 1, and a gap weighs minus its height times the
+//! width of the box times the number `n` of all points. For open boxes all signs are reversed.
+//!
+//! A point in neither strip is inside all boxes of a region along x, or outside of all. The region therefore keeps only
+//! the points in the strips one by one, and a run of points and gaps between them. So regions with narrow strips are
+//! cheap, and most of them need not be cut, because they hold no large difference.
+//!
+//! The time is O(n^2), divided by a number that grows with the discrepancy: strips are cut until they hold fewer
+//! points than a part of the largest difference.
+
+use super::plane::Plane;
+use super::run::{LargestSum, NODES, Parts, Run, Weights, Width};
+use crate::star::{BoxKind, Region, Relaxed};
+use std::ops::Range;
+
+/// The boxes of one kind whose left side is in one strip, and whose right side is in another strip.
+pub(super) struct Strips {
+    kind: BoxKind,
+    ends: Ends,
+    /// The least and the greatest width of a box.
+    widths: [f64; 2],
+    /// The points of the strips in the order of y, by the places of their x, with the run above each point. The first
+    /// run has no point; its place is [`NO_POINT`].
+    runs: Vec<(u32, Run)>,
+    bound: f64,
+}
+
+/// The place of a point that does not exist, which is in no strip.
+const NO_POINT: u32 = u32::MAX;
+
+/// The places of the positions that the left sides and the right sides of boxes may take. The two ranges are the same
+/// or have no place in common.
+struct Ends {
+    left: Range<u32>,
+    right: Range<u32>,
+}
+
+/// A point of the strips of a region, relative to a part of the region.
+#[derive(Clone, Copy)]
+struct Met {
+    /// `true` if some boxes of the part hold the point along x, and others do not.
+    is_undecided: bool,
+    /// The weight of the point in the most favourable case.
+    weight: f64,
+    /// The price of the point, which is 0 if the point is decided.
+    price: f64,
+}
+
+/// The points of a region, relative to a part of the region; and the y of points.
+#[derive(Default)]
+pub(super) struct Scratch {
+    met: Vec<Met>,
+    ys: Vec<f64>,
+}
+
+impl Ends {
+    /// Returns the parts: one of the ranges is cut, or both if they are the same.
+    fn parts(&self) -> impl Iterator<Item = Self> + use<> {
+        let halves = |range: &Range<u32>| {
+            let middle = range.start.midpoint(range.end);
+            [range.start..middle, middle..range.end]
+        };
+        let pair = |left: &Range<u32>, right: &Range<u32>| Some(Self { left: left.clone(), right: right.clone() });
+        let parts = if self.left == self.right {
+            let [low, high] = &halves(&self.left);
+            [pair(low, low), pair(low, high), pair(high, high)]
+        } else if self.left.len() > self.right.len() {
+            let [low, high] = &halves(&self.left);
+            [pair(low, &self.right), pair(high, &self.right), None]
+        } else {
+            let [low, high] = &halves(&self.right);
+            [pair(&self.left, low), pair(&self.left, high), None]
+        };
+        parts.into_iter().flatten()
+    }
+
+    /// Returns the least and the greatest width of a box.
+    fn widths(&self, plane: &Plane) -> [f64; 2] {
+        [plane.width(self.left.end - 1, self.right.start), plane.width(self.left.start, self.right.end - 1)]
+    }
+
+    /// Returns the places of the points that are inside all boxes along x, and the places of the points that are
+    /// inside some boxes.
+    fn inside(&self, kind: BoxKind) -> [Range<u32>; 2] {
+        // Open boxes leave out the points on their faces.
+        let face = u32::from(kind == BoxKind::Open);
+        [
+            self.left.end - 1 + face..(self.right.start + 1).saturating_sub(face),
+            self.left.start + face..self.right.end.saturating_sub(face),
+        ]
+    }
+}
+
+impl Strips {
+    /// Returns a width as its share of the way from the least to the greatest width of a box.
+    fn width(&self, width: f64) -> Width {
+        let [least, greatest] = self.widths;
+        Width::at(if greatest > least { ((width - least) / (greatest - least)).clamp(0.0, 1.0) } else { 0.0 })
+    }
+
+    /// Looks at the points relative to a part of the region.
+    fn meet(&self, ends: &Ends, plane: &Plane, met: &mut Vec<Met>) {
+        let [all, some] = ends.inside(self.kind);
+        let (inside, undecided) = match self.kind {
+            BoxKind::Open => (-1.0, 0.0),
+            BoxKind::Closed => (1.0, 1.0),
+        };
+        let are_apart = ends.left != ends.right;
+        let is_closed = self.kind == BoxKind::Closed;
+        met.clear();
+        met.extend(self.runs.iter().map(|(place, _)| {
+            let is_inside = all.contains(place);
+            let is_undecided = some.contains(place) && !is_inside;
+            let weight = if is_inside {
+                inside
+            } else if is_undecided {
+                undecided
+            } else {
+                0.0
+            };
+            let price = if is_undecided && are_apart {
+                // A closed box pays for the gap between the point and the other side.
+                let is_above = (*place < ends.left.end) == is_closed;
+                plane.price(*place, is_above)
+            } else {
+                0.0
+            };
+            Met { is_undecided, weight, price }
+        }));
+    }
+
+    /// Returns an upper bound on the difference of every box of a part of the region.
+    ///
+    /// A simple bound takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of
+    /// each undecided point. But a closed box is wider by a gap between positions for each position whose points it
+    /// takes in, and an open box is narrower by a gap for each position whose points it leaves out. The price of a
+    /// point is the number of points that this gap would hold in a set of evenly spread points. A box of height `h`
+    /// pays `h G` at least, where `G` is the sum of the prices of undecided points between bottom and top.
+    ///
+    /// This product is bounded from below by a sum. Let `M` be the sum of all prices, and `E` the largest of `|G - M
+    /// h|` over all bottoms and tops. Then `(h - 1/2) (G - M/2) >= -E^2 / (4 M)`, and thus `h G >= G/2 + M h/2 - M/4 -
+    /// E^2 / (4 M)`: the box pays half a price for each undecided point, and `M/2` for its height.
+    fn bound_of(&self, ends: &Ends, plane: &Plane, met: &[Met]) -> f64 {
+        let total: f64 = met.iter().map(|met| met.price).sum();
+        let [least, greatest] = ends.widths(plane);
+        let narrower = total / 2.0 / plane.n;
+        let (simple_width, priced_width) = match self.kind {
+            BoxKind::Open => (greatest, greatest - narrower),
+            BoxKind::Closed => (least, least + narrower),
+        };
+        let (simple_width, priced_width) = (self.width(simple_width), self.width(priced_width));
+        let (mut simple, mut priced) = (LargestSum::default(), LargestSum::default());
+        // The largest excess of `G` over `M h`, and of `M h` over `G`.
+        let (mut excess, mut lack) = (LargestSum::default(), LargestSum::default());
+        for (met, (_, run)) in met.iter().zip(&self.runs) {
+            simple.add(met.weight);
+            priced.add(met.weight - met.price / 2.0);
+            excess.add(met.price);
+            lack.add(-met.price);
+            simple.add_run(run, simple_width);
+            priced.add_run(run, priced_width);
+            excess.add(-total * run.height);
+            lack.add(total * run.height);
+        }
+        let excess = excess.any.max(lack.any);
+        let unpaid = if total > 0.0 { total / 4.0 + excess * excess / (4.0 * total) } else { 0.0 };
+        plane.difference(simple.any.min(priced.any + unpaid))
+    }
+
+    /// Returns a part of the region.
+    fn part(&self, ends: Ends, bound: f64, plane: &Plane, met: &[Met]) -> Self {
+        let widths = ends.widths(plane);
+        let nodes = nodes(widths).map(|width| self.width(width));
+        let point = Some(Parts::of(Weights::of(self.kind, plane.n, 0.0).point));
+        let count = met.iter().filter(|met| met.is_undecided).count();
+        let mut runs: Vec<(u32, Run)> = Vec::with_capacity(count + 1);
+        for (met, (place, run)) in met.iter().zip(&self.runs) {
+            let run = run.at_all(nodes);
+            match runs.last_mut() {
+                Some((_, last)) if !met.is_undecided => last.append(if met.weight == 0.0 { None } else { point }, &run),
+                _ => runs.push((*place, run)),
+            }
+        }
+        Self { kind: self.kind, ends, widths, runs, bound }
+    }
+}
+
+/// Returns the widths at which runs know their parts.
+fn nodes([least, greatest]: [f64; 2]) -> [f64; NODES] {
+    std::array::from_fn(|node| least + (greatest - least) * (node as f64 / (NODES - 1) as f64))
+}
+
+impl Region for Strips {
+    type Points<'a> = Plane;
+    type Scratch = Scratch;
+    const TIME_TO_THE_END: f64 = 0.6;
+
+    fn all(plane: &Plane) -> Vec<Self> {
+        let all = 0..plane.positions.len() as u32;
+        BoxKind::BOTH
+            .map(|kind| {
+                let ends = Ends { left: all.clone(), right: all.clone() };
+                let widths = ends.widths(plane);
+                let weights = nodes(widths).map(|width| Weights::of(kind, plane.n, width));
+                let bottoms = [(NO_POINT, 0.0)].into_iter().chain(plane.points.iter().map(|p| (p.place, p.y)));
+                let tops = plane.points.iter().map(|point| point.y).chain([1.0]);
+                let runs = bottoms.zip(tops).map(|((place, y), top)| (place, Run::gap(top - y, weights))).collect();
+                Self { kind, ends, widths, runs, bound: 1.0 }
+            })
+            .into()
+    }
+
+    fn bound(&self) -> f64 {
+        self.bound
+    }
+
+    fn size(&self) -> usize {
+        // A run takes as much memory as nine numbers.
+        9 * self.runs.len()
+    }
+
+    fn relax(&mut self, plane: &Plane, threshold: f64, scratch: &mut Scratch) -> Relaxed {
+        if self.ends.left.len() > 1 || self.ends.right.len() > 1 {
+            return Relaxed::Bounded;
+        }
+        let sides = [self.ends.left.start, self.ends.right.start];
+        plane.largest(self.kind, sides, threshold, &mut scratch.ys).map_or(Relaxed::Nothing, Relaxed::Solved)
+    }
+
+    fn split(self, plane: &Plane, threshold: f64, scratch: &mut Scratch, parts: &mut Vec<Self>) {
+        for ends in self.ends.parts() {
+            self.meet(&ends, plane, &mut scratch.met);
+            let bound = self.bound_of(&ends, plane, &scratch.met).min(self.bound);
+            if bound > threshold {
+                parts.push(self.part(ends, bound, plane, &scratch.met));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::star::{Cell, Sides, largest_difference};
+    use crate::{Bracket, Deadline, PointSet};
+    use proptest::prelude::*;
+
+    /// Up to 60 points, many of which share coordinates or lie on the border.
+    fn points() -> impl Strategy<Value = Vec<[f64; 2]>> {
+        let number = prop_oneof![0.0..=1.0_f64, (0..=8_u8).prop_map(|eighths| f64::from(eighths) / 8.0)];
+        let lattice =
+            |n: u32| (0..n).map(move |i| [f64::from(i) / f64::from(n), (f64::from(i) * 0.618_033_988_749).fract()]);
+        let any = prop::collection::vec((number.clone(), number).prop_map(|(x, y)| [x, y]), 1..60);
+        prop_oneof![any, (1..60_u32).prop_map(move |n| lattice(n).collect())]
+    }
+
+    proptest! {
+        #[test]
+        fn strips_find_what_the_general_search_finds(points in points()) {
+            let points = PointSet::new(2, &points).unwrap();
+            let sides = Sides::of_all_boxes(&points);
+            let searched = largest_difference::<Cell>(&sides, &sides, Deadline::never());
+            prop_assert!(searched.is_exact());
+            let found = largest_difference::<Strips>(&Plane::of(&points), &sides, Deadline::never());
+            prop_assert_eq!(found, Bracket::exact(searched.lower));
+        }
+    }
+
+    #[test]
+    fn strips_find_what_the_general_search_finds_in_a_lattice_with_many_equal_differences() {
+        for n in [256, 500] {
+            let points: Vec<[f64; 2]> = (0..n)
+                .map(|i: u32| [f64::from(i) / f64::from(n), f64::from(i.reverse_bits() >> 16) / 65_536.0])
+                .collect();
+            let points = PointSet::new(2, &points).unwrap();
+            let sides = Sides::of_all_boxes(&points);
+            let searched = largest_difference::<Cell>(&sides, &sides, Deadline::never());
+            let found = largest_difference::<Strips>(&Plane::of(&points), &sides, Deadline::never());
+            assert_eq!(found, Bracket::exact(searched.lower));
+        }
+    }
+}
