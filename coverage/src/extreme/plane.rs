@@ -2,6 +2,7 @@
 
 use crate::PointSet;
 use crate::star::BoxKind;
+use std::ops::Range;
 
 /// The points in the plane in the order of y, and the positions at which sides of boxes may be.
 pub(super) struct Plane {
@@ -12,6 +13,8 @@ pub(super) struct Plane {
     /// gap above the position: the number of points that the gap would hold if all points were evenly spread, per
     /// point at the position; 1 at most.
     prices: Vec<[f64; 2]>,
+    /// For each position and for the end, the sums of the prices of all points below.
+    prices_below: Vec<[f64; 2]>,
     /// The number of points.
     pub(super) n: f64,
     /// A bound on the rounding of a sum of weights, in points.
@@ -36,11 +39,18 @@ impl Plane {
         let mut points: Vec<Placed> = set.iter().map(|point| Placed { y: point[1], place: place(point[0]) }).collect();
         points.sort_unstable_by(|a, b| a.y.total_cmp(&b.y));
         let n = set.len() as f64;
-        let prices = prices(&positions, &points, n);
+        let mut counts = vec![0.0; positions.len()];
+        points.iter().for_each(|point| counts[point.place as usize] += 1.0);
+        let prices = prices(&positions, &counts, n);
+        let mut prices_below = vec![[0.0; 2]];
+        for (prices, count) in prices.iter().zip(&counts) {
+            let [below, above] = prices_below[prices_below.len() - 1];
+            prices_below.push([below + prices[0] * count, above + prices[1] * count]);
+        }
         // A sum adds each point and each gap once or twice, and straight lines between two values at each cut of a
         // region. No number is beyond n, so that each operation is rounded by half an ulp of n at most.
         let rounding = 8.0 * (n + 100.0) * n * f64::EPSILON;
-        Self { positions, points, prices, n, rounding }
+        Self { positions, points, prices, prices_below, n, rounding }
     }
 
     /// Returns the width of a box between two positions; 0 if the sides of the box have passed each other.
@@ -51,6 +61,12 @@ impl Plane {
     /// Returns the price of a point for the gap below or above the position at `place`.
     pub(super) fn price(&self, place: u32, is_above: bool) -> f64 {
         self.prices[place as usize][usize::from(is_above)]
+    }
+
+    /// Returns the sum of the prices of the points at a range of places.
+    pub(super) fn prices(&self, places: Range<u32>, is_above: bool) -> f64 {
+        let below = |place: u32| self.prices_below[place as usize][usize::from(is_above)];
+        if places.is_empty() { 0.0 } else { below(places.end) - below(places.start) }
     }
 
     /// Returns an upper bound on a difference, for a sum of weights.
@@ -129,11 +145,9 @@ impl Plane {
 }
 
 /// The prices of the points at each position.
-fn prices(positions: &[f64], points: &[Placed], n: f64) -> Vec<[f64; 2]> {
-    let mut counts = vec![0.0; positions.len()];
-    points.iter().for_each(|point| counts[point.place as usize] += 1.0);
+fn prices(positions: &[f64], counts: &[f64], n: f64) -> Vec<[f64; 2]> {
     let gaps = positions.windows(2).map(|pair| pair[1] - pair[0]);
     let (below, above) = ([0.0].into_iter().chain(gaps.clone()), gaps.chain([0.0]));
     let price = |gap: f64, count: f64| f64::min(n * gap / count, 1.0);
-    below.zip(above).zip(counts).map(|((below, above), count)| [price(below, count), price(above, count)]).collect()
+    below.zip(above).zip(counts).map(|((below, above), count)| [price(below, *count), price(above, *count)]).collect()
 }

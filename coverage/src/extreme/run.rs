@@ -74,17 +74,19 @@ impl Run {
         Self { height, parts: weights.map(|weights| Parts::of(weights.gap * height)) }
     }
 
-    /// Adds a point, if the run continues with a point, and another run.
-    pub(super) fn append(&mut self, point: Option<Parts>, next: &Self) {
+    /// Adds a point, if the run continues with a point, and another run, which is taken at the given widths.
+    pub(super) fn append(&mut self, point: Option<Parts>, next: &Self, widths: &[Width; NODES]) {
         self.height += next.height;
-        for (parts, next) in self.parts.iter_mut().zip(next.parts) {
-            let so_far = point.map_or(*parts, |point| parts.followed_by(point));
-            *parts = so_far.followed_by(next);
+        if let Some(point) = point {
+            self.parts.iter_mut().for_each(|parts| *parts = parts.followed_by(point));
+        }
+        for (parts, width) in self.parts.iter_mut().zip(widths) {
+            *parts = parts.followed_by(next.at(*width));
         }
     }
 
-    /// Returns the run for other widths, between the least and the greatest width.
-    pub(super) fn at_all(&self, widths: [Width; NODES]) -> Self {
+    /// Returns the run at other widths, between the least and the greatest width.
+    pub(super) fn at_all(&self, widths: &[Width; NODES]) -> Self {
         Self { height: self.height, parts: widths.map(|width| self.at(width)) }
     }
 
@@ -145,6 +147,6 @@ impl LargestSum {
 }
 
 /// Returns the larger of two numbers, neither of which is NaN; this is faster than `f64::max`.
-fn larger(a: f64, b: f64) -> f64 {
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }

@@ -13,7 +13,7 @@
 //! points than a part of the largest difference.
 
 use super::plane::Plane;
-use super::run::{LargestSum, NODES, Parts, Run, Weights, Width};
+use super::run::{LargestSum, NODES, Parts, Run, Weights, Width, larger};
 use crate::star::{BoxKind, Region, Relaxed};
 use std::ops::Range;
 
@@ -40,8 +40,7 @@ struct Ends {
 }
 
 /// A point of the strips of a region, relative to a part of the region.
-#[derive(Clone, Copy)]
-struct Met {
+struct Relative {
     /// `true` if some boxes of the part hold the point along x, and others do not.
     is_undecided: bool,
     /// The weight of the point in the most favourable case.
@@ -50,32 +49,22 @@ struct Met {
     price: f64,
 }
 
-/// The points of a region, relative to a part of the region; and the y of points.
-#[derive(Default)]
-pub(super) struct Scratch {
-    met: Vec<Met>,
-    ys: Vec<f64>,
-}
-
 impl Ends {
-    /// Returns the parts: one of the ranges is cut, or both if they are the same.
+    /// Returns the parts: each range with more than one place is cut into halves.
     fn parts(&self) -> impl Iterator<Item = Self> + use<> {
         let halves = |range: &Range<u32>| {
             let middle = range.start.midpoint(range.end);
             [range.start..middle, middle..range.end]
         };
-        let pair = |left: &Range<u32>, right: &Range<u32>| Some(Self { left: left.clone(), right: right.clone() });
-        let parts = if self.left == self.right {
-            let [low, high] = &halves(&self.left);
-            [pair(low, low), pair(low, high), pair(high, high)]
-        } else if self.left.len() > self.right.len() {
-            let [low, high] = &halves(&self.left);
-            [pair(low, &self.right), pair(high, &self.right), None]
-        } else {
-            let [low, high] = &halves(&self.right);
-            [pair(&self.left, low), pair(&self.left, high), None]
-        };
-        parts.into_iter().flatten()
+        let [lefts, rights] = [halves(&self.left), halves(&self.right)];
+        let pairs =
+            lefts.into_iter().flat_map(move |left| rights.clone().map(|right| Self { left: left.clone(), right }));
+        pairs.filter(|ends| !ends.left.is_empty() && !ends.right.is_empty() && ends.left.start <= ends.right.start)
+    }
+
+    /// Returns `true` if the two ranges have no place in common.
+    fn are_apart(&self) -> bool {
+        self.left != self.right
     }
 
     /// Returns the least and the greatest width of a box.
@@ -102,87 +91,89 @@ impl Strips {
         Width::at(if greatest > least { ((width - least) / (greatest - least)).clamp(0.0, 1.0) } else { 0.0 })
     }
 
-    /// Looks at the points relative to a part of the region.
-    fn meet(&self, ends: &Ends, plane: &Plane, met: &mut Vec<Met>) {
-        let [all, some] = ends.inside(self.kind);
-        let (inside, undecided) = match self.kind {
-            BoxKind::Open => (-1.0, 0.0),
-            BoxKind::Closed => (1.0, 1.0),
+    /// Returns the points relative to a part of the region, as a function of their places.
+    fn relative_to<'a>(&self, part: &'a Ends, plane: &'a Plane) -> impl Fn(u32) -> Relative + use<'a> {
+        let [all, some] = part.inside(self.kind);
+        // For points outside, inside and undecided.
+        let weights = match self.kind {
+            BoxKind::Open => [0.0, -1.0, 0.0],
+            BoxKind::Closed => [0.0, 1.0, 1.0],
         };
-        let are_apart = ends.left != ends.right;
-        let is_closed = self.kind == BoxKind::Closed;
-        met.clear();
-        met.extend(self.runs.iter().map(|(place, _)| {
-            let is_inside = all.contains(place);
-            let is_undecided = some.contains(place) && !is_inside;
-            let weight = if is_inside {
-                inside
-            } else if is_undecided {
-                undecided
-            } else {
-                0.0
-            };
-            let price = if is_undecided && are_apart {
-                // A closed box pays for the gap between the point and the other side.
-                let is_above = (*place < ends.left.end) == is_closed;
-                plane.price(*place, is_above)
-            } else {
-                0.0
-            };
-            Met { is_undecided, weight, price }
-        }));
+        let (are_apart, is_closed) = (part.are_apart(), self.kind == BoxKind::Closed);
+        move |place| {
+            let is_inside = all.contains(&place);
+            let is_undecided = some.contains(&place) & !is_inside;
+            let weight = weights[usize::from(is_inside) + 2 * usize::from(is_undecided)];
+            // A closed box pays for the gap between the point and the other side.
+            let is_above = (place < part.left.end) == is_closed;
+            let price = if is_undecided & are_apart { plane.price(place, is_above) } else { 0.0 };
+            Relative { is_undecided, weight, price }
+        }
     }
 
     /// Returns an upper bound on the difference of every box of a part of the region.
     ///
-    /// A simple bound takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of
-    /// each undecided point. But a closed box is wider by a gap between positions for each position whose points it
-    /// takes in, and an open box is narrower by a gap for each position whose points it leaves out. The price of a
-    /// point is the number of points that this gap would hold in a set of evenly spread points. A box of height `h`
-    /// pays `h G` at least, where `G` is the sum of the prices of undecided points between bottom and top.
+    /// The bound takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of each
+    /// undecided point. But a closed box is wider by a gap between positions for each position whose points it takes
+    /// in, and an open box is narrower by a gap for each position whose points it leaves out. The price of a point is
+    /// the number of points that this gap would hold in a set of evenly spread points. A box of height `h` pays `h G`
+    /// at least, where `G` is the sum of the prices of undecided points between bottom and top.
     ///
     /// This product is bounded from below by a sum. Let `M` be the sum of all prices, and `E` the largest of `|G - M
     /// h|` over all bottoms and tops. Then `(h - 1/2) (G - M/2) >= -E^2 / (4 M)`, and thus `h G >= G/2 + M h/2 - M/4 -
     /// E^2 / (4 M)`: the box pays half a price for each undecided point, and `M/2` for its height.
-    fn bound_of(&self, ends: &Ends, plane: &Plane, met: &[Met]) -> f64 {
-        let total: f64 = met.iter().map(|met| met.price).sum();
-        let [least, greatest] = ends.widths(plane);
-        let narrower = total / 2.0 / plane.n;
-        let (simple_width, priced_width) = match self.kind {
-            BoxKind::Open => (greatest, greatest - narrower),
-            BoxKind::Closed => (least, least + narrower),
-        };
-        let (simple_width, priced_width) = (self.width(simple_width), self.width(priced_width));
-        let (mut simple, mut priced) = (LargestSum::default(), LargestSum::default());
-        // The largest excess of `G` over `M h`, and of `M h` over `G`.
-        let (mut excess, mut lack) = (LargestSum::default(), LargestSum::default());
-        for (met, (_, run)) in met.iter().zip(&self.runs) {
-            simple.add(met.weight);
-            priced.add(met.weight - met.price / 2.0);
-            excess.add(met.price);
-            lack.add(-met.price);
-            simple.add_run(run, simple_width);
-            priced.add_run(run, priced_width);
-            excess.add(-total * run.height);
-            lack.add(total * run.height);
+    fn bound_of(&self, part: &Ends, plane: &Plane) -> f64 {
+        let relative = self.relative_to(part, plane);
+        let total = self.total_price(part, plane);
+        let [least, greatest] = part.widths(plane);
+        let paid = total / 2.0 / plane.n;
+        let width = self.width(match self.kind {
+            BoxKind::Open => greatest - paid,
+            BoxKind::Closed => least + paid,
+        });
+        let mut sum = LargestSum::default();
+        // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
+        let (mut excess, mut least, mut most) = (0.0, 0.0, 0.0);
+        for (place, run) in &self.runs {
+            let point = relative(*place);
+            sum.add(point.weight - point.price / 2.0);
+            sum.add_run(run, width);
+            excess += point.price;
+            most = larger(most, excess);
+            excess -= total * run.height;
+            least = -larger(-least, -excess);
         }
-        let excess = excess.any.max(lack.any);
+        let excess = most - least;
         let unpaid = if total > 0.0 { total / 4.0 + excess * excess / (4.0 * total) } else { 0.0 };
-        plane.difference(simple.any.min(priced.any + unpaid))
+        plane.difference(sum.any + unpaid)
+    }
+
+    /// Returns the sum of the prices of all undecided points of a part of the region.
+    fn total_price(&self, part: &Ends, plane: &Plane) -> f64 {
+        if !part.are_apart() {
+            return 0.0;
+        }
+        let [all, some] = part.inside(self.kind);
+        let is_closed = self.kind == BoxKind::Closed;
+        plane.prices(some.start..all.start, is_closed) + plane.prices(all.end..some.end, !is_closed)
     }
 
     /// Returns a part of the region.
-    fn part(&self, ends: Ends, bound: f64, plane: &Plane, met: &[Met]) -> Self {
+    fn part(&self, ends: Ends, bound: f64, plane: &Plane) -> Self {
         let widths = ends.widths(plane);
         let nodes = nodes(widths).map(|width| self.width(width));
-        let point = Some(Parts::of(Weights::of(self.kind, plane.n, 0.0).point));
-        let count = met.iter().filter(|met| met.is_undecided).count();
-        let mut runs: Vec<(u32, Run)> = Vec::with_capacity(count + 1);
-        for (met, (place, run)) in met.iter().zip(&self.runs) {
-            let run = run.at_all(nodes);
-            match runs.last_mut() {
-                Some((_, last)) if !met.is_undecided => last.append(if met.weight == 0.0 { None } else { point }, &run),
-                _ => runs.push((*place, run)),
+        let inside = Some(Parts::of(Weights::of(self.kind, plane.n, 0.0).point));
+        let mut runs: Vec<(u32, Run)> = Vec::with_capacity(self.runs.len());
+        {
+            let relative = self.relative_to(&ends, plane);
+            for (place, run) in &self.runs {
+                let point = relative(*place);
+                match runs.last_mut() {
+                    Some((_, last)) if !point.is_undecided => {
+                        last.append(if point.weight == 0.0 { None } else { inside }, run, &nodes);
+                    }
+                    _ => runs.push((*place, run.at_all(&nodes))),
+                }
             }
         }
         Self { kind: self.kind, ends, widths, runs, bound }
@@ -196,7 +187,7 @@ fn nodes([least, greatest]: [f64; 2]) -> [f64; NODES] {
 
 impl Region for Strips {
     type Points<'a> = Plane;
-    type Scratch = Scratch;
+    type Scratch = Vec<f64>;
     const TIME_TO_THE_END: f64 = 0.6;
 
     fn all(plane: &Plane) -> Vec<Self> {
@@ -223,20 +214,19 @@ impl Region for Strips {
         9 * self.runs.len()
     }
 
-    fn relax(&mut self, plane: &Plane, threshold: f64, scratch: &mut Scratch) -> Relaxed {
+    fn relax(&mut self, plane: &Plane, threshold: f64, ys: &mut Vec<f64>) -> Relaxed {
         if self.ends.left.len() > 1 || self.ends.right.len() > 1 {
             return Relaxed::Bounded;
         }
         let sides = [self.ends.left.start, self.ends.right.start];
-        plane.largest(self.kind, sides, threshold, &mut scratch.ys).map_or(Relaxed::Nothing, Relaxed::Solved)
+        plane.largest(self.kind, sides, threshold, ys).map_or(Relaxed::Nothing, Relaxed::Solved)
     }
 
-    fn split(self, plane: &Plane, threshold: f64, scratch: &mut Scratch, parts: &mut Vec<Self>) {
+    fn split(self, plane: &Plane, threshold: f64, _: &mut Vec<f64>, parts: &mut Vec<Self>) {
         for ends in self.ends.parts() {
-            self.meet(&ends, plane, &mut scratch.met);
-            let bound = self.bound_of(&ends, plane, &scratch.met).min(self.bound);
+            let bound = self.bound_of(&ends, plane).min(self.bound);
             if bound > threshold {
-                parts.push(self.part(ends, bound, plane, &scratch.met));
+                parts.push(self.part(ends, bound, plane));
             }
         }
     }

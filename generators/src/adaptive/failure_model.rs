@@ -157,9 +157,10 @@ impl FailureModel {
         let kernels = plausible(fitted, &self.seen, &self.values, KERNELS, &mut rng);
         let count = samples * KERNELS.div_ceil(samples);
         let freedom = self.seen.len() - 1;
+        let links = self.verdicts.plausible_links();
         let mut belief = |index: usize| {
             let process = Process::with_noise(&kernels[index % KERNELS], &self.seen, &self.values)?;
-            let link = self.verdicts.plausible_link(&mut rng);
+            let link = links.draw(&mut rng);
             let mut draw = || Draw {
                 values: (0..size).map(|_| normal(&mut rng)).collect(),
                 mean: normal(&mut rng),

@@ -79,6 +79,14 @@ pub(super) struct Link {
     offset: f64,
 }
 
+/// Links with their probabilities.
+pub(super) struct PlausibleLinks {
+    links: Vec<Link>,
+    /// The probability of each link, up to a common factor.
+    chances: Vec<f64>,
+    fitted: Link,
+}
+
 impl Fitter {
     pub(super) fn new(axes: &[Axis]) -> Self {
         Self { kernels: [(); 3].map(|()| prior(axes)), is_fitted: false }
@@ -112,9 +120,9 @@ impl Fitter {
 }
 
 impl Verdicts {
-    /// Draws a link with the probability that the link has after the left-out tests. The prior of the offset is
+    /// Returns the links with the probability that each has after the left-out tests. The prior of the offset is
     /// standard normal.
-    pub(super) fn plausible_link(&self, rng: &mut impl Rng) -> Link {
+    pub(super) fn plausible_links(&self) -> PlausibleLinks {
         let offset = |i: usize| MOST_OFFSET * (2.0 * i as f64 / (OFFSETS - 1) as f64 - 1.0);
         let links = slopes().flat_map(|slope| (0..OFFSETS).map(move |i| Link { slope, offset: offset(i) }));
         let links: Vec<Link> = links.collect();
@@ -123,13 +131,8 @@ impl Verdicts {
         let log = |link: &Link| share * self.left_out.likelihood(*link) - 0.5 * link.offset * link.offset;
         let logs: Vec<f64> = links.iter().map(log).collect();
         let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let chances: Vec<f64> = logs.iter().map(|log| libm::exp(log - most)).collect();
-        let mut left = rng.random::<f64>() * chances.iter().sum::<f64>();
-        let drawn = chances.iter().position(|chance| {
-            left -= chance;
-            left < 0.0
-        });
-        drawn.map_or(self.link, |drawn| links[drawn])
+        let chances = logs.iter().map(|log| libm::exp(log - most)).collect();
+        PlausibleLinks { links, chances, fitted: self.link }
     }
 
     /// Returns the probability that a test fails whose transformed robustness has the given mean and deviation.
@@ -153,6 +156,18 @@ impl Verdicts {
         self.left_out = LeftOut { values, told, weights };
         self.link = self.left_out.best_link(best_offset).1;
         self
+    }
+}
+
+impl PlausibleLinks {
+    /// Draws a link with its probability.
+    pub(super) fn draw(&self, rng: &mut impl Rng) -> Link {
+        let mut left = rng.random::<f64>() * self.chances.iter().sum::<f64>();
+        let drawn = self.chances.iter().position(|chance| {
+            left -= chance;
+            left < 0.0
+        });
+        drawn.map_or(self.fitted, |drawn| self.links[drawn])
     }
 }
 
