@@ -10,10 +10,14 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Sender};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::time::{Duration, Instant};
 
 /// The prefix of the names of worker threads. The prefix distinguishes a panic of a test from a panic of the program.
 pub const WORKER: &str = "paracosm-worker";
+
+/// The longest pause in which finished results may wait for the sink.
+const MOST_PAUSE: Duration = Duration::from_millis(5);
 
 /// Makes a thread pool with the given number of threads.
 ///
@@ -104,7 +108,12 @@ pub fn from_desk<T: Send, E>(
         drop(sender);
         let mut waiting = BTreeMap::new();
         let mut due = indices.start;
-        for (index, result) in results {
+        let begun = Instant::now();
+        let pause = |done: usize, left: usize| {
+            let rest = begun.elapsed().mul_f64(left as f64 / done.max(1) as f64);
+            if done == 0 { Duration::ZERO } else { (rest / 4).min(MOST_PAUSE) }
+        };
+        while let Some((index, result)) = receive(&results, || pause(due - indices.start, indices.end - due)) {
             waiting.insert(index, result);
             while let Some(result) = waiting.remove(&due) {
                 let Some(result) = result else { return Ok(()) };
@@ -119,10 +128,19 @@ pub fn from_desk<T: Send, E>(
     })
 }
 
+/// Waits for the next result; `None` if there are no more results. If no result is there, it sleeps for a pause before
+/// it waits. A thread that waits has to be woken for each result, which takes some hundredths of a short test; results
+/// that come during a sleep are received together.
+fn receive<T>(results: &Receiver<T>, pause: impl FnOnce() -> Duration) -> Option<T> {
+    results.try_recv().ok().or_else(|| {
+        std::thread::sleep(pause());
+        results.recv().ok()
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
 
     #[test]
     fn results_come_in_order_whatever_the_number_of_workers() {
