@@ -266,7 +266,9 @@ struct Record<'r, 'a> {
 impl Record<'_, '_> {
     fn keep(&mut self, trial: &Trial) {
         self.summary.add(trial);
-        self.trials.push(trial.clone());
+        let mut trial = trial.clone();
+        self.trials.last().into_iter().for_each(|last| trial.share_names(last));
+        self.trials.push(trial);
     }
 }
 

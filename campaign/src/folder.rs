@@ -10,11 +10,11 @@ use crate::files::write_whole;
 use crate::json::differing_key;
 use crate::scales::Learned;
 use crate::study_file::StudyFile;
-use crate::trials_file::parse_trials;
+use crate::trials_file::read_trials;
 use crate::{Catalogue, Error, Extension, Failure, Reason, Study, Trial};
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -140,10 +140,8 @@ impl Folder {
         keep_extended(path, study, extension)?;
         let mut folder = Self::open(path)?;
         let file = path.join(TRIALS);
-        let mut bytes = Vec::new();
-        folder.log.read_to_end(&mut bytes).map_err(Error::io("read", &file))?;
-        let (trials, whole) = parse_trials(&file, &bytes)?;
-        folder.log.set_len(whole as u64).map_err(Error::io("write", &file))?;
+        let (trials, whole) = read_trials(&file, &folder.log)?;
+        folder.log.set_len(whole).map_err(Error::io("write", &file))?;
         folder.log.seek(SeekFrom::End(0)).map_err(Error::io("write", &file))?;
         Ok((folder, trials))
     }

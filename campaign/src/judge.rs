@@ -22,8 +22,8 @@ pub fn judge<'r>(trial: &mut Trial, requirements: impl Iterator<Item = &'r State
         let robustness = evaluation.as_ref().map_or(f64::NAN, |evaluation| evaluation.robustness);
         let violation = (truth == Truth::Violated).then(|| Violation::of(formula, *time, trace));
         trial.judgements.push(Judgement {
-            violation: violation.flatten(),
-            ..Judgement::new(id, (truth != Truth::Undecided).then_some(robustness))
+            violation: violation.flatten().map(Box::new),
+            ..Judgement::new(id.as_str(), (truth != Truth::Undecided).then_some(robustness))
         });
         trial.verdict = match (truth, trial.verdict) {
             (Truth::Violated, _) | (_, Verdict::Fail) => Verdict::Fail,

@@ -4,10 +4,10 @@ use crate::folder::{EXTENDED, STUDY, TRIALS};
 use crate::scales::{Learned, Scales};
 use crate::study_file::StudyFile;
 use crate::test_set::TestSet;
-use crate::trials_file::parse_trials;
+use crate::trials_file::read_trials;
 use crate::{Catalogue, Error, Extension, Reason, Study, Trial};
 use paracosm_space::{Point, Space};
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -50,7 +50,7 @@ impl Log {
         let read = StudyFile::parse(&text, catalogue);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
         let log = path.join(TRIALS);
-        let (trials, _) = parse_trials(&log, &fs::read(&log).map_err(Error::io("read", &log))?)?;
+        let (trials, _) = read_trials(&log, File::open(&log).map_err(Error::io("read", &log))?)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
         Ok(Self::new(study, learned, extension, trials))
     }

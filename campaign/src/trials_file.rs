@@ -1,6 +1,7 @@
 //! Reads `trials.jsonl`, which has one trial per line.
 
 use crate::{Error, Reason, Trial};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use thiserror::Error;
 
@@ -28,20 +29,30 @@ pub enum LogFlaw {
 
 impl Reason for LogFlaw {}
 
-/// Returns the trials of a log, and the number of bytes that they take. A last line without its end is ignored.
-pub(crate) fn parse_trials(file: &Path, bytes: &[u8]) -> Result<(Vec<Trial>, usize), Error> {
-    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-    let text = std::str::from_utf8(&bytes[..whole]).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
-        Error::in_file(file, line, LogFlaw::NoText)
-    })?;
-    let parse = |(i, line): (usize, &str)| {
-        let wrong = |flaw| Error::in_file(file, i + 1, flaw);
-        if line.ends_with('\r') {
-            return Err(wrong(LogFlaw::CarriageReturn));
-        }
-        let trial: Trial = serde_json::from_str(line).map_err(|error| wrong(LogFlaw::NoTrial(error)))?;
-        if trial.index == i { Ok(trial) } else { Err(wrong(LogFlaw::Index { found: trial.index, expected: i })) }
-    };
-    Ok((text.split_terminator('\n').enumerate().map(parse).collect::<Result<_, _>>()?, whole))
+/// Reads the trials of a log line by line. Returns the trials, and the number of bytes that they take. A last line
+/// without its end is ignored.
+pub(crate) fn read_trials(file: &Path, log: impl Read) -> Result<(Vec<Trial>, u64), Error> {
+    let mut log = BufReader::new(log);
+    let (mut trials, mut whole): (Vec<Trial>, u64) = (Vec::new(), 0);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
+        let Some(text) = line.strip_suffix(b"\n") else { break };
+        let mut trial = parse(text, trials.len()).map_err(|flaw| Error::in_file(file, trials.len() + 1, flaw))?;
+        trials.last().into_iter().for_each(|last| trial.share_names(last));
+        trials.push(trial);
+        whole += line.len() as u64;
+    }
+    Ok((trials, whole))
+}
+
+/// Reads a line of a log, which should be the trial with the given index.
+fn parse(line: &[u8], index: usize) -> Result<Trial, LogFlaw> {
+    let line = std::str::from_utf8(line).map_err(|_| LogFlaw::NoText)?;
+    if line.ends_with('\r') {
+        return Err(LogFlaw::CarriageReturn);
+    }
+    let trial: Trial = serde_json::from_str(line).map_err(LogFlaw::NoTrial)?;
+    if trial.index == index { Ok(trial) } else { Err(LogFlaw::Index { found: trial.index, expected: index }) }
 }

@@ -5,6 +5,7 @@ use crate::driver::Fault;
 use crate::program::ProgramError;
 use crate::upset::Upset;
 use paracosm_oracles::{Formula, Semantics, Trace, Verdict};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// The result of a test, with its reasons.
@@ -33,7 +34,7 @@ impl Outcome {
 
     /// Returns the robustness of a requirement in its unit; `None` if the requirement was not decided.
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
-        self.judgements.iter().find(|judgement| judgement.requirement == requirement)?.robustness
+        self.judgements.iter().find(|judgement| *judgement.requirement == *requirement)?.robustness
     }
 }
 
@@ -130,16 +131,16 @@ pub enum Breakdown {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
     /// The id of the requirement.
-    pub requirement: String,
+    pub requirement: Arc<str>,
     /// The robustness in the requirement's unit; `None` if the run ended before the requirement was decided.
     pub robustness: Option<f64>,
     /// The cause of the violation, if the requirement is violated and the cause is known.
-    pub violation: Option<Violation>,
+    pub violation: Option<Box<Violation>>,
 }
 
 impl Judgement {
     /// Makes a judgement without a violation, from a requirement's id and robustness.
-    pub fn new(requirement: impl Into<String>, robustness: Option<f64>) -> Self {
+    pub fn new(requirement: impl Into<Arc<str>>, robustness: Option<f64>) -> Self {
         Self { requirement: requirement.into(), robustness, violation: None }
     }
 }

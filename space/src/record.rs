@@ -5,11 +5,12 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 /// A map from names to values that keeps the order in which the entries were given. JSON writes them as an object.
 /// Every name occurs once.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record<T>(Vec<(String, T)>);
+pub struct Record<T>(Vec<(Arc<str>, T)>);
 
 impl<T> Record<T> {
     /// The record without values.
@@ -22,16 +23,27 @@ impl<T> Record<T> {
 
     /// Returns the names with their values, in the order of the record.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
-        self.0.iter().map(|(name, value)| (name.as_str(), value))
+        self.0.iter().map(|(name, value)| (&**name, value))
     }
 
     /// Sets the value of a name in the record. A value that the name already has is replaced and keeps its place.
-    pub fn set(&mut self, name: impl Into<String>, value: impl Into<T>) {
+    pub fn set(&mut self, name: impl Into<Arc<str>>, value: impl Into<T>) {
         let (name, value) = (name.into(), value.into());
         match self.0.iter_mut().find(|(key, _)| *key == name) {
             Some(entry) => entry.1 = value,
             None => self.0.push((name, value)),
         }
+    }
+
+    /// Takes the names from another record where both have the same name at the same place. Then both share the memory
+    /// of the name. Releases memory that no value needs.
+    pub fn share_names(&mut self, other: &Self) {
+        for ((name, _), (others, _)) in self.0.iter_mut().zip(&other.0) {
+            if name == others {
+                name.clone_from(others);
+            }
+        }
+        self.0.shrink_to_fit();
     }
 }
 
@@ -41,9 +53,9 @@ impl<T> Default for Record<T> {
     }
 }
 
-impl<T> FromIterator<(String, T)> for Record<T> {
-    fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
-        Self(entries.into_iter().collect())
+impl<T, N: Into<Arc<str>>> FromIterator<(N, T)> for Record<T> {
+    fn from_iter<I: IntoIterator<Item = (N, T)>>(entries: I) -> Self {
+        Self(entries.into_iter().map(|(name, value)| (name.into(), value)).collect())
     }
 }
 
@@ -51,7 +63,7 @@ impl<T: Serialize> Serialize for Record<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
         for (name, value) in &self.0 {
-            map.serialize_entry(name, value)?;
+            map.serialize_entry(&**name, value)?;
         }
         map.end()
     }
@@ -73,7 +85,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Record<T> {
                     if record.get(&name).is_some() {
                         return Err(A::Error::custom(format!("found `{name}` twice, expected one value per name")));
                     }
-                    record.0.push((name, value));
+                    record.0.push((name.into(), value));
                 }
                 Ok(record)
             }

@@ -81,7 +81,7 @@ impl Study {
                 Domain::Interval { hi, .. } => Some(Value::Number(*hi)),
                 Domain::Choice(levels) => levels.last().cloned(),
             };
-            most.into_iter().for_each(|value| greatest.set(&parameter.name, value));
+            most.into_iter().for_each(|value| greatest.set(parameter.name.as_str(), value));
         }
         let program = simulation.program()?;
         let run = |test: &Values| Run::new(program, Test::new(test, &self.space), Setup::asking_every(simulation.dt()));

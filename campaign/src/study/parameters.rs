@@ -156,7 +156,7 @@ impl Study {
             test.set(name, value.clone());
         }
         for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {
-            test.set(&parameter.name, Declared { parameter: parameter.clone(), open: true }.nominal());
+            test.set(parameter.name.as_str(), Declared { parameter: parameter.clone(), open: true }.nominal());
         }
         Ok(test)
     }

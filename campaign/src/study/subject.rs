@@ -183,7 +183,7 @@ impl Simulation {
         for declared in declared.into_iter().flat_map(|declaration| declaration.parameters) {
             let name = &declared.parameter.name;
             if !declared.open && self.fixed.get(name).is_none() && open.parameter(name).is_err() {
-                self.fixed.set(name, declared.nominal());
+                self.fixed.set(name.as_str(), declared.nominal());
             }
         }
     }

@@ -114,11 +114,9 @@ pub(super) fn read(
             Some(Metric::Word(Some(part))) => Some(part.clone()),
             _ => None,
         };
-        judgement.violation = number(&of("critical_time")).zip(part).map(|(time, part)| Violation {
-            time,
-            travelled: number(&of("critical_travelled")),
-            speed: number(&of("critical_speed")),
-            part,
+        judgement.violation = number(&of("critical_time")).zip(part).map(|(time, part)| {
+            let (travelled, speed) = (number(&of("critical_travelled")), number(&of("critical_speed")));
+            Box::new(Violation { time, travelled, speed, part })
         });
     }
     let triggered = match metrics.get("triggered") {

@@ -306,9 +306,9 @@ impl Run {
             open |= !decided;
             let cause = || Violation::of(&requirement.formula, Semantics::Sampled, &self.trace);
             judgements.push(Judgement {
-                requirement: requirement.id.clone(),
+                requirement: requirement.id.as_str().into(),
                 robustness: decided.then_some(evaluation.robustness),
-                violation: is_violated.then(cause).flatten(),
+                violation: is_violated.then(cause).flatten().map(Box::new),
             });
         }
         let ending = if violated {

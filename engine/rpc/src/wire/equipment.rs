@@ -166,7 +166,7 @@ impl From<&super::Camera> for CameraSpec {
         // A field that is 0 was not set.
         let said = OF_LENS.iter().map(|(name, of, _)| (*name, of(camera))).filter(|(_, value)| *value != 0.0);
         said.for_each(|(name, value)| spec.lens.set(name, value));
-        camera.lens.iter().for_each(|(name, value)| spec.lens.set(name, *value));
+        camera.lens.iter().for_each(|(name, value)| spec.lens.set(name.as_str(), *value));
         spec
     }
 }
