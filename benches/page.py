@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""Writes BENCHMARKS.md: measures the working tree and an earlier commit in one run, and fills benches/page.md.
+
+    benches/page.py --before COMMIT [--rounds N]
+
+It takes more than half an hour on two cores, and the machine should do nothing else. Needs git, cargo, Linux, and Python 3.9.
+Only committed states are measured, so that the page can name them.
+"""
+
+import argparse
+import json
+import os
+import platform
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+# Scenarios, with numbers of tests. The first row is the main job; the last row shows how campaigns scale.
+CAMPAIGNS = [
+    ("pedestrian-crossing", 10_000),
+    ("follow-leader", 2_000),
+    ("cut-in", 2_500),
+    ("cut-out", 1_500),
+    ("ncap-cpna", 2_000),
+    ("grid-traffic", 30),
+    ("t-loop", 50),
+    ("pedestrian-crossing", 100_000),
+]
+MEASURES = ["dispersion", "star", "extreme", "fill", "l2-star", "centered", "wraparound", "mixture"]
+SIZES = [10, 100, 1_000, 10_000, 100_000, 1_000_000]
+BENCHES = ["speed", "coverage", "camera"]
+EXAMPLES = ["covering", "greedy", "adaptive"]
+UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+def run(command, cwd=ROOT, **options):
+    """Runs a command, and returns what it prints."""
+    print("+", *command, file=sys.stderr)
+    return subprocess.run(command, cwd=cwd, check=True, text=True, stdout=subprocess.PIPE, **options).stdout
+
+
+class Tree:
+    """A commit of the repository, with its programs."""
+
+    def __init__(self, path, target):
+        self.path, self.target = Path(path), Path(target)
+        self.commit = run(["git", "rev-parse", "--short", "HEAD"], self.path).strip()
+        self.cargo("build", "--release", "--locked", "--bins")
+
+    def cargo(self, *arguments):
+        return run(["cargo", *arguments], self.path, env={**os.environ, "CARGO_TARGET_DIR": str(self.target)})
+
+    def program(self, name):
+        return str(self.target / "release" / name)
+
+
+def cpu_seconds(pid):
+    """The CPU time of a process so far."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def campaign(tree, scenario, tests):
+    """Runs a campaign; returns the CPU seconds of its tests, the CPU seconds after them, and its memory in MB."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "out"
+        command = [tree.program("paracosm-fuzz"), scenario, "--strategy", "halton", "--budget", str(tests), "--jobs", "1"]
+        process = subprocess.Popen([*command, "--out", str(out), "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        lines, log, until_last = 0, None, None
+        while until_last is None and process.poll() is None:
+            used = cpu_seconds(process.pid)
+            if log is None and (out / "trials.jsonl").exists():
+                log = open(out / "trials.jsonl", "rb")
+            lines += log.read().count(b"\n") if log else 0
+            until_last = used if lines >= tests else None
+            time.sleep(0.01)
+        _, _, usage = os.wait4(process.pid, 0) if process.returncode is None else (0, 0, None)
+        if usage is None:
+            return None
+        total = usage.ru_utime + usage.ru_stime
+        return (total if until_last is None else until_last), (0.0 if until_last is None else total - until_last), usage.ru_maxrss / 1024
+
+
+def campaigns(trees, rounds):
+    rows = []
+    for scenario, tests in CAMPAIGNS:
+        turns = [[campaign(tree, scenario, tests) for tree in trees] for _ in range(1 if tests > 50_000 else rounds)]
+        before, now = ([turn[i] for turn in turns if turn[i]] for i in (0, 1))
+        of = lambda found, i: statistics.median(figures[i] for figures in found)
+        per_test = [1e3 * of(found, 0) / tests for found in (before, now)]
+        rows.append([f"`{scenario}`, {tests:,} tests", f"{per_test[0]:.3g} ms", f"{per_test[1]:.3g} ms",
+                     f"{1e3 / per_test[1]:,.0f}", f"{per_test[0] / per_test[1]:.2f}",
+                     f"{of(before, 1):.1f} s", f"{of(now, 1):.1f} s", f"{of(before, 2):.0f} MB", f"{of(now, 2):.0f} MB"])
+    return table(["campaign", "test, before", "test, now", "tests per core-second", "ratio", "after, before", "after, now",
+                  "memory, before", "memory, now"], rows)
+
+
+def exact_up_to(tree, measure, dims):
+    """The largest number of points for which the measure is exact within a second."""
+    largest = 0
+    for points in SIZES:
+        command = [tree.program("paracosm-cover"), "estimate", "--strategy", "halton", "--dims", str(dims)]
+        command += ["--budget", str(points), "--measures", measure, "--time-limit", "1", "--format", "json", "-q"]
+        begun = time.monotonic()
+        report = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)["continuous"]
+        # Beside the names of the parameters, the report has the measure alone: a number, or bounds.
+        found = next((value for name, value in report.items() if name != "parameters"), None)
+        if isinstance(found, dict):
+            found = found["lower"] if found["lower"] == found["upper"] else None
+        if found is None or time.monotonic() - begun > 1.0:
+            break
+        largest = points
+    return f"{largest:,}"
+
+
+def cliffs(trees):
+    rows = []
+    for measure in MEASURES:
+        for dims in (1, 2, 3):
+            rows.append([f"`{measure}`, d = {dims}", *(exact_up_to(tree, measure, dims) for tree in trees)])
+    return table(["measure", "before", "now"], rows)
+
+
+def divan(text):
+    """The medians of a benchmark's output in seconds, for one item if the benchmark counts items."""
+    medians, path, last = {}, [], None
+    for line in text.splitlines():
+        branch = re.match(r"^([│ ]*)[├╰]─ (.*)$", line)
+        if branch:
+            name = re.split(r"\s{2,}", branch[2])[0]
+            path = [*path[: len(branch[1]) // 3], name]
+            last = " ".join(path)
+        times = re.findall(r"[\d.]+ (?:ns|µs|ms|s)\b", line)
+        rates = re.findall(r"[\d.]+ [KMG]?item/s", line)
+        if branch and len(times) >= 3:
+            medians[last] = seconds(times[2])
+        elif last in medians and len(rates) >= 3:
+            del medians[last]
+            medians[f"{last}, one item"] = 1 / rate(rates[2])
+    return medians
+
+
+def seconds(text):
+    number, unit = text.split()
+    return float(number) * UNITS[unit]
+
+
+def rate(text):
+    number, unit = text.split()
+    return float(number) * {"item/s": 1.0, "Kitem/s": 1e3, "Mitem/s": 1e6, "Gitem/s": 1e9}[unit]
+
+
+def shown(time):
+    unit, size = next((u, s) for u, s in [("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)] if time >= s or u == "ns")
+    return f"{time / size:.3g} {unit}"
+
+
+def benches(trees):
+    rows = []
+    for bench in BENCHES:
+        before, now = (divan(tree.cargo("bench", "--locked", "--bench", bench)) for tree in trees)
+        for name, time in now.items():
+            old = before.get(name)
+            rows.append([f"`{bench}`: {name}", shown(old) if old else "", shown(time), f"{old / time:.2f}" if old else ""])
+    return table(["work", "before", "now", "ratio"], rows)
+
+
+def example(tree, name):
+    printed = tree.cargo("run", "--release", "--locked", "-q", "-p", "paracosm-generators", "--example", name).strip()
+    return printed if printed.startswith("|") else f"```text\n{printed}\n```"
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(cells) + " |" for cells in [heads, ["---"] * len(heads), *rows]]
+    return "\n".join(lines)
+
+
+def machine():
+    info = Path("/proc/cpuinfo").read_text()
+    model = re.search(r"model name\s*:\s*(.*)", info)
+    memory = int(re.search(r"MemTotal:\s*(\d+)", Path("/proc/meminfo").read_text())[1]) / 2**20
+    rust = run(["rustc", "--version"]).split()[1]
+    return (f"The machine has {os.cpu_count()} cores ({model[1] if model else platform.machine()}), {memory:.0f} GiB of memory, "
+            f"{platform.system()}, and Rust {rust}. The page was measured on {time.strftime('%Y-%m-%d', time.gmtime())}.")
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    arguments.add_argument("--before", required=True, metavar="COMMIT", help="the commit to compare with, such as the last release")
+    arguments.add_argument("--rounds", type=int, default=3, help="how often each campaign runs")
+    arguments = arguments.parse_args()
+    if run(["git", "status", "--porcelain", "--untracked-files=no"]).strip():
+        sys.exit("there are changes that are not committed: commit them first, so that the page can name what it measured")
+    scratch = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "page"
+    earlier = scratch / "earlier"
+    shutil.rmtree(earlier, ignore_errors=True)
+    run(["git", "worktree", "prune"])
+    run(["git", "worktree", "add", "--detach", "-f", str(earlier), arguments.before])
+    try:
+        trees = [Tree(earlier, scratch / "before"), Tree(ROOT, scratch / "now")]
+        parts = {
+            "machine": machine(),
+            "before": f"`{trees[0].commit}`",
+            "now": f"`{trees[1].commit}`",
+            "rounds": str(arguments.rounds),
+            "campaigns": campaigns(trees, arguments.rounds),
+            "cliffs": cliffs(trees),
+            "benches": benches(trees),
+            **{name: example(trees[1], name) for name in EXAMPLES},
+        }
+    finally:
+        run(["git", "worktree", "remove", "--force", str(earlier)])
+    page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], (ROOT / "benches/page.md").read_text())
+    (ROOT / "BENCHMARKS.md").write_text(page)
+
+
+if __name__ == "__main__":
+    main()
