@@ -13,10 +13,22 @@ pub(super) fn extreme_on_the_line(points: &PointSet) -> f64 {
     let n = points.len() as f64;
     let mut all: Vec<f64> = points.iter().map(|point| point[0]).collect();
     all.sort_unstable_by(f64::total_cmp);
-    let excesses = all.iter().enumerate().map(|(below, x)| (below + 1) as f64 / n - x);
-    let (least, most) =
-        excesses.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), u| (least.min(u), most.max(u)));
-    1.0 / n + (most - least)
+    let excess = |i: usize| (i + 1) as f64 / n - all[i];
+    let (mut least, mut most) = (0, 0);
+    for i in 1..all.len() {
+        if excess(i) < excess(least) {
+            least = i;
+        }
+        if excess(i) > excess(most) {
+            most = i;
+        }
+    }
+    // The difference of the interval between the two points.
+    if least <= most {
+        (most + 1 - least) as f64 / n - (all[most] - all[least])
+    } else {
+        (all[least] - all[most]) - (least - most - 1) as f64 / n
+    }
 }
 
 #[cfg(test)]
