@@ -32,7 +32,6 @@ CAMPAIGNS = [
     ("t-loop", 50),
     ("pedestrian-crossing", 100_000),
 ]
-MEASURES = ["dispersion", "star", "extreme", "fill", "l2-star", "centered", "wraparound", "mixture"]
 SIZES = [10, 100, 1_000, 10_000, 100_000, 1_000_000]
 BENCHES = ["speed", "coverage", "camera"]
 EXAMPLES = ["covering", "greedy", "adaptive"]
@@ -70,33 +69,37 @@ def campaign(tree, scenario, tests):
     """Runs a campaign; returns the CPU seconds of its tests, the CPU seconds after them, and its memory in MB."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "out"
-        command = [tree.program("paracosm-fuzz"), scenario, "--strategy", "halton", "--budget", str(tests), "--jobs", "1"]
-        process = subprocess.Popen([*command, "--out", str(out), "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        lines, log, until_last = 0, None, None
-        while until_last is None and process.poll() is None:
+        command = [tree.program("paracosm-fuzz"), scenario, "--strategy", "halton", "--budget", str(tests)]
+        command += ["--jobs", "1", "--out", str(out), "-q"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        log, lines, until_last, ended = out / "trials.jsonl", 0, None, 0
+        read = 0
+        while not ended:
             used = cpu_seconds(process.pid)
-            if log is None and (out / "trials.jsonl").exists():
-                log = open(out / "trials.jsonl", "rb")
-            lines += log.read().count(b"\n") if log else 0
-            until_last = used if lines >= tests else None
+            if until_last is None and log.exists():
+                with open(log, "rb") as file:
+                    file.seek(read)
+                    new = file.read()
+                read, lines = read + len(new), lines + new.count(b"\n")
+                until_last = used if lines >= tests else None
+            ended, _, usage = os.wait4(process.pid, os.WNOHANG)
             time.sleep(0.01)
-        _, _, usage = os.wait4(process.pid, 0) if process.returncode is None else (0, 0, None)
-        if usage is None:
-            return None
-        total = usage.ru_utime + usage.ru_stime
-        return (total if until_last is None else until_last), (0.0 if until_last is None else total - until_last), usage.ru_maxrss / 1024
+        if log.read_bytes().count(b"\n") != tests:
+            sys.exit(f"a campaign did not run all its tests: {' '.join(command)}")
+    total = usage.ru_utime + usage.ru_stime
+    until_last = total if until_last is None else until_last
+    return until_last, total - until_last, usage.ru_maxrss / 1024
 
 
 def campaigns(trees, rounds):
     rows = []
     for scenario, tests in CAMPAIGNS:
         turns = [[campaign(tree, scenario, tests) for tree in trees] for _ in range(1 if tests > 50_000 else rounds)]
-        before, now = ([turn[i] for turn in turns if turn[i]] for i in (0, 1))
-        of = lambda found, i: statistics.median(figures[i] for figures in found)
-        per_test = [1e3 * of(found, 0) / tests for found in (before, now)]
-        rows.append([f"`{scenario}`, {tests:,} tests", f"{per_test[0]:.3g} ms", f"{per_test[1]:.3g} ms",
-                     f"{1e3 / per_test[1]:,.0f}", f"{per_test[0] / per_test[1]:.2f}",
-                     f"{of(before, 1):.1f} s", f"{of(now, 1):.1f} s", f"{of(before, 2):.0f} MB", f"{of(now, 2):.0f} MB"])
+        (old_test, old_after, old_memory), (test, after, memory) = (
+            [statistics.median(turn[i][figure] for turn in turns) for figure in range(3)] for i in range(2)
+        )
+        rows.append([f"`{scenario}`, {tests:,} tests", shown(old_test / tests), shown(test / tests), f"{tests / test:,.0f}",
+                     f"{old_test / test:.2f}", shown(old_after), shown(after), f"{old_memory:.0f} MB", f"{memory:.0f} MB"])
     return table(["campaign", "test, before", "test, now", "tests per core-second", "ratio", "after, before", "after, now",
                   "memory, before", "memory, now"], rows)
 
@@ -120,8 +123,11 @@ def exact_up_to(tree, measure, dims):
 
 
 def cliffs(trees):
+    listed = json.loads(subprocess.run([trees[1].program("paracosm-fuzz"), "list", "measures", "--format", "json"],
+                                       check=True, stdout=subprocess.PIPE).stdout)["measures"]
     rows = []
-    for measure in MEASURES:
+    # Measures of k parameters need a space with discrete parameters.
+    for measure in (entry["name"] for entry in listed if not entry["name"].startswith("k-wise")):
         for dims in (1, 2, 3):
             rows.append([f"`{measure}`, d = {dims}", *(exact_up_to(tree, measure, dims) for tree in trees)])
     return table(["measure", "before", "now"], rows)

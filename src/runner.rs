@@ -266,9 +266,7 @@ struct Record<'r, 'a> {
 impl Record<'_, '_> {
     fn keep(&mut self, trial: &Trial) {
         self.summary.add(trial);
-        let mut trial = trial.clone();
-        self.trials.last().into_iter().for_each(|last| trial.share_names(last));
-        self.trials.push(trial);
+        trial.clone().append_to(&mut self.trials);
     }
 }
 

@@ -39,9 +39,8 @@ pub(crate) fn read_trials(file: &Path, log: impl Read) -> Result<(Vec<Trial>, u6
         line.clear();
         log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
         let Some(text) = line.strip_suffix(b"\n") else { break };
-        let mut trial = parse(text, trials.len()).map_err(|flaw| Error::in_file(file, trials.len() + 1, flaw))?;
-        trials.last().into_iter().for_each(|last| trial.share_names(last));
-        trials.push(trial);
+        let trial = parse(text, trials.len()).map_err(|flaw| Error::in_file(file, trials.len() + 1, flaw))?;
+        trial.append_to(&mut trials);
         whole += line.len() as u64;
     }
     Ok((trials, whole))

@@ -32,7 +32,7 @@ impl Measure {
 
 /// The largest number of combinations of coordinates for which the search takes milliseconds.
 const QUICK: f64 = 4e6;
-/// The largest number of points in the plane for which the search takes a second.
+/// The largest number of points in the plane for which the search takes a second or two.
 const QUICK_IN_THE_PLANE: usize = 10_000;
 /// The largest number of points in the plane for which the regions of strips fit into memory.
 const MOST_IN_STRIPS: usize = 500_000;
@@ -47,8 +47,7 @@ fn is_quick(dims: usize, points: usize) -> bool {
 /// Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
 /// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. In the
-/// plane the time is O(n^2) at most for evenly spread points: some second for 10,000 points. On a line it is O(n log
-/// n). The discrepancy of a set without points is 1, because the whole cube is uncovered.
+/// plane 10,000 points take about a second. On a line the time is O(n log n). The discrepancy of a set without points is 1, because the whole cube is uncovered.
 pub fn extreme_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
     if points.is_empty() {
         return Bracket::exact(1.0);

@@ -30,8 +30,11 @@ pub mod kwise;
 pub mod kwise_dispersion;
 pub mod l2;
 pub mod measure;
+mod ordered;
 mod points;
 pub mod proof;
+#[cfg(test)]
+mod samples;
 pub mod star;
 pub mod suspects;
 pub mod theory;

@@ -6,6 +6,7 @@ use std::process::Command;
 pub const FILE: &str = "tests/instructions/baseline.csv";
 
 /// The instructions of works, by their names.
+#[derive(Default)]
 pub struct Baseline {
     /// The compiler that built the works.
     pub compiler: String,
@@ -13,16 +14,16 @@ pub struct Baseline {
 }
 
 impl Baseline {
-    /// Reads the baseline.
-    pub fn read() -> Self {
-        let text = std::fs::read_to_string(FILE).unwrap_or_default();
+    /// Reads the baseline; `None` if there is no such file.
+    pub fn read() -> Option<Self> {
+        let text = std::fs::read_to_string(FILE).ok()?;
         let mut lines = text.lines();
         let compiler = lines.next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default().to_owned();
         let works = lines.skip(1).map(|line| {
             let (count, name) = line.split_once(',').expect("a number of instructions and a name");
             (name.to_owned(), count.parse().expect("a number of instructions"))
         });
-        Self { compiler, works: works.collect() }
+        Some(Self { compiler, works: works.collect() })
     }
 
     /// Returns the instructions of a work; `None` if the baseline does not have the work.

@@ -159,9 +159,16 @@ impl Trial {
         Self { ticks: trace.len() - 1, trace_hash: Some(trace.hash()), ..self }
     }
 
-    /// Takes the names of parameters and requirements from another trial where they are the same, and releases memory
-    /// that no value needs. A trial that is kept takes half of the memory then.
-    pub fn share_names(&mut self, other: &Self) {
+    /// Appends the trial to trials that are kept in memory. The trial shares the names of parameters and requirements
+    /// with the last of them, and takes no memory that no value needs.
+    pub fn append_to(mut self, kept: &mut Vec<Self>) {
+        if let Some(last) = kept.last() {
+            self.share_names(last);
+        }
+        kept.push(self);
+    }
+
+    fn share_names(&mut self, other: &Self) {
         self.test.share_names(&other.test);
         for (judgement, others) in self.judgements.iter_mut().zip(&other.judgements) {
             if judgement.requirement == others.requirement {

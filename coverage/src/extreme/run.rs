@@ -1,5 +1,6 @@
 //! Sequences of points and gaps along y, with the largest sums of the weights of their parts.
 
+use crate::ordered::greatest;
 use crate::star::BoxKind;
 
 /// The number of widths at which a run knows its parts. With two widths the straight lines between them are so far
@@ -41,7 +42,7 @@ pub(super) struct Parts {
 impl Parts {
     /// Makes the parts of a single point or a single gap.
     pub(super) fn of(weight: f64) -> Self {
-        let most = larger(weight, 0.0);
+        let most = greatest(weight, 0.0);
         Self { sum: weight, head: most, tail: most, any: most }
     }
 
@@ -49,9 +50,9 @@ impl Parts {
     fn followed_by(self, next: Self) -> Self {
         Self {
             sum: self.sum + next.sum,
-            head: larger(self.head, self.sum + next.head),
-            tail: larger(next.tail, next.sum + self.tail),
-            any: larger(larger(self.any, next.any), self.tail + next.head),
+            head: greatest(self.head, self.sum + next.head),
+            tail: greatest(next.tail, next.sum + self.tail),
+            any: greatest(greatest(self.any, next.any), self.tail + next.head),
         }
     }
 }
@@ -133,20 +134,15 @@ impl LargestSum {
     /// Adds a point or a gap with the given weight.
     #[inline(always)]
     pub(super) fn add(&mut self, weight: f64) {
-        self.tail = larger(self.tail + weight, 0.0);
-        self.any = larger(self.any, self.tail);
+        self.tail = greatest(self.tail + weight, 0.0);
+        self.any = greatest(self.any, self.tail);
     }
 
     /// Adds a run, for boxes of the given width.
     #[inline(always)]
     pub(super) fn add_run(&mut self, run: &Run, width: Width) {
         let parts = run.at(width);
-        self.any = larger(larger(self.any, parts.any), self.tail + parts.head);
-        self.tail = larger(self.tail + parts.sum, parts.tail);
+        self.any = greatest(greatest(self.any, parts.any), self.tail + parts.head);
+        self.tail = greatest(self.tail + parts.sum, parts.tail);
     }
-}
-
-/// Returns the larger of two numbers, neither of which is NaN; this is faster than `f64::max`.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

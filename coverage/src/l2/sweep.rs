@@ -100,6 +100,7 @@ fn dot<const TERMS: usize>(a: [f64; TERMS], b: [f64; TERMS]) -> f64 {
 mod tests {
     use super::*;
     use crate::l2::{Centered, Mixture, Star, Wraparound, pairs};
+    use crate::samples::{points_in_the_plane, points_on_a_line};
     use proptest::prelude::*;
 
     fn same<const TERMS: usize, K: Kernel<TERMS>>(points: &PointSet) {
@@ -110,14 +111,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_sweep_sums_what_all_pairs_sum(
-            points in prop::collection::vec(
-                prop::array::uniform2(prop_oneof![0.0..=1.0_f64, (0..=8_u8).prop_map(|eighths| f64::from(eighths) / 8.0)]),
-                1..100,
-            )
-        ) {
-            for dims in [1, 2] {
-                let points = PointSet::new(dims, points.iter().map(|point| &point[..dims])).unwrap();
+        fn the_sweep_sums_what_all_pairs_sum(line in points_on_a_line(100), plane in points_in_the_plane(100)) {
+            for points in [line, plane] {
                 same::<1, Star>(&points);
                 same::<2, Centered>(&points);
                 same::<3, Wraparound>(&points);

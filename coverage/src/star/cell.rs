@@ -1,7 +1,8 @@
 //! Cells of boxes, and upper bounds on the value of their boxes.
 
 use super::region::{BoxKind, Region, Relaxed};
-use super::sides::{Sides, above_0};
+use super::sides::Sides;
+use crate::ordered::{greatest, least};
 
 /// A point that is inside part of the boxes of a cell, and outside the remaining boxes.
 #[derive(Debug, Clone, Copy)]
@@ -96,9 +97,8 @@ impl Region for Cell {
             return Relaxed::Bounded;
         }
         let Profiled { several, again } = self.profile(sides, budget, threshold, scratch);
-        let (largest, least) = (|a, b| if a > b { a } else { b }, |a, b| if a < b { a } else { b });
         match self.kind {
-            BoxKind::Open => self.combine(sides, budget + again, scratch, f64::NEG_INFINITY, largest),
+            BoxKind::Open => self.combine(sides, budget + again, scratch, f64::NEG_INFINITY, greatest),
             BoxKind::Closed => self.combine(sides, budget, scratch, f64::INFINITY, least),
         }
         let (inside, all) = (self.inside, self.inside + self.undecided.len());
@@ -340,7 +340,7 @@ impl Cell {
             let widths: &[f64] = match profiles {
                 [below, above] => {
                     convolve(below, above, budget, widths, worst, better, |a, b| a + b);
-                    widths.iter_mut().for_each(|width| *width = above_0(*width));
+                    widths.iter_mut().for_each(|width| *width = greatest(*width, 0.0));
                     widths
                 }
                 _ => &profiles[0],

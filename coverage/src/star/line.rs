@@ -30,15 +30,13 @@ pub(super) fn star_on_the_line(points: &PointSet) -> f64 {
 mod tests {
     use super::*;
     use crate::Deadline;
+    use crate::samples::points_on_a_line;
     use crate::star::{Cell, largest_difference};
     use proptest::prelude::*;
 
     proptest! {
         #[test]
-        fn the_line_has_what_the_general_search_finds(
-            points in prop::collection::vec(prop_oneof![0.0..=1.0_f64, (0..=8_u8).prop_map(|eighths| f64::from(eighths) / 8.0)], 1..60)
-        ) {
-            let points = PointSet::new(1, points.iter().map(|x| [*x])).unwrap();
+        fn the_line_has_what_the_general_search_finds(points in points_on_a_line(60)) {
             let sides = Sides::of_anchored_boxes(&points);
             let searched = largest_difference::<Cell>(&sides, &sides, Deadline::never());
             prop_assert!(searched.is_exact());

@@ -7,6 +7,7 @@
 //! box that it drops.
 
 use crate::PointSet;
+use crate::ordered::greatest;
 
 /// A set of points, with the coordinates of the points in the directions of the free sides of boxes.
 pub(crate) struct Sides<'a> {
@@ -56,7 +57,7 @@ impl<'a> Sides<'a> {
 
     /// Returns the width of a box along an axis; 0 if the sides of the box have passed each other.
     pub(super) fn width(&self, axis: usize, positions: &[f64]) -> f64 {
-        if self.anchored { positions[axis] } else { above_0(positions[2 * axis] + positions[2 * axis + 1]) }
+        if self.anchored { positions[axis] } else { greatest(positions[2 * axis] + positions[2 * axis + 1], 0.0) }
     }
 
     /// Returns the volume of a box, which is the product of its widths in the order of the axes.
@@ -78,9 +79,4 @@ impl<'a> Sides<'a> {
     pub(crate) fn share(&self, count: usize) -> f64 {
         count as f64 / self.points.len() as f64
     }
-}
-
-/// Returns the given number, or 0 if the number is negative.
-pub(super) fn above_0(x: f64) -> f64 {
-    if x > 0.0 { x } else { 0.0 }
 }

@@ -164,22 +164,13 @@ impl<'a> Blocks<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::samples::points_in_the_plane;
     use crate::star::{Cell, largest_difference};
     use proptest::prelude::*;
 
-    /// Up to 150 points, many of which share coordinates or lie on the border.
-    fn points() -> impl Strategy<Value = Vec<[f64; 2]>> {
-        let number = prop_oneof![0.0..=1.0_f64, (0..=8_u8).prop_map(|eighths| f64::from(eighths) / 8.0)];
-        let lattice =
-            |n: u32| (0..n).map(move |i| [f64::from(i) / f64::from(n), (f64::from(i) * 0.618_033_988_749).fract()]);
-        let any = prop::collection::vec((number.clone(), number).prop_map(|(x, y)| [x, y]), 1..150);
-        prop_oneof![any, (1..150_u32).prop_map(move |n| lattice(n).collect())]
-    }
-
     proptest! {
         #[test]
-        fn the_sweep_finds_what_the_general_search_finds(points in points()) {
-            let points = PointSet::new(2, &points).unwrap();
+        fn the_sweep_finds_what_the_general_search_finds(points in points_in_the_plane(150)) {
             let sides = Sides::of_anchored_boxes(&points);
             let searched = largest_difference::<Cell>(&sides, &sides, Deadline::never());
             prop_assert!(searched.is_exact());
