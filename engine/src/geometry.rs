@@ -73,6 +73,11 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// Makes the axes of a pose from its position and the unit vector in the direction of its heading.
+    pub fn new(origin: Vector2<f64>, ahead: Vector2<f64>) -> Self {
+        Self { origin, ahead }
+    }
+
     /// Returns the unit vector in the direction of the heading.
     pub fn ahead(self) -> Vector2<f64> {
         self.ahead

@@ -219,8 +219,8 @@ impl Driving {
 
 impl Geometric for Driving {
     fn poses(&self, poses: &mut [Option<Pose>]) {
-        for (pose, car) in poses.iter_mut().zip(self.traffic.cars()) {
-            *pose = (!car.gone).then_some(car.pose);
+        for (slot, pose) in poses.iter_mut().zip(self.traffic.poses()) {
+            *slot = pose;
         }
     }
 

@@ -99,6 +99,14 @@ impl Outline {
         }
     }
 
+    /// Returns a radius in metres that is no smaller than [`Outline::reach`], without a root.
+    pub(crate) fn reach_at_most(&self) -> f64 {
+        match *self {
+            Outline::Rectangle { length, width } => 0.5 * (length + width),
+            Outline::Disc { radius } => radius,
+        }
+    }
+
     /// Returns the radius in metres of the smallest disc around the body's position that contains the outline.
     pub fn reach(&self) -> f64 {
         match self {
@@ -201,12 +209,17 @@ impl BodyState {
         Self { body, pose, velocity: Vector2::zeros(), altitude: 0.0, travelled: 0.0, present: true }
     }
 
-    /// Returns the state of the body after it moved to a pose within a tick of `dt` seconds. With `None`, it leaves the
-    /// world.
-    pub(crate) fn moved(&self, pose: Option<Pose>, dt: f64) -> Self {
+    /// Sets the state to that of the same body, `before`, after it moved to a pose within a tick of `dt` seconds. With
+    /// `None`, it leaves the world.
+    pub(crate) fn follow(&mut self, before: &Self, pose: Option<Pose>, dt: f64) {
         let present = pose.is_some();
-        let pose = pose.unwrap_or(self.pose);
-        let way = pose.position - self.pose.position;
-        Self { present, pose, velocity: way / dt, travelled: self.travelled + way.norm(), ..*self }
+        let pose = pose.unwrap_or(before.pose);
+        let way = pose.position - before.pose.position;
+        // The body itself stays the same: the states of many bodies are written at every tick.
+        self.present = present;
+        self.pose = pose;
+        self.velocity = way / dt;
+        self.travelled = before.travelled + way.norm();
+        self.altitude = before.altitude;
     }
 }

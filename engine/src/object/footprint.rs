@@ -66,7 +66,15 @@ pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
 
 /// Returns `true` if the straight line between two points crosses the area that a body covers.
 pub(crate) fn crosses((outline, pose): (&Outline, &Pose), from: Vector2<f64>, to: Vector2<f64>) -> bool {
-    // Most bodies are far from the line, which takes no sine to see. The margin is far above all rounding.
+    // Most bodies are far from the line, which takes no root or sine to see. The margins are far above all rounding.
+    let around = outline.reach_at_most() + 1e-3;
+    let beside = |axis: usize| {
+        let (at, from, to) = (pose.position[axis], from[axis], to[axis]);
+        at < from.min(to) - around || at > from.max(to) + around
+    };
+    if beside(0) || beside(1) {
+        return false;
+    }
     let (way, towards) = (to - from, pose.position - from);
     let length = way.norm_squared();
     let nearest = if length > 0.0 { way * (towards.dot(&way) / length).clamp(0.0, 1.0) } else { Vector2::zeros() };

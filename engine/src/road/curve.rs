@@ -1,7 +1,7 @@
 //! Lines and circular arcs in the ground plane, parametrised by arc length. All road geometry consists of them.
 
 use super::bounds::Bounds;
-use crate::geometry::{Pose, wrapped};
+use crate::geometry::{Frame, Pose, wrapped};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -68,6 +68,11 @@ impl Curve {
         if is_start { self.forward } else { Pose { heading, ..self.start }.forward() }
     }
 
+    /// Returns the axes of [`Curve::at`], to the last bit; on a straight line it takes no sine.
+    pub(crate) fn frame(&self, s: f64) -> Frame {
+        Frame::new(self.point(s), self.forward(s))
+    }
+
     /// Returns the position and the heading of the curve, `s` metres along the curve.
     pub fn at(&self, s: f64) -> Pose {
         Pose { position: self.point(s), heading: self.heading(s) }
@@ -102,8 +107,16 @@ impl Curve {
         }
     }
 
+    /// Returns `true` only if all points of the curve are more than `metres` metres away from a point. It takes no root
+    /// or sine, and no point of the curve is farther from its start than its length.
+    pub(crate) fn is_beyond(&self, point: Vector2<f64>, metres: f64) -> bool {
+        // The margin is far above all rounding.
+        let reach = self.length + metres + 1e-6;
+        (point - self.start.position).norm_squared() > reach * reach
+    }
+
     /// Returns the centre of the circle of an arc.
-    fn centre(&self) -> Vector2<f64> {
+    pub(crate) fn centre(&self) -> Vector2<f64> {
         self.start.position + left_of(self.forward) / self.curvature
     }
 

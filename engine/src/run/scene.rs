@@ -178,8 +178,8 @@ impl Scene {
             return Err(Upset::Condition { what, value: friction, expected: "a number from 0 on" });
         }
         self.ego.step(friction, dt)?;
-        let velocity = self.ego.velocity();
-        self.previous[0] = BodyState { velocity, ..self.bodies[0].moved(Some(self.ego.pose()), dt) };
+        self.previous[0].follow(&self.bodies[0], Some(self.ego.pose()), dt);
+        self.previous[0].velocity = self.ego.velocity();
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
@@ -191,11 +191,12 @@ impl Scene {
                     self.poses.clear();
                     self.poses.extend(self.bodies[first..end].iter().map(|body| Some(body.pose)));
                     behaviour.poses(&mut self.poses);
-                    for (index, pose) in (first..end).zip(&self.poses) {
+                    let states = self.previous[first..end].iter_mut().zip(&self.bodies[first..end]);
+                    for ((state, before), pose) in states.zip(&self.poses) {
                         if let Some(pose) = pose.filter(|pose| !pose.is_finite()) {
                             return Err(Upset::Place { object: object.name.clone(), pose });
                         }
-                        self.previous[index] = self.bodies[index].moved(*pose, dt);
+                        state.follow(before, *pose, dt);
                     }
                 }
                 Behaviour::Physical(_, behaviour) => {

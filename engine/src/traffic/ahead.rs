@@ -6,9 +6,10 @@
 
 use super::idm::safe_speed;
 use super::lists::Lists;
-use super::map::{BEFORE_ZONE, Map, Rival};
+use super::map::{BEFORE_ZONE, Facts, Map, Rival};
 use super::occupancy::{Body, Occupancy, Who};
 use super::state::{Ask, Car, Claim};
+use crate::road::LaneId;
 
 /// The gap in metres between joining cars, beyond that of the model: bends of different radii differ in length.
 const JOINING: f64 = 1.0;
@@ -31,6 +32,8 @@ pub(super) struct View<'a> {
 /// The limits of how a car may drive on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead {
+    /// The acceleration of the car in m/s² on a free road.
+    free: f64,
     /// The acceleration of the car in m/s² that the driver model demands; `following` counts only the body ahead.
     pub acceleration: f64,
     pub following: f64,
@@ -49,51 +52,55 @@ impl Ahead {
     /// Returns limits without effect, for a car that has left the network.
     pub fn nothing() -> Self {
         let (short, far) = (false, f64::INFINITY);
-        Self { acceleration: 0.0, following: 0.0, safe: far, ask: None, wall: far, short, held_up: far }
+        Self { free: 0.0, acceleration: 0.0, following: 0.0, safe: far, ask: None, wall: far, short, held_up: far }
     }
 
     /// Takes account of a body that drives `gap` metres ahead.
     fn follow(&mut self, car: &Car, gap: f64, speed: f64, dt: f64) {
-        let following = car.idm.following(car.speed, car.desired, gap, speed);
-        self.following = self.following.min(following);
-        self.acceleration = self.acceleration.min(following);
-        self.safe = self.safe.min(safe_speed(car.speed, gap, speed, car.braking, dt));
+        let following = self.free - car.idm.interaction(car.speed, gap, speed);
+        lower(&mut self.following, following);
+        lower(&mut self.acceleration, following);
+        lower(&mut self.safe, safe_speed(car.speed, gap, speed, car.braking, dt));
     }
 
     /// Lowers the limits so that the car stops within `distance` metres.
     pub fn stop(&mut self, car: &Car, distance: f64, dt: f64) {
-        let stopping = car.idm.following(car.speed, car.desired, distance + car.idm.gap, 0.0);
-        self.acceleration = self.acceleration.min(stopping);
-        self.safe = self.safe.min(safe_speed(car.speed, distance + 0.5, 0.0, car.braking, dt));
+        let stopping = self.free - car.idm.interaction(car.speed, distance + car.idm.gap, 0.0);
+        lower(&mut self.acceleration, stopping);
+        lower(&mut self.safe, safe_speed(car.speed, distance + 0.5, 0.0, car.braking, dt));
     }
 
     /// Takes account of a bend, `distance` metres ahead.
     fn bend(&mut self, car: &Car, distance: f64, speed: f64) {
         let left = (distance - car.speed * BEND.0).max(0.0);
-        let allowed = (speed * speed + 2.0 * car.deceleration() * left).sqrt();
-        self.acceleration = self.acceleration.min(((allowed - car.speed) / BEND.0).max(-BEND.1.min(car.braking)));
+        let square = speed * speed + 2.0 * car.deceleration() * left;
+        // Most bends are too far away to matter, which takes no root to see. The margin is far above all rounding.
+        let reached = car.speed + self.acceleration * BEND.0 + 1e-6;
+        if reached < 0.0 || square > reached * reached {
+            return;
+        }
+        let allowed = square.sqrt();
+        lower(&mut self.acceleration, ((allowed - car.speed) / BEND.0).max(-BEND.1.min(car.braking)));
+    }
+}
+
+/// Lowers a limit. [`f64::min`] would also care for NaN, which is not needed here.
+fn lower(limit: &mut f64, to: f64) {
+    if to < *limit {
+        *limit = to;
     }
 }
 
 impl View<'_> {
-    /// Returns the limits that everything ahead sets for a car, except the next line that it needs permission to pass.
-    pub fn ahead_of(&self, index: usize, dt: f64) -> Ahead {
+    /// Finds the limits that everything ahead sets for a car, except the next line that it needs permission to pass.
+    pub fn look_ahead(&self, index: usize, dt: f64, ahead: &mut Ahead) {
         let car = &self.cars[index];
         let free = car.idm.free(car.speed, car.desired);
-        let mut ahead = Ahead {
-            acceleration: free,
-            following: free,
-            safe: f64::INFINITY,
-            ask: None,
-            wall: f64::INFINITY,
-            short: false,
-            held_up: f64::INFINITY,
-        };
-        self.walk(index, dt, &mut ahead);
+        *ahead = Ahead { free, acceleration: free, following: free, ..Ahead::nothing() };
+        self.walk(index, dt, ahead);
         if let Some(ask) = &mut ahead.ask {
-            ask.first = ahead.held_up > ask.distance + self.cars[index].half + BEYOND_LINE;
+            ask.first = ahead.held_up > ask.distance + car.half + BEYOND_LINE;
         }
-        ahead
     }
 
     fn walk(&self, index: usize, dt: f64, ahead: &mut Ahead) {
@@ -108,16 +115,16 @@ impl View<'_> {
         let horizon = car.horizon();
         let mut base = -car.s;
         let mut alone = true;
-        for (k, &lane) in car.path.iter().enumerate() {
-            let length = self.map.length(lane);
-            let bend = self.map.speed(lane) * car.grip;
+        let path: &[LaneId] = &car.path;
+        for (k, &id) in path.iter().enumerate() {
+            let lane = self.map.lane(id);
+            let bend = lane.speed * car.grip;
             if bend < car.desired {
                 ahead.bend(car, base.max(0.0), bend);
             }
-            let rivals = self.map.rivals(lane);
-            if !rivals.is_empty() {
-                let claim = car.claim(lane, base);
-                let distance = base + self.map.line(lane) - car.half;
+            if !lane.rivals.is_empty() {
+                let claim = car.claim(id, base);
+                let distance = base + lane.line - car.half;
                 if distance > 0.0 || claim.is_none() {
                     let held = claim.is_some();
                     if ahead.ask.is_none() {
@@ -132,17 +139,17 @@ impl View<'_> {
                     }
                 }
                 if let Some(claim) = claim {
-                    self.yield_to_earlier(index, claim, rivals, (base, length), dt, ahead);
+                    self.yield_to_earlier(index, claim, lane, base, dt, ahead);
                 }
             }
-            self.sticking_out(index, k, base, dt, ahead);
+            self.sticking_out(index, lane, base, dt, ahead);
             if alone {
-                let bodies = if k == 0 { self.occupancy.ahead_of(index) } else { self.occupancy.on(lane) };
+                let bodies = if k == 0 { self.occupancy.ahead_of(index) } else { self.occupancy.on(id) };
                 alone = !self.next_body(index, bodies, base, dt, ahead);
             }
-            match car.path.get(k + 1) {
-                Some(next) if self.map.beside(lane, *next) => {
-                    let distance = base + length - 1.0 - car.half;
+            match path.get(k + 1) {
+                Some(next) if lane.is_beside(*next) => {
+                    let distance = base + lane.length - 1.0 - car.half;
                     ahead.stop(car, distance, dt);
                     ahead.wall = distance;
                     return;
@@ -153,7 +160,7 @@ impl View<'_> {
                     ahead.wall = distance;
                     return;
                 }
-                _ => base += length,
+                _ => base += lane.length,
             }
             if base > horizon {
                 return;
@@ -172,20 +179,20 @@ impl View<'_> {
                     // A body that is on the crossing already leaves it.
                     if !car.heedless && gap > -0.5 {
                         ahead.stop(car, gap, dt);
-                        ahead.held_up = ahead.held_up.min(base + body.rear);
+                        lower(&mut ahead.held_up, base + body.rear);
                     }
                 }
                 Who::Foreign { soon } => {
                     if !car.heedless && soon <= SOON {
                         ahead.follow(car, gap, body.speed, dt);
-                        ahead.held_up = ahead.held_up.min(base + body.rear);
+                        lower(&mut ahead.held_up, base + body.rear);
                         return true;
                     }
                 }
                 Who::Car(other) | Who::Leaving(other) => {
                     if other as usize != index {
                         ahead.follow(car, gap, body.speed, dt);
-                        ahead.held_up = ahead.held_up.min(base + body.rear + self.cars[other as usize].wall);
+                        lower(&mut ahead.held_up, base + body.rear + self.cars[other as usize].wall);
                         return true;
                     }
                 }
@@ -195,10 +202,9 @@ impl View<'_> {
     }
 
     /// Takes account of cars that turned off at the beginning of a lane of the path and still stick out into it.
-    fn sticking_out(&self, index: usize, k: usize, base: f64, dt: f64, ahead: &mut Ahead) {
+    fn sticking_out(&self, index: usize, lane: &Facts, base: f64, dt: f64, ahead: &mut Ahead) {
         let car = &self.cars[index];
-        let lane = car.path[k];
-        for fork in self.map.forks(lane) {
+        for fork in &lane.forks {
             if -base - car.half > fork.apart.0 {
                 continue;
             }
@@ -215,17 +221,9 @@ impl View<'_> {
     }
 
     /// Takes account of cars that may cross or join a lane before this car.
-    fn yield_to_earlier(
-        &self,
-        index: usize,
-        claim: &Claim,
-        rivals: &[Rival],
-        (base, length): (f64, f64),
-        dt: f64,
-        ahead: &mut Ahead,
-    ) {
+    fn yield_to_earlier(&self, index: usize, claim: &Claim, lane: &Facts, base: f64, dt: f64, ahead: &mut Ahead) {
         let car = &self.cars[index];
-        for rival in rivals {
+        for rival in &lane.rivals {
             for (other, theirs) in self.claims.on(rival.lane) {
                 let rear = self.cars[other].rear_on(theirs);
                 if other == index || theirs.turn >= claim.turn || rear > rival.other.1 {
@@ -233,7 +231,7 @@ impl View<'_> {
                 }
                 let to_zone = base + rival.from - BEFORE_ZONE - car.half;
                 if rival.merges {
-                    let gap = self.joining_gap(base + length - car.half, rival, rear);
+                    let gap = self.joining_gap(base + lane.length - car.half, rival, rear);
                     if gap > to_zone {
                         ahead.follow(car, gap, self.cars[other].speed, dt);
                     } else {

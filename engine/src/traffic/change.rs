@@ -46,17 +46,17 @@ impl Car {
         self.claims.retain(|claim| claim.start < front);
         self.ticket = None;
         self.stuck = 0.0;
-        self.path.pop_front();
-        if self.path.front() == Some(&to) {
+        self.path.leave(1);
+        if self.path.first() == Some(&to) {
             return;
         }
         if self.itinerary.is_free() {
-            self.path.clear();
+            self.path.truncate(0);
             self.complete = false;
         } else {
-            self.path.push_front(lane);
+            self.path.put_first(lane);
         }
-        self.path.push_front(to);
+        self.path.put_first(to);
         self.extend_path(map);
     }
 }
@@ -162,11 +162,16 @@ impl Car {
     /// Finds another way for a car that has waited too long for the lane change that its route asks for. The new way
     /// leads to the end of its lane and from there to the end of the route. If the route has no end, the way leads to
     /// the lane that the car could not reach.
+    #[inline]
     pub fn give_up_change(&mut self, dt: f64, map: &Map) {
         if self.speed > 0.1 || self.change.is_some() {
             self.stuck = 0.0;
-            return;
+        } else {
+            self.wait_for_change(dt, map);
         }
+    }
+
+    fn wait_for_change(&mut self, dt: f64, map: &Map) {
         let due = self.path.get(1).copied().filter(|next| map.beside(self.lane, *next));
         let Some(due) = due else { return };
         self.stuck += dt;
@@ -180,10 +185,10 @@ impl Car {
         let ways = ways.filter_map(|next| map.network.route(RoutePosition { lane: *next, s: 0.0 }, goal, 50.0));
         let Some(way) = ways.min_by(|a, b| a.length.total_cmp(&b.length)) else { return };
         self.complete = self.end.is_finite();
-        self.path.drain(..if self.complete { self.path.len() } else { self.path.len().min(3) });
+        self.path.leave(if self.complete { self.path.len() } else { 3 });
         for lane in way.lanes.iter().rev() {
-            self.path.push_front(*lane);
+            self.path.put_first(*lane);
         }
-        self.path.push_front(self.lane);
+        self.path.put_first(self.lane);
     }
 }

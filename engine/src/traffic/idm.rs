@@ -45,8 +45,13 @@ impl Idm {
 
     /// Returns the acceleration in m/s² of a car `gap` metres (bumper to bumper) behind a body with the speed `ahead`.
     pub fn following(&self, speed: f64, desired: f64, gap: f64, ahead: f64) -> f64 {
+        self.free(speed, desired) - self.interaction(speed, gap, ahead)
+    }
+
+    /// Returns the part of [`Idm::following`] that the body ahead takes off the acceleration on a free road, in m/s².
+    pub(super) fn interaction(&self, speed: f64, gap: f64, ahead: f64) -> f64 {
         let share = self.desired_gap(speed, ahead) / gap.max(0.1);
-        self.free(speed, desired) - self.acceleration * share * share
+        self.acceleration * share * share
     }
 
     /// Returns the desired gap s* in metres.

@@ -23,7 +23,7 @@
 use super::Traffic;
 use super::ahead::View;
 use super::lists::Lists;
-use super::map::Rival;
+use super::map::{Facts, Rival};
 use super::occupancy::Who;
 use super::state::{Ask, Car, Claim};
 use crate::road::{LaneId, LaneKind};
@@ -97,19 +97,23 @@ impl Traffic {
                 None => self.cars[index].ticket = None,
             }
         }
-        self.askers.sort_unstable_by(Asker::order);
+        let mut served = std::mem::take(&mut self.served);
+        served.clear();
+        served.extend(0..self.askers.len());
+        served.sort_unstable_by(|a, b| self.askers[*a].order(&self.askers[*b]));
         for (number, asker) in self.askers.iter().enumerate() {
-            for lane in self.cars[asker.car].path.range(asker.ask.index..=asker.passage.last) {
+            for lane in &self.cars[asker.car].path[asker.ask.index..=asker.passage.last] {
                 self.asking.add(*lane, asker.car, number);
             }
         }
-        for number in 0..self.askers.len() {
-            let asker = self.askers[number];
+        for number in &served {
+            let asker = self.askers[*number];
             if !asker.far && self.view().may_go(&asker, &self.askers, &self.asking) {
-                self.askers[number].granted = true;
+                self.askers[*number].granted = true;
                 self.grant(&asker);
             }
         }
+        self.served = served;
         for (car, ahead) in self.cars.iter_mut().zip(&mut self.ahead) {
             if let Some(ask) = ahead.ask.filter(|ask| !ask.held) {
                 if ask.distance <= car.asking_distance() {
@@ -139,7 +143,7 @@ impl Traffic {
         if ask.distance > near + car.speed * FOREWARNED {
             return;
         }
-        let passage = self.view().passage(index, &ask).filter(|_| ask.first);
+        let passage = if ask.first { self.view().passage(index, &ask) } else { None };
         let far = ask.distance > near;
         let car = &mut self.cars[index];
         let lane = car.path[ask.index];
@@ -193,25 +197,27 @@ impl View<'_> {
                 // The path is too short to decide, or the route ends here.
                 if car.complete { break } else { return None }
             };
-            let cramped = !self.map.rivals(lane).is_empty() && base + self.map.line(lane) - end < length + ROOM;
-            if cramped || self.map.is_through(lane) {
+            let lane = self.map.lane(lane);
+            let cramped = !lane.rivals.is_empty() && base + lane.line - end < length + ROOM;
+            if cramped || lane.through {
                 last = k;
-                end = base + self.map.length(lane);
+                end = base + lane.length;
             }
-            base += self.map.length(lane);
+            base += lane.length;
         }
         let sure = self.has_room(index, ask, (last, end));
         // Traffic goes round a roundabout even if it is full: only entering cars need room.
-        let goes_round = self.map.network.lane(car.path[last]).kind == LaneKind::RingAtArm;
+        let goes_round = self.map.lane(car.path[last]).kind == LaneKind::RingAtArm;
         (sure || goes_round).then_some(Passage { last, sure })
     }
 
     /// Returns `true` if there will be room for a car behind lane `last` of its path, which ends `end` metres ahead.
     fn has_room(&self, index: usize, ask: &Ask, (last, end): (usize, f64)) -> bool {
         let car = &self.cars[index];
-        let (first, last) = (car.path[ask.index], car.path[last]);
+        let path: &[LaneId] = &car.path;
+        let (first, last) = (path[ask.index], path[last]);
         let mut needed = 2.0 * car.half + ROOM;
-        for rival in self.map.rivals(last).iter().filter(|rival| rival.merges) {
+        for rival in self.map.lane(last).rivals.iter().filter(|rival| rival.merges) {
             for (other, claim) in self.claims.on(rival.lane) {
                 if other != index && self.cars[other].rear_on(claim) < self.map.length(rival.lane) {
                     needed += 2.0 * self.cars[other].half + ROOM;
@@ -219,8 +225,9 @@ impl View<'_> {
             }
         }
         let mut base = -car.s;
-        for (k, &lane) in car.path.iter().enumerate() {
-            let bodies = if k == 0 { self.occupancy.ahead_of(index) } else { self.occupancy.on(lane) };
+        for (k, &id) in path.iter().enumerate() {
+            let lane = self.map.lane(id);
+            let bodies = if k == 0 { self.occupancy.ahead_of(index) } else { self.occupancy.on(id) };
             for body in bodies {
                 let rear = base + body.rear;
                 match body.who {
@@ -250,7 +257,7 @@ impl View<'_> {
             if base < end && k >= ask.index && !self.is_parted(index, lane, base) {
                 return false;
             }
-            base += self.map.length(lane);
+            base += lane.length;
             if base > end + needed {
                 break;
             }
@@ -259,8 +266,8 @@ impl View<'_> {
     }
 
     /// Returns `true` if all cars that turned off at the start of a lane, `base` metres ahead, will surely move away.
-    fn is_parted(&self, index: usize, lane: LaneId, base: f64) -> bool {
-        self.map.forks(lane).iter().all(|fork| {
+    fn is_parted(&self, index: usize, lane: &Facts, base: f64) -> bool {
+        lane.forks.iter().all(|fork| {
             let bodies = self.occupancy.on(fork.lane).iter();
             let mut sticking_out = bodies.filter(|body| body.middle() > -base && body.rear < fork.apart.1);
             sticking_out.all(|body| body.car().is_none_or(|other| other == index || self.cars[other].is_sure()))
@@ -271,9 +278,9 @@ impl View<'_> {
     pub fn may_go(&self, asker: &Asker, askers: &[Asker], asking: &Lists<usize>) -> bool {
         let car = &self.cars[asker.car];
         let mut base = asker.ask.base;
-        for &lane in car.path.range(asker.ask.index..=asker.passage.last) {
-            let length = self.map.length(lane);
-            for rival in self.map.rivals(lane) {
+        for &lane in &car.path[asker.ask.index..=asker.passage.last] {
+            let lane = self.map.lane(lane);
+            for rival in &lane.rivals {
                 for (other, claim) in self.claims.on(rival.lane) {
                     let rear = self.cars[other].rear_on(claim);
                     if other == asker.car || rear > rival.other.1 {
@@ -281,12 +288,12 @@ impl View<'_> {
                     }
                     let speed = self.cars[other].speed;
                     let fits = if rival.merges {
-                        let gap = self.joining_gap(base + length - car.half, rival, rear);
+                        let gap = self.joining_gap(base + lane.length - car.half, rival, rear);
                         gap > 0.0 && car.idm.following(car.speed, car.desired, gap, speed) > -car.deceleration()
                     } else {
                         let arrival = time(base + rival.from - car.half, car.soon(), car.idm.acceleration);
                         let way = rival.other.1 - rear;
-                        let pace = self.cars[other].desired.min(self.map.speed(rival.lane) * car.grip).max(1.0);
+                        let pace = self.cars[other].desired.min(self.map.lane(rival.lane).speed * car.grip).max(1.0);
                         claim.sure && arrival > time(way, speed, TRUSTED.min(car.braking)).max(way / pace)
                     };
                     if !fits {
@@ -303,7 +310,7 @@ impl View<'_> {
                     }
                 }
             }
-            base += length;
+            base += lane.length;
         }
         true
     }

@@ -1,7 +1,7 @@
 //! Facts about lanes that traffic needs at every tick, computed once for each network.
 
+use super::obstacle::Lies;
 use crate::road::{Lane, LaneId, LaneKind, RoadNetwork};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The comfortable lateral acceleration in bends, in m/s².
@@ -10,6 +10,8 @@ pub(super) const LATERAL: f64 = 2.5;
 const APART: f64 = 0.75;
 /// The distance in metres between the places at which parting lanes are examined.
 const STEP: f64 = 0.25;
+/// A distance in metres far above all rounding.
+const ROUNDING: f64 = 1e-6;
 /// The metres before the lane of an intersection, and before a zone in a roundabout, where cars wait.
 const BEFORE_LINE: f64 = 0.5;
 pub(super) const BEFORE_ZONE: f64 = 1.0;
@@ -37,17 +39,22 @@ pub(super) struct Fork {
     pub apart: (f64, f64),
 }
 
+/// The facts about a lane.
 #[derive(Debug)]
-struct Facts {
-    length: f64,
-    /// The comfortable speed in m/s.
-    speed: f64,
-    /// The place where cars wait, in metres along the lane; negative if it lies before the beginning of the lane.
-    line: f64,
-    road: bool,
-    through: bool,
-    rivals: Range<u32>,
-    forks: Range<u32>,
+pub(super) struct Facts {
+    /// The length of the lane in metres.
+    pub length: f64,
+    /// The comfortable speed in m/s; infinite on a straight lane.
+    pub speed: f64,
+    /// The place where cars wait before they enter a conflict with another lane, in metres along the lane; negative if
+    /// it lies before the beginning of the lane.
+    pub line: f64,
+    pub rivals: Box<[Rival]>,
+    pub forks: Box<[Fork]>,
+    beside: [Option<LaneId>; 2],
+    pub kind: LaneKind,
+    /// `true` if cars do not stop between the previous lane and this lane, as in a wide roundabout.
+    pub through: bool,
 }
 
 /// A network, with the facts that traffic needs.
@@ -55,16 +62,22 @@ struct Facts {
 pub(super) struct Map {
     pub network: Arc<RoadNetwork>,
     lanes: Vec<Facts>,
-    rivals: Vec<Rival>,
-    forks: Vec<Fork>,
+    /// The places of the lanes in the plane, which only obstacles need.
+    lies: Vec<Lies>,
+}
+
+impl Facts {
+    /// Returns `true` if another lane runs beside this lane.
+    pub fn is_beside(&self, other: LaneId) -> bool {
+        self.beside.contains(&Some(other))
+    }
 }
 
 impl Map {
     pub fn new(network: Arc<RoadNetwork>) -> Self {
-        let (mut lanes, mut rivals, mut forks) = (Vec::with_capacity(network.lanes().len()), Vec::new(), Vec::new());
+        let mut lanes = Vec::with_capacity(network.lanes().len());
         for (id, lane) in network.ids().zip(network.lanes()) {
-            let first = (rivals.len() as u32, forks.len() as u32);
-            rivals.extend(lane.conflicts.iter().map(|conflict| {
+            let rivals = lane.conflicts.iter().map(|conflict| {
                 let other = network.lane(conflict.with);
                 let back = other.conflicts.iter().find(|back| back.with == id);
                 let back = back.expect("two lanes are in each other's way");
@@ -76,17 +89,19 @@ impl Map {
                     given_way: back.gives_way,
                     merges: lane.successors.iter().any(|next| other.successors.contains(next)),
                 }
-            }));
+            });
+            let rivals: Box<[Rival]> = rivals.collect();
+            let mut forks: Vec<Fork> = Vec::new();
             for before in &lane.predecessors {
                 for other in network.lane(*before).successors.iter().filter(|other| **other != id) {
-                    if forks[first.1 as usize..].iter().all(|fork: &Fork| fork.lane != *other) {
+                    if forks.iter().all(|fork| fork.lane != *other) {
                         let apart = (parted(&network, id, *other), parted(&network, *other, id));
                         forks.push(Fork { lane: *other, apart });
                     }
                 }
             }
             let at_its_beginning = matches!(lane.kind, LaneKind::Straight | LaneKind::Left | LaneKind::Right);
-            let zone = rivals[first.0 as usize..].iter().map(|rival| rival.from).fold(f64::INFINITY, f64::min);
+            let zone = rivals.iter().map(|rival| rival.from).fold(f64::INFINITY, f64::min);
             let road = lane.kind == LaneKind::Road;
             let wide = |lane: &Lane| lane.beside().next().is_some();
             let from_wide = lane.predecessors.iter().any(|before| wide(network.lane(*before)));
@@ -94,52 +109,37 @@ impl Map {
                 length: lane.length(),
                 speed: (LATERAL / lane.curve.curvature().abs()).sqrt(),
                 line: if at_its_beginning { -BEFORE_LINE } else { zone - BEFORE_ZONE },
-                road,
+                rivals,
+                forks: forks.into(),
+                beside: [lane.left, lane.right],
+                kind: lane.kind,
                 through: !road && (wide(lane) || from_wide),
-                rivals: first.0..rivals.len() as u32,
-                forks: first.1..forks.len() as u32,
             });
         }
-        Self { network, lanes, rivals, forks }
+        let lies = network.lanes().iter().map(Lies::of).collect();
+        Self { network, lanes, lies }
+    }
+
+    pub fn lane(&self, lane: LaneId) -> &Facts {
+        &self.lanes[lane.index()]
+    }
+
+    pub fn lies(&self, lane: LaneId) -> &Lies {
+        &self.lies[lane.index()]
     }
 
     pub fn length(&self, lane: LaneId) -> f64 {
-        self.lanes[lane.index()].length
-    }
-
-    /// Returns the comfortable speed on a lane in m/s; infinite on a straight lane.
-    pub fn speed(&self, lane: LaneId) -> f64 {
-        self.lanes[lane.index()].speed
-    }
-
-    /// Returns the place where cars wait before they enter a conflict with another lane, in metres along the lane.
-    pub fn line(&self, lane: LaneId) -> f64 {
-        self.lanes[lane.index()].line
+        self.lane(lane).length
     }
 
     /// Returns `true` if the lane runs along a road.
     pub fn is_road(&self, lane: LaneId) -> bool {
-        self.lanes[lane.index()].road
-    }
-
-    /// Returns `true` if cars do not stop between the previous lane and this lane, as in a wide roundabout.
-    pub fn is_through(&self, lane: LaneId) -> bool {
-        self.lanes[lane.index()].through
-    }
-
-    pub fn rivals(&self, lane: LaneId) -> &[Rival] {
-        let range = &self.lanes[lane.index()].rivals;
-        &self.rivals[range.start as usize..range.end as usize]
-    }
-
-    pub fn forks(&self, lane: LaneId) -> &[Fork] {
-        let range = &self.lanes[lane.index()].forks;
-        &self.forks[range.start as usize..range.end as usize]
+        self.lane(lane).kind == LaneKind::Road
     }
 
     /// Returns `true` if two lanes run side by side.
     pub fn beside(&self, lane: LaneId, other: LaneId) -> bool {
-        self.network.lane(lane).beside().any(|beside| beside == other)
+        self.lane(lane).is_beside(other)
     }
 
     /// Returns the only successor of this lane if the successor runs along a road; otherwise `None`.
@@ -170,9 +170,41 @@ fn parted(network: &RoadNetwork, lane: LaneId, other: LaneId) -> f64 {
     let (lane, other) = (network.lane(lane), network.lane(other));
     let steps = (lane.length() / STEP).ceil() as usize;
     let place = |i: usize| lane.length() * i as f64 / steps as f64;
-    let apart = |s: &f64| {
-        let point = lane.curve.point(*s);
-        (other.curve.point(other.curve.nearest(point)) - point).norm() >= APART * lane.width
-    };
-    (0..=steps).map(place).find(apart).unwrap_or(lane.length())
+    let mut i = 0;
+    while i <= steps {
+        let point = lane.curve.point(place(i));
+        let missing = APART * lane.width - (other.curve.point(other.curve.nearest(point)) - point).norm();
+        if missing <= 0.0 {
+            return place(i);
+        }
+        // Within the missing metres along the lane, the lanes cannot part. The lane's places are at most STEP apart.
+        i += (((missing - ROUNDING) / STEP) as usize).max(1);
+    }
+    lane.length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::road::{Composite, Roundabout, grid_city};
+
+    #[test]
+    fn lanes_part_at_the_first_place_of_the_grid_that_is_far_enough_away() {
+        let roundabout: Composite = Roundabout::new().lanes(2).arms(5).into();
+        for network in [grid_city(2, 2, 60.0, 2), roundabout].map(|city| city.build().unwrap()) {
+            let map = Map::new(network.clone());
+            for (id, lane) in network.ids().zip(network.lanes()) {
+                for fork in &map.lane(id).forks {
+                    let other = network.lane(fork.lane);
+                    let steps = (lane.length() / STEP).ceil() as usize;
+                    let mut places = (0..=steps).map(|i| lane.length() * i as f64 / steps as f64);
+                    let parted = places.find(|s| {
+                        let point = lane.curve.point(*s);
+                        (other.curve.point(other.curve.nearest(point)) - point).norm() >= APART * lane.width
+                    });
+                    assert_eq!(fork.apart.0, parted.unwrap_or(lane.length()));
+                }
+            }
+        }
+    }
 }

@@ -34,6 +34,7 @@ mod lists;
 mod map;
 mod obstacle;
 mod occupancy;
+mod path;
 mod state;
 
 pub use car::TrafficCar;
@@ -60,6 +61,10 @@ const THOUGHT: f64 = 1.0;
 pub struct Traffic {
     map: Map,
     cars: Vec<Car>,
+    /// Half the width of the widest car in metres.
+    half_width: f64,
+    /// The friction coefficient between tyre and road; infinite at first.
+    friction: f64,
     /// The seconds since the beginning.
     time: f64,
     /// The number of claims that were given so far.
@@ -69,6 +74,8 @@ pub struct Traffic {
     /// The limits that each car has found ahead of it.
     ahead: Vec<Ahead>,
     askers: Vec<Asker>,
+    /// The indices of the askers in the order in which they are served.
+    served: Vec<usize>,
     asking: Lists<usize>,
     /// The lanes to which a car has begun to change in this step.
     changed: Vec<LaneId>,
@@ -112,16 +119,20 @@ impl Traffic {
         let cars: Vec<TrafficCar> = cars.into_iter().map(|car| car.planned(&map)).collect();
         cars.iter().enumerate().try_for_each(|(index, car)| car.check(index, &map))?;
         let (lanes, count) = (map.network.lanes().len(), cars.len());
-        let cars = cars.iter().enumerate().map(|(index, car)| Car::new(car, index, seed)).collect();
+        let cars: Vec<Car> = cars.iter().enumerate().map(|(index, car)| Car::new(car, index, seed)).collect();
+        let half_width = cars.iter().map(|car| 0.5 * car.width).fold(0.0, f64::max);
         let mut traffic = Self {
             map,
             cars,
+            half_width,
+            friction: f64::INFINITY,
             time: 0.0,
             turns: 0,
             occupancy: Occupancy::new(lanes, count),
             claims: Lists::new(lanes, 4 * count),
-            ahead: Vec::with_capacity(count),
+            ahead: vec![Ahead::nothing(); count],
             askers: Vec::with_capacity(count),
+            served: Vec::with_capacity(count),
             asking: Lists::new(lanes, 4 * count),
             changed: Vec::with_capacity(count),
             near: Near::default(),
@@ -171,6 +182,11 @@ impl Traffic {
     /// Returns the present states of all cars, in the order in which the cars were given.
     pub fn cars(&self) -> impl ExactSizeIterator<Item = CarState> {
         (0..self.cars.len()).map(|index| self.car(index))
+    }
+
+    /// Returns the present poses of all cars; `None` for a car that has driven out of the network.
+    pub(crate) fn poses(&self) -> impl Iterator<Item = Option<Pose>> {
+        self.cars.iter().map(|car| (!car.gone).then(|| car.pose(&self.map)))
     }
 
     /// Returns the present state of the car with this index.
@@ -226,8 +242,9 @@ impl Traffic {
     /// The friction is not a number from 0 on.
     pub fn set_friction(&mut self, friction: f64) {
         assert!(friction >= 0.0, "the friction of the road is {friction}, expected a number from 0 on");
-        for car in &mut self.cars {
-            car.set_friction(friction);
+        if self.friction != friction {
+            self.friction = friction;
+            self.cars.iter_mut().for_each(|car| car.set_friction(friction));
         }
     }
 
@@ -278,9 +295,8 @@ impl Traffic {
                 bodies.push(body(from, map.across(car.s, car.lane, from), Who::Leaving(index)));
             }
         });
-        let half_width = cars.iter().map(|car| 0.5 * car.width).fold(0.0, f64::max);
         for obstacle in obstacles {
-            obstacle::place(obstacle, map, half_width, &mut self.near, self.occupancy.added());
+            obstacle::place(obstacle, map, self.half_width, &mut self.near, self.occupancy.added());
         }
         self.occupancy.sort();
         self.claims.clear();
@@ -293,15 +309,14 @@ impl Traffic {
 
     fn look_ahead(&mut self, dt: f64) {
         let mut all = std::mem::take(&mut self.ahead);
-        all.clear();
         let view = self.view();
-        all.extend(
-            (0..self.cars.len()).map(
-                |index| {
-                    if self.cars[index].gone { Ahead::nothing() } else { view.ahead_of(index, dt) }
-                },
-            ),
-        );
+        for (index, ahead) in all.iter_mut().enumerate() {
+            if self.cars[index].gone {
+                *ahead = Ahead::nothing();
+            } else {
+                view.look_ahead(index, dt, ahead);
+            }
+        }
         self.ahead = all;
     }
 
@@ -348,14 +363,15 @@ fn claim_start(car: &mut Car, map: &Map, turns: &mut u64) {
     let mut base = -car.s;
     for k in 0..car.path.len() {
         let lane = car.path[k];
-        let begins = base + map.line(lane).min(0.0);
+        let facts = map.lane(lane);
+        let begins = base + facts.line.min(0.0);
         if begins > reach {
             return;
         }
-        if !map.rivals(lane).is_empty() && base + map.line(lane) <= reach {
+        if !facts.rivals.is_empty() && base + facts.line <= reach {
             car.claims.push(Claim { lane, start: base, entry: base, turn: *turns, sure: true });
             *turns += 1;
         }
-        base += map.length(lane);
+        base += facts.length;
     }
 }

@@ -7,8 +7,8 @@
 
 use super::map::Map;
 use super::occupancy::{Body, Who};
-use crate::geometry::Pose;
-use crate::road::{Bounds, Crossing, LaneId, RoadNetwork};
+use crate::geometry::{Frame, Pose};
+use crate::road::{Bounds, Crossing, Curve, Lane, LaneId, RoadNetwork};
 use nalgebra::Vector2;
 
 /// A body for which traffic cars stop, such as the ego vehicle, a pedestrian, or an object that stands in the way.
@@ -43,6 +43,11 @@ const LONGEST_PEDESTRIAN: f64 = 2.5;
 /// The speed in m/s below which a person stands.
 const STANDING: f64 = 0.1;
 
+/// A distance in metres far above all rounding of places.
+const ROUNDING: f64 = 1e-6;
+/// The greatest radius in metres of an arc that [`Lies`] describes. On larger arcs, [`ROUNDING`] is too small.
+const LARGEST: f64 = 1e4;
+
 /// Returns half the size of an obstacle along and across a direction.
 fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
     let (sin, cos) = libm::sincos(obstacle.pose.heading - heading);
@@ -55,9 +60,88 @@ fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
 #[derive(Debug, Default)]
 pub(super) struct Near {
     lanes: Vec<LaneId>,
+    feet: Vec<Foot>,
     open: Vec<usize>,
     /// The lanes that the obstacle drives along, and their successors.
     own: Vec<LaneId>,
+}
+
+/// The place of a lane that is nearest to the middle of an obstacle.
+#[derive(Debug, Clone, Copy)]
+struct Foot {
+    /// The place in metres along the lane.
+    s: f64,
+    frame: Frame,
+    /// The middle of the obstacle as seen from the place, in metres ahead and to the left.
+    local: Vector2<f64>,
+}
+
+impl Foot {
+    fn of(point: Vector2<f64>, curve: &Curve) -> Self {
+        let s = curve.nearest(point);
+        let frame = curve.frame(s);
+        Self { s, frame, local: frame.to_local(point) }
+    }
+}
+
+/// The place of a lane in the plane, to see without a sine that an obstacle has nothing to do with the lane.
+#[derive(Debug)]
+pub(super) struct Lies {
+    start: Frame,
+    length: f64,
+    half_width: f64,
+    bend: Option<Arc>,
+}
+
+/// The parts of a lane that is an arc.
+#[derive(Debug)]
+struct Arc {
+    end: Frame,
+    centre: Vector2<f64>,
+    radius: f64,
+}
+
+impl Lies {
+    pub fn of(Lane { curve, width, .. }: &Lane) -> Self {
+        let length = curve.length();
+        let arc = || Arc { end: curve.frame(length), centre: curve.centre(), radius: 1.0 / curve.curvature().abs() };
+        Self { start: curve.frame(0.0), length, half_width: 0.5 * width, bend: (curve.curvature() != 0.0).then(arc) }
+    }
+
+    /// Returns `true` only if [`drives_along`] is false for an obstacle and [`on_lane`] returns no body. `around` is the
+    /// distance in metres from the middle of a lane at which the obstacle is in nobody's way.
+    ///
+    /// The nearest place of an arc is its start, its end, or a place between them. All three have to be out of reach.
+    fn is_out_of_reach(&self, obstacle: &Obstacle, around: f64) -> bool {
+        let beyond = around.max(self.half_width) + ROUNDING;
+        let Some(arc) = &self.bend else { return self.is_past(&self.start, 0.0, obstacle, beyond) };
+        if arc.radius > LARGEST {
+            return false;
+        }
+        let spoke = obstacle.pose.position - arc.centre;
+        let distance = spoke.norm();
+        let (inside, outward) = (arc.radius - distance, spoke.dot(&obstacle.velocity) / distance);
+        stays_beside(inside, -outward, beyond)
+            && self.is_past(&self.start, 0.0, obstacle, beyond)
+            && self.is_past(&arc.end, self.length, obstacle, beyond)
+    }
+
+    /// Returns `true` if an obstacle stays away from the lane, if its nearest place is `frame`, `s` metres along the
+    /// lane.
+    fn is_past(&self, frame: &Frame, s: f64, obstacle: &Obstacle, beyond: f64) -> bool {
+        let local = frame.to_local(obstacle.pose.position);
+        let speed = frame.turn_to_local(obstacle.velocity);
+        let (rearmost, foremost) = (FORESEEN * speed.x.min(0.0) - beyond, FORESEEN * speed.x.max(0.0) + beyond);
+        let (rear, front) = (s + local.x + rearmost, s + local.x + foremost);
+        stays_beside(local.y, speed.y, beyond) || front < 0.0 || rear > self.length
+    }
+}
+
+/// Returns `true` if an obstacle stays more than `beyond` metres away from the middle of a lane for [`FORESEEN`]
+/// seconds. It is `aside` metres away and has the speed `speed` across the lane.
+fn stays_beside(aside: f64, speed: f64, beyond: f64) -> bool {
+    let far = aside.abs() - beyond;
+    far > 0.0 && (aside * speed >= 0.0 || far > FORESEEN * speed.abs())
 }
 
 /// Adds the bodies by which an obstacle occupies the lanes of a network, for cars up to `half_width`.
@@ -66,45 +150,50 @@ pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut 
     let to = from + obstacle.velocity * FORESEEN;
     let around = 0.5 * (obstacle.length + obstacle.width) + half_width + CLEARANCE;
     let bounds = Bounds { min: from.inf(&to).add_scalar(-around), max: from.sup(&to).add_scalar(around) };
-    let Near { lanes, open, own } = near;
+    let Near { lanes, feet, open, own } = near;
     lanes.clear();
-    map.network.lanes_near(&bounds, open, |lane| lanes.push(lane));
+    map.network.lanes_near(&bounds, open, |id| {
+        if !map.lies(id).is_out_of_reach(obstacle, around) {
+            lanes.push(id);
+        }
+    });
     lanes.sort_unstable();
+    feet.clear();
+    feet.extend(lanes.iter().map(|lane| Foot::of(from, &map.network.lane(*lane).curve)));
     own.clear();
     if obstacle.length > LONGEST_PEDESTRIAN {
-        for lane in lanes.iter().filter(|lane| drives_along(obstacle, &map.network, **lane)) {
-            own.push(*lane);
-            own.extend(&map.network.lane(*lane).successors);
+        let forward = obstacle.pose.forward();
+        for (id, foot) in lanes.iter().zip(&*feet) {
+            let lane = map.network.lane(*id);
+            if drives_along(obstacle, forward, foot, lane.width) {
+                own.push(*id);
+                own.extend(&lane.successors);
+            }
         }
     }
-    for lane in &*lanes {
-        let mut rivals = map.rivals(*lane).iter().filter(|rival| own.contains(&rival.lane)).peekable();
+    for (lane, foot) in lanes.iter().zip(&*feet) {
+        let Some((soon, body)) = on_lane(obstacle, map, *lane, foot, half_width + CLEARANCE) else { continue };
+        let mut rivals = map.lane(*lane).rivals.iter().filter(|rival| own.contains(&rival.lane)).peekable();
         let waits = rivals.peek().is_some() && rivals.all(|rival| rival.given_way && !rival.gives_way);
-        let foreseen = if waits { CANNOT_WAIT } else { FORESEEN };
-        bodies.extend(on_lane(obstacle, &map.network, *lane, half_width + CLEARANCE, foreseen));
+        bodies.extend((!waits || soon <= CANNOT_WAIT).then_some(body));
     }
     for crossing in map.network.crossings() {
         on_crossing(obstacle, crossing, &map.network, bodies);
     }
 }
 
-/// Returns `true` if the obstacle faces along a lane and has its middle on the lane.
-fn drives_along(obstacle: &Obstacle, network: &RoadNetwork, lane: LaneId) -> bool {
-    let lane = network.lane(lane);
-    let at = lane.curve.at(lane.curve.nearest(obstacle.pose.position));
-    let local = at.to_local(obstacle.pose.position);
-    let along = at.forward().dot(&obstacle.pose.forward());
-    along > ALONG && local.x.abs() < 0.5 * obstacle.length && local.y.abs() < 0.5 * lane.width
+/// Returns `true` if an obstacle that faces `forward` drives along a lane and has its middle on the lane.
+fn drives_along(obstacle: &Obstacle, forward: Vector2<f64>, foot: &Foot, width: f64) -> bool {
+    let along = foot.frame.ahead().dot(&forward);
+    along > ALONG && foot.local.x.abs() < 0.5 * obstacle.length && foot.local.y.abs() < 0.5 * width
 }
 
-fn on_lane(obstacle: &Obstacle, network: &RoadNetwork, lane: LaneId, clear: f64, foreseen: f64) -> Option<Body> {
-    let curve = &network.lane(lane).curve;
-    let nearest = curve.nearest(obstacle.pose.position);
-    let at = curve.at(nearest);
-    let local = at.to_local(obstacle.pose.position);
-    let forward = at.forward();
+/// Returns the body by which an obstacle occupies a lane, and the seconds until it does; `None` if it does not.
+fn on_lane(obstacle: &Obstacle, map: &Map, lane: LaneId, foot: &Foot, clear: f64) -> Option<(f64, Body)> {
+    let (forward, local) = (foot.frame.ahead(), foot.local);
     let (along_speed, aside_speed) = (forward.dot(&obstacle.velocity), forward.perp(&obstacle.velocity));
-    let (along, across) = extents(obstacle, at.heading);
+    let curve = &map.network.lane(lane).curve;
+    let (along, across) = extents(obstacle, curve.heading(foot.s));
     let missing = local.y.abs() - across - clear;
     let soon = if missing <= 0.0 {
         0.0
@@ -113,15 +202,10 @@ fn on_lane(obstacle: &Obstacle, network: &RoadNetwork, lane: LaneId, clear: f64,
     } else {
         return None;
     };
-    let middle = nearest + local.x + along_speed * soon;
+    let middle = foot.s + local.x + along_speed * soon;
     let (rear, front) = (middle - along, middle + along);
-    (soon <= foreseen && front > 0.0 && rear < curve.length()).then_some(Body {
-        lane,
-        rear,
-        front,
-        speed: along_speed,
-        who: Who::Foreign { soon },
-    })
+    let body = Body { lane, rear, front, speed: along_speed, who: Who::Foreign { soon } };
+    (soon <= FORESEEN && front > 0.0 && rear < curve.length()).then_some((soon, body))
 }
 
 fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &RoadNetwork, bodies: &mut Vec<Body>) {
@@ -153,5 +237,47 @@ fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &RoadNetwork, 
             bodies.push(Body { lane, rear: s - half - BEFORE_ZEBRA, front: s + half, speed: 0.0, who: Who::Zebra });
         }
         edge += width;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::road::{Composite, Roundabout, grid_city};
+    use proptest::prelude::*;
+    use std::sync::LazyLock;
+
+    static MAPS: LazyLock<[Map; 2]> = LazyLock::new(|| {
+        let roundabout: Composite = Roundabout::new().lanes(2).arms(4).into();
+        [grid_city(2, 2, 60.0, 2), roundabout].map(|city| Map::new(city.build().unwrap()))
+    });
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+        #[test]
+        fn a_lane_out_of_reach_of_an_obstacle_has_no_body_of_it(
+            at in prop::array::uniform2(-100.0..160.0), heading in -3.1..3.1, speed in 0.0..20.0, turned in -0.5..0.5,
+            size in (0.3..12.0, 0.3..2.5), clear in 0.4..1.5, map in 0..2_usize
+        ) {
+            let (map, pose) = (&MAPS[map], Pose { position: at.into(), heading });
+            let velocity = Pose { heading: heading + turned, ..pose }.forward() * speed;
+            let obstacle = Obstacle { pose, length: size.0, width: size.1, velocity };
+            let around = 0.5 * (obstacle.length + obstacle.width) + clear;
+            for (id, lane) in map.network.ids().zip(map.network.lanes()) {
+                let foot = Foot::of(pose.position, &lane.curve);
+                let matters = drives_along(&obstacle, pose.forward(), &foot, lane.width)
+                    || on_lane(&obstacle, map, id, &foot, clear).is_some();
+                prop_assert!(!matters || !map.lies(id).is_out_of_reach(&obstacle, around), "{id:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn most_lanes_near_an_obstacle_are_out_of_its_reach() {
+        let map = &MAPS[0];
+        let pose = map.network.on_lane("street 0,0 east", 1, 10.0).unwrap();
+        let obstacle = Obstacle { pose, length: 4.5, width: 1.8, velocity: pose.forward() * 10.0 };
+        let reached = map.network.ids().filter(|id| !map.lies(*id).is_out_of_reach(&obstacle, 4.4)).count();
+        assert!(reached > 0 && 2 * reached < map.network.lanes().len(), "{reached}");
     }
 }

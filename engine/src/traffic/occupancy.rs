@@ -53,8 +53,10 @@ pub(super) struct Occupancy {
     ranges: Vec<(u32, u32)>,
     /// The lanes with bodies.
     used: Vec<LaneId>,
-    /// The index in `bodies` of each car, and of its second body while it changes lanes.
-    ranks: Vec<[u32; 2]>,
+    /// The index in `bodies` of each car.
+    ranks: Vec<u32>,
+    /// The index in `bodies` of the second body of each car that changes lanes.
+    old_ranks: Vec<u32>,
     /// The order of cars in `bodies`.
     order: Vec<u32>,
     /// The bodies that have to be sorted.
@@ -67,7 +69,8 @@ impl Occupancy {
             bodies: Vec::with_capacity(3 * cars),
             ranges: vec![(0, 0); lanes],
             used: Vec::with_capacity(3 * cars),
-            ranks: vec![[u32::MAX; 2]; cars],
+            ranks: vec![u32::MAX; cars],
+            old_ranks: vec![u32::MAX; cars],
             order: (0..cars as u32).collect(),
             unsorted: Vec::with_capacity(3 * cars),
         }
@@ -105,8 +108,11 @@ impl Occupancy {
             *range = (begin, begin);
             begin += count;
         }
-        self.bodies.clear();
-        self.bodies.extend_from_slice(&self.unsorted);
+        match self.unsorted.first() {
+            // Every body is overwritten.
+            Some(any) => self.bodies.resize(self.unsorted.len(), *any),
+            None => self.bodies.clear(),
+        }
         for body in &self.unsorted {
             let (begin, end) = &mut self.ranges[body.lane.index()];
             let mut at = *end as usize;
@@ -119,18 +125,15 @@ impl Occupancy {
             *end += 1;
         }
         self.order.clear();
+        self.old_ranks.fill(u32::MAX);
         for (rank, body) in self.bodies.iter().enumerate() {
             match body.who {
                 Who::Car(car) => {
-                    self.ranks[car as usize] = [rank as u32, u32::MAX];
+                    self.ranks[car as usize] = rank as u32;
                     self.order.push(car);
                 }
-                Who::Leaving(_) | Who::Foreign { .. } | Who::Zebra => {}
-            }
-        }
-        for (rank, body) in self.bodies.iter().enumerate() {
-            if let Who::Leaving(car) = body.who {
-                self.ranks[car as usize][1] = rank as u32;
+                Who::Leaving(car) => self.old_ranks[car as usize] = rank as u32,
+                Who::Foreign { .. } | Who::Zebra => {}
             }
         }
     }
@@ -142,20 +145,21 @@ impl Occupancy {
     }
 
     /// Returns the bodies ahead of a car on its lane.
+    #[inline]
     pub fn ahead_of(&self, car: usize) -> &[Body] {
-        self.beyond(self.ranks[car][0])
+        self.beyond(self.ranks[car])
     }
 
     /// Returns the bodies behind a car on its lane; the last body is next to the car.
     pub fn behind(&self, car: usize) -> &[Body] {
-        let rank = self.ranks[car][0] as usize;
+        let rank = self.ranks[car] as usize;
         let (begin, _) = self.ranges[self.bodies[rank].lane.index()];
         &self.bodies[begin as usize..rank]
     }
 
     /// Returns the bodies ahead of a car on the lane that it is leaving.
     pub fn ahead_on_old_lane(&self, car: usize) -> &[Body] {
-        match self.ranks[car][1] {
+        match self.old_ranks[car] {
             u32::MAX => &[],
             rank => self.beyond(rank),
         }

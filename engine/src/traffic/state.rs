@@ -3,10 +3,10 @@
 use super::car::{Itinerary, TrafficCar};
 use super::idm::{Idm, hardest_braking};
 use super::map::{LATERAL, Map};
+use super::path::LanesAhead;
 use crate::geometry::wrapped;
 use crate::geometry::{Pose, Side};
 use crate::road::LaneId;
-use std::collections::VecDeque;
 
 /// The speed in m/s up to which a lane change takes the same distance. Above, it takes its given duration.
 pub(super) const WALKING: f64 = 5.0;
@@ -81,8 +81,7 @@ pub(super) struct Car {
     pub speed: f64,
     pub acceleration: f64,
     pub travelled: f64,
-    /// The lane of the car and the next lanes of its way. Each is a successor of the previous lane, or its neighbour.
-    pub path: VecDeque<LaneId>,
+    pub path: LanesAhead,
     /// `true` if the path holds all lanes of the car's way.
     pub complete: bool,
     /// `true` if the car has driven out of the network.
@@ -102,8 +101,6 @@ pub(super) struct Car {
 impl Car {
     pub fn new(car: &TrafficCar, index: usize, seed: u64) -> Self {
         let (itinerary, end) = Itinerary::of(car, index, seed);
-        let mut path = VecDeque::with_capacity(64);
-        path.push_back(car.start.lane);
         Self {
             half: 0.5 * car.length,
             width: car.width,
@@ -122,7 +119,7 @@ impl Car {
             speed: car.speed,
             acceleration: 0.0,
             travelled: 0.0,
-            path,
+            path: LanesAhead::new(car.start.lane),
             complete: false,
             gone: false,
             claims: Vec::with_capacity(16),
@@ -181,7 +178,7 @@ impl Car {
             }
             match self.itinerary.next(last, &map.network) {
                 Some(lane) => {
-                    self.path.push_back(lane);
+                    self.path.push(lane);
                     ahead += map.length(lane);
                 }
                 None => self.complete = true,
@@ -230,16 +227,17 @@ impl Car {
             let next = self.path.get(1).filter(|next| !map.beside(self.lane, **next));
             let Some(&next) = next else { break };
             self.s -= map.length(self.lane);
-            self.path.pop_front();
+            self.path.leave(1);
             self.lane = next;
             if let Some(change) = &mut self.change {
                 let lane = map.network.lane(next);
                 change.from = if change.side == Side::Left { lane.right } else { lane.left };
             }
         }
-        if !self.claims.is_empty() {
-            let rear = self.travelled - self.half;
-            self.claims.retain(|claim| rear - claim.start <= map.length(claim.lane));
+        let rear = self.travelled - self.half;
+        let left = |claim: &Claim| rear - claim.start > map.length(claim.lane);
+        if self.claims.iter().any(left) {
+            self.claims.retain(|claim| !left(claim));
         }
         if self.lane != before {
             self.extend_path(map);

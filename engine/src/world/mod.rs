@@ -79,10 +79,18 @@ impl World {
     /// present. If both touch or overlap, it returns [`TOUCH`], and the contact gives the details.
     pub fn clearance(&self, bodies: &[BodyState]) -> f64 {
         let Some((car, others)) = bodies.split_first() else { return f64::INFINITY };
-        let mut nearest = f64::INFINITY;
-        for other in others.iter().filter(|other| other.present) {
-            // Most worlds have one other body, whose reach does not matter.
-            if nearest == f64::INFINITY || apart(car, other) < nearest {
+        let square = |other: &BodyState| (car.pose.position - other.pose.position).norm_squared();
+        let present = || others.iter().enumerate().filter(|(_, other)| other.present);
+        let squares = present().map(|(index, other)| (square(other), index));
+        // The body whose middle is nearest comes first: then most others are too far away, which takes no root to see.
+        let Some((_, first)) = squares.reduce(|least, next| if next.0 < least.0 { next } else { least }) else {
+            return f64::INFINITY;
+        };
+        let reach = car.body.outline.reach_at_most();
+        let mut nearest = distance(car, &others[first]);
+        for (index, other) in present() {
+            let reach = nearest + reach + other.body.outline.reach_at_most();
+            if square(other) <= reach * reach && index != first {
                 nearest = nearest.min(distance(car, other));
             }
         }
@@ -170,11 +178,6 @@ pub(crate) fn overlapping(bodies: &[BodyState]) -> Option<(usize, usize)> {
         let reach = a.body.outline.reach() + b.body.outline.reach();
         (a.pose.position - b.pose.position).norm() <= reach && distance(a, b) <= 0.0
     })
-}
-
-/// Returns the distance in metres between the discs that enclose two bodies: a lower bound on their distance.
-fn apart(a: &BodyState, b: &BodyState) -> f64 {
-    (a.pose.position - b.pose.position).norm() - a.body.outline.reach() - b.body.outline.reach()
 }
 
 /// Returns the distance in metres between two bodies, seen from above.

@@ -54,7 +54,8 @@ impl Physics {
             let (at, ahead) = (body.translation(), body.rotation() * parry3d::math::Vector::X);
             let heading = libm::atan2(f64::from(ahead.y), f64::from(ahead.x));
             let position = Vector2::new(f64::from(at.x), f64::from(at.y));
-            *state = state.moved(Some(Pose { position, heading }), dt);
+            let before = *state;
+            state.follow(&before, Some(Pose { position, heading }), dt);
             state.altitude = f64::from(at.z) - solid.middle;
         }
     }

@@ -43,6 +43,9 @@ pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 
 /// Returns the metres of a body along a lane; negative on a lane that leads to the given lane, `None` elsewhere.
 fn along(other: &BodyState, lane: LaneId, network: &RoadNetwork) -> Option<f64> {
     let on = |lane: LaneId| {
+        if network.lane(lane).curve.is_beyond(other.pose.position, ON_LANE.0) {
+            return None;
+        }
         let seen = network.project_onto(lane, other.pose.position);
         let turned = wrapped(other.pose.heading - seen.heading).abs();
         (seen.distance <= ON_LANE.0 && turned <= ON_LANE.1).then_some(seen.s)
