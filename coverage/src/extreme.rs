@@ -4,6 +4,7 @@
 //! Any dimension is searched by the search for the star discrepancy (`star`), with two free sides per axis. In the
 //! plane the search cuts other regions, which are far fewer (`strips`). On a line there is a formula (`line`).
 
+mod bounds;
 mod line;
 mod plane;
 mod run;

@@ -58,9 +58,9 @@ impl Plane {
         (self.positions[right as usize] - self.positions[left as usize]).max(0.0)
     }
 
-    /// Returns the price of a point for the gap below or above the position at `place`.
-    pub(super) fn price(&self, place: u32, is_above: bool) -> f64 {
-        self.prices[place as usize][usize::from(is_above)]
+    /// Returns the prices of a point for the gap below and for the gap above the position at `place`.
+    pub(super) fn prices_at(&self, place: u32) -> [f64; 2] {
+        self.prices[place as usize]
     }
 
     /// Returns the sum of the prices of the points at a range of places.

@@ -30,13 +30,13 @@ impl Weights {
 /// sums are not negative.
 #[derive(Clone, Copy)]
 pub(super) struct Parts {
-    sum: f64,
+    pub(super) sum: f64,
     /// The largest sum of a part at the start.
-    head: f64,
+    pub(super) head: f64,
     /// The largest sum of a part at the end.
-    tail: f64,
+    pub(super) tail: f64,
     /// The largest sum of any part.
-    any: f64,
+    pub(super) any: f64,
 }
 
 impl Parts {
@@ -66,7 +66,7 @@ pub(super) struct Run {
     /// The sum of the gaps.
     pub(super) height: f64,
     /// The parts at evenly spaced widths, from the least to the greatest width.
-    parts: [Parts; NODES],
+    pub(super) parts: [Parts; NODES],
 }
 
 impl Run {
@@ -119,30 +119,12 @@ impl Width {
         let node = (steps as usize).min(NODES - 2);
         Self { node, share: steps - node as f64 }
     }
-}
 
-/// The largest sum of weights of a part of a sequence of points, gaps and runs, while the sequence grows (Kadane's
-/// algorithm; Bentley, Programming Pearls, Communications of the ACM 27, 1984).
-#[derive(Default)]
-pub(super) struct LargestSum {
-    tail: f64,
-    /// The largest sum so far.
-    pub(super) any: f64,
-}
-
-impl LargestSum {
-    /// Adds a point or a gap with the given weight.
-    #[inline(always)]
-    pub(super) fn add(&mut self, weight: f64) {
-        self.tail = greatest(self.tail + weight, 0.0);
-        self.any = greatest(self.any, self.tail);
-    }
-
-    /// Adds a run, for boxes of the given width.
-    #[inline(always)]
-    pub(super) fn add_run(&mut self, run: &Run, width: Width) {
-        let parts = run.at(width);
-        self.any = greatest(greatest(self.any, parts.any), self.tail + parts.head);
-        self.tail = greatest(self.tail + parts.sum, parts.tail);
+    /// Returns the weights of the widths at which a run knows its parts, in the straight line to this width.
+    pub(super) fn weights(self) -> [f64; NODES] {
+        let mut weights = [0.0; NODES];
+        weights[self.node] = 1.0 - self.share;
+        weights[self.node + 1] = self.share;
+        weights
     }
 }

@@ -13,42 +13,32 @@
 //! and a pair that is looked at alone takes O(n). For evenly spread points few pairs are: twice as many Halton points
 //! take some five times as long.
 
+use super::bounds::bounds;
 use super::plane::Plane;
-use super::run::{LargestSum, NODES, Parts, Run, Weights, Width};
-use crate::ordered::{greatest, least};
+use super::run::{NODES, Parts, Run, Weights, Width};
 use crate::star::{BoxKind, Region, Relaxed};
 use std::ops::Range;
 
 /// The boxes of one kind whose left side is in one strip, and whose right side is in another strip.
 pub(super) struct Strips {
-    kind: BoxKind,
+    pub(super) kind: BoxKind,
     ends: Ends,
     /// The least and the greatest width of a box.
     widths: [f64; 2],
     /// The points of the strips in the order of y, by the places of their x, with the run above each point. The first
     /// run has no point; its place is [`NO_POINT`].
-    runs: Vec<(u32, Run)>,
+    pub(super) runs: Vec<(u32, Run)>,
     bound: f64,
 }
 
 /// The place of a point that does not exist, which is in no strip.
-const NO_POINT: u32 = u32::MAX;
+pub(super) const NO_POINT: u32 = u32::MAX;
 
 /// The places of the positions that the left sides and the right sides of boxes may take. The two ranges are the same
 /// or have no place in common.
-struct Ends {
-    left: Range<u32>,
+pub(super) struct Ends {
+    pub(super) left: Range<u32>,
     right: Range<u32>,
-}
-
-/// A point of the strips of a region, relative to a part of the region.
-struct Relative {
-    /// `true` if some boxes of the part hold the point along x, and others do not.
-    is_undecided: bool,
-    /// The weight of the point in the most favourable case.
-    weight: f64,
-    /// The price of the point, which is 0 if the point is decided.
-    price: f64,
 }
 
 impl Ends {
@@ -65,18 +55,18 @@ impl Ends {
     }
 
     /// Returns `true` if the two ranges have no place in common.
-    fn are_apart(&self) -> bool {
+    pub(super) fn are_apart(&self) -> bool {
         self.left != self.right
     }
 
     /// Returns the least and the greatest width of a box.
-    fn widths(&self, plane: &Plane) -> [f64; 2] {
+    pub(super) fn widths(&self, plane: &Plane) -> [f64; 2] {
         [plane.width(self.left.end - 1, self.right.start), plane.width(self.left.start, self.right.end - 1)]
     }
 
     /// Returns the places of the points that are inside all boxes along x, and the places of the points that are
     /// inside some boxes.
-    fn inside(&self, kind: BoxKind) -> [Range<u32>; 2] {
+    pub(super) fn inside(&self, kind: BoxKind) -> [Range<u32>; 2] {
         // Open boxes leave out the points on their faces.
         let face = u32::from(kind == BoxKind::Open);
         [
@@ -88,79 +78,10 @@ impl Ends {
 
 impl Strips {
     /// Returns a width as its share of the way from the least to the greatest width of a box.
-    fn width(&self, width: f64) -> Width {
+    pub(super) fn width(&self, width: f64) -> Width {
         let [narrowest, widest] = self.widths;
         let share = if widest > narrowest { (width - narrowest) / (widest - narrowest) } else { 0.0 };
         Width::at(share.clamp(0.0, 1.0))
-    }
-
-    /// Returns the points relative to a part of the region, as a function of their places.
-    fn relative_to<'a>(&self, part: &Ends, plane: &'a Plane) -> impl Fn(u32) -> Relative + use<'a> {
-        let [all, some] = part.inside(self.kind);
-        // For points outside, inside and undecided.
-        let weights = match self.kind {
-            BoxKind::Open => [0.0, -1.0, 0.0],
-            BoxKind::Closed => [0.0, 1.0, 1.0],
-        };
-        let (are_apart, is_closed) = (part.are_apart(), self.kind == BoxKind::Closed);
-        let middle = part.left.end;
-        move |place| {
-            let is_inside = all.contains(&place);
-            let is_undecided = some.contains(&place) & !is_inside;
-            let weight = weights[usize::from(is_inside) + 2 * usize::from(is_undecided)];
-            // A closed box pays for the gap between the point and the other side.
-            let is_above = (place < middle) == is_closed;
-            let price = if is_undecided & are_apart { plane.price(place, is_above) } else { 0.0 };
-            Relative { is_undecided, weight, price }
-        }
-    }
-
-    /// Returns an upper bound on the difference of every box of a part of the region.
-    ///
-    /// The bound takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of each
-    /// undecided point. But a closed box is wider by a gap between positions for each position whose points it takes
-    /// in, and an open box is narrower by a gap for each position whose points it leaves out. The price of a point is
-    /// the number of points that this gap would hold in a set of evenly spread points. A box of height `h` pays `h G`
-    /// at least, where `G` is the sum of the prices of undecided points between bottom and top.
-    ///
-    /// This product is bounded from below by a sum. Let `M` be the sum of all prices, and `E` the largest of `|G - M
-    /// h|` over all bottoms and tops. Then `(h - 1/2) (G - M/2) >= -E^2 / (4 M)`, and thus `h G >= G/2 + M h/2 - M/4 -
-    /// E^2 / (4 M)`: the box pays half a price for each undecided point, and `M/2` for its height. This holds for any
-    /// `M`, and therefore for a rounded sum, too.
-    fn bound_of(&self, part: &Ends, plane: &Plane) -> f64 {
-        let relative = self.relative_to(part, plane);
-        let total = self.total_price(part, plane);
-        let [narrowest, widest] = part.widths(plane);
-        let paid = total / 2.0 / plane.n;
-        let width = self.width(match self.kind {
-            BoxKind::Open => widest - paid,
-            BoxKind::Closed => narrowest + paid,
-        });
-        let mut sum = LargestSum::default();
-        // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
-        let (mut excess, mut lowest, mut highest) = (0.0, 0.0, 0.0);
-        for (place, run) in &self.runs {
-            let point = relative(*place);
-            sum.add(point.weight - point.price / 2.0);
-            sum.add_run(run, width);
-            excess += point.price;
-            highest = greatest(highest, excess);
-            excess -= total * run.height;
-            lowest = least(lowest, excess);
-        }
-        let range = highest - lowest;
-        let unpaid = if total > 0.0 { total / 4.0 + range * range / (4.0 * total) } else { 0.0 };
-        plane.difference(sum.any + unpaid)
-    }
-
-    /// Returns the sum of the prices of all undecided points of a part of the region.
-    fn total_price(&self, part: &Ends, plane: &Plane) -> f64 {
-        if !part.are_apart() {
-            return 0.0;
-        }
-        let [all, some] = part.inside(self.kind);
-        let is_closed = self.kind == BoxKind::Closed;
-        plane.prices(some.start..all.start, is_closed) + plane.prices(all.end..some.end, !is_closed)
     }
 
     /// Returns a part of the region.
@@ -168,14 +89,14 @@ impl Strips {
         let widths = ends.widths(plane);
         let nodes = nodes(widths).map(|width| self.width(width));
         let inside = Some(Parts::of(Weights::of(self.kind, plane.n, 0.0).point));
-        let relative = self.relative_to(&ends, plane);
+        let [all, some] = ends.inside(self.kind);
         // About half of the points stay undecided.
         let mut runs: Vec<(u32, Run)> = Vec::with_capacity(self.runs.len() / 2 + 1);
         for (place, run) in &self.runs {
-            let point = relative(*place);
+            let is_inside = all.contains(place);
             match runs.last_mut() {
-                Some((_, last)) if !point.is_undecided => {
-                    last.append(if point.weight == 0.0 { None } else { inside }, run, &nodes);
+                Some((_, last)) if is_inside || !some.contains(place) => {
+                    last.append(if is_inside { inside } else { None }, run, &nodes);
                 }
                 _ => runs.push((*place, run.at_all(&nodes))),
             }
@@ -227,8 +148,10 @@ impl Region for Strips {
     }
 
     fn split(self, plane: &Plane, threshold: f64, _: &mut Vec<f64>, parts: &mut Vec<Self>) {
-        for ends in self.ends.parts() {
-            let bound = self.bound_of(&ends, plane).min(self.bound);
+        let ends: Vec<Ends> = self.ends.parts().collect();
+        let bounds = bounds(&self, &ends, plane);
+        for (ends, bound) in ends.into_iter().zip(bounds) {
+            let bound = bound.min(self.bound);
             if bound > threshold {
                 parts.push(self.part(ends, bound, plane));
             }

@@ -1,0 +1,121 @@
+//! Upper bounds on the differences of the boxes of all parts of a region, in one pass over its runs.
+//!
+//! The bound of a part takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of
+//! each undecided point. But a closed box is wider by a gap between positions for each position whose points it takes
+//! in, and an open box is narrower by a gap for each position whose points it leaves out. The price of a point is the
+//! number of points that this gap would hold in a set of evenly spread points. A box of height `h` pays `h G` at least,
+//! where `G` is the sum of the prices of undecided points between bottom and top.
+//!
+//! This product is bounded from below by a sum. Let `M` be the sum of all prices, and `E` the largest of `|G - M h|`
+//! over all bottoms and tops. Then `(h - 1/2) (G - M/2) >= -E^2 / (4 M)`, and thus `h G >= G/2 + M h/2 - M/4 - E^2 / (4
+//! M)`: the box pays half a price for each undecided point, and `M/2` for its height. This holds for any `M`, and
+//! therefore for a rounded sum, too.
+//!
+//! Most of the time of the search is spent here. The largest sum of weights is that of Kadane's algorithm (Bentley,
+//! Programming Pearls, Communications of the ACM 27, 1984). Each of its steps waits for the step before, so that the
+//! steps of all parts are taken side by side.
+
+use super::plane::Plane;
+use super::run::{NODES, Parts};
+use super::strips::{Ends, NO_POINT, Strips};
+use crate::ordered::{greatest, least};
+use crate::star::BoxKind;
+use std::ops::Range;
+
+/// The greatest number of parts of a region.
+pub(super) const PARTS: usize = 4;
+
+/// A number for each part of a region.
+type Lanes = [f64; PARTS];
+
+/// Returns the numbers that a function gives for the parts.
+#[inline(always)]
+fn lanes(of: impl FnMut(usize) -> f64) -> Lanes {
+    std::array::from_fn(of)
+}
+
+/// The places of the points that some boxes of a part hold along x, and of the points that all boxes hold. The numbers
+/// are of the same type as the weights, so that all parts are compared at once.
+struct Inside {
+    some: [Lanes; 2],
+    all: [Lanes; 2],
+    /// The place from which on a point is on the right.
+    middle: Lanes,
+    /// 1 for a part whose undecided points have a price, or 0.
+    priced: Lanes,
+}
+
+impl Inside {
+    fn of<'a>(kind: BoxKind, part: impl Fn(usize) -> &'a Ends) -> Self {
+        let place = |of: fn([Range<u32>; 2]) -> u32| lanes(|lane| f64::from(of(part(lane).inside(kind))));
+        Self {
+            some: [place(|[_, some]| some.start), place(|[_, some]| some.end)],
+            all: [place(|[all, _]| all.start), place(|[all, _]| all.end)],
+            middle: lanes(|lane| f64::from(part(lane).left.end)),
+            priced: lanes(|lane| f64::from(u8::from(part(lane).are_apart()))),
+        }
+    }
+}
+
+/// Returns an upper bound on the difference of every box of each part of a region, and fills up with repetitions of the
+/// last bound.
+///
+/// # Panics
+/// There is no part.
+pub(super) fn bounds(region: &Strips, parts: &[Ends], plane: &Plane) -> Lanes {
+    let kind = region.kind;
+    let is_closed = kind == BoxKind::Closed;
+    let part = |lane: usize| &parts[lane.min(parts.len() - 1)];
+    let inside = Inside::of(kind, part);
+    let totals = lanes(|lane| total_price(kind, part(lane), plane));
+    let widths: [_; PARTS] = std::array::from_fn(|lane| {
+        let [narrowest, widest] = part(lane).widths(plane);
+        let paid = totals[lane] / 2.0 / plane.n;
+        region.width(if is_closed { narrowest + paid } else { widest - paid }).weights()
+    });
+    let widths: [Lanes; NODES] = std::array::from_fn(|node| lanes(|lane| widths[lane][node]));
+    let [mut tail, mut any] = [[0.0; PARTS]; 2];
+    // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
+    let [mut excess, mut lowest, mut highest] = [[0.0; PARTS]; 3];
+    for (place, run) in &region.runs {
+        let [below, above] = if *place == NO_POINT { [0.0; 2] } else { plane.prices_at(*place) };
+        // A closed box pays for the gap between the point and the other side.
+        let [on_left, on_right] = if is_closed { [above, below] } else { [below, above] };
+        let place = f64::from(*place);
+        let parts = |of: fn(&Parts) -> f64| {
+            lanes(|lane| (0..NODES).map(|node| of(&run.parts[node]) * widths[node][lane]).sum())
+        };
+        let (sums, heads) = (parts(|parts| parts.sum), parts(|parts| parts.head));
+        let (tails, largest) = (parts(|parts| parts.tail), parts(|parts| parts.any));
+        for lane in 0..PARTS {
+            let some = (inside.some[0][lane] <= place) & (place < inside.some[1][lane]);
+            let all = (inside.all[0][lane] <= place) & (place < inside.all[1][lane]);
+            let held = if is_closed { some } else { all };
+            let weight = if held { 1.0 } else { 0.0 } * if is_closed { 1.0 } else { -1.0 };
+            let price = if place < inside.middle[lane] { on_left } else { on_right };
+            let price = if some & !all { price } else { 0.0 } * inside.priced[lane];
+            let at_point = greatest(tail[lane] + (weight - price / 2.0), 0.0);
+            any[lane] = greatest(greatest(any[lane], at_point), greatest(largest[lane], at_point + heads[lane]));
+            tail[lane] = greatest(at_point + sums[lane], tails[lane]);
+            excess[lane] += price;
+            highest[lane] = greatest(highest[lane], excess[lane]);
+            excess[lane] -= totals[lane] * run.height;
+            lowest[lane] = least(lowest[lane], excess[lane]);
+        }
+    }
+    lanes(|lane| {
+        let (total, range) = (totals[lane], highest[lane] - lowest[lane]);
+        let unpaid = if total > 0.0 { total / 4.0 + range * range / (4.0 * total) } else { 0.0 };
+        plane.difference(any[lane] + unpaid)
+    })
+}
+
+/// Returns the sum of the prices of all undecided points of a part of a region.
+fn total_price(kind: BoxKind, part: &Ends, plane: &Plane) -> f64 {
+    if !part.are_apart() {
+        return 0.0;
+    }
+    let [all, some] = part.inside(kind);
+    let is_closed = kind == BoxKind::Closed;
+    plane.prices(some.start..all.start, is_closed) + plane.prices(all.end..some.end, !is_closed)
+}
