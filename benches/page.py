@@ -55,6 +55,11 @@ class Tree:
     def cargo(self, *arguments):
         return run(["cargo", *arguments], self.path, env={**os.environ, "CARGO_TARGET_DIR": str(self.target)})
 
+    def has_bench(self, name):
+        packages = json.loads(self.cargo("metadata", "--no-deps", "--format-version", "1", "--locked"))["packages"]
+        root = next(package for package in packages if Path(package["manifest_path"]).parent == self.path.resolve())
+        return any(target["name"] == name and "bench" in target["kind"] for target in root["targets"])
+
     def program(self, name):
         return str(self.target / "release" / name)
 
@@ -82,8 +87,10 @@ def campaign(tree, scenario, tests):
                     new = file.read()
                 read, lines = read + len(new), lines + new.count(b"\n")
                 until_last = used if lines >= tests else None
-            ended, _, usage = os.wait4(process.pid, os.WNOHANG)
+            ended, status, usage = os.wait4(process.pid, os.WNOHANG)
             time.sleep(0.01)
+        if status != 0:
+            sys.exit(f"a campaign ended with an error: {' '.join(command)}")
         if log.read_bytes().count(b"\n") != tests:
             sys.exit(f"a campaign did not run all its tests: {' '.join(command)}")
     total = usage.ru_utime + usage.ru_stime
@@ -105,13 +112,19 @@ def campaigns(trees, rounds):
 
 
 def exact_up_to(tree, measure, dims):
-    """The largest number of points for which the measure is exact within a second."""
+    """The largest number of points for which the measure is exact within a second; a dash without such a measure."""
     largest = 0
     for points in SIZES:
         command = [tree.program("paracosm-cover"), "estimate", "--strategy", "halton", "--dims", str(dims)]
-        command += ["--budget", str(points), "--measures", measure, "--time-limit", "1", "--format", "json", "-q"]
+        command += ["--budget", str(points), "--measures", measure.replace("-", "_"), "--time-limit", "1", "--format", "json", "-q"]
+        # Both commits read names with underscores; earlier commits read no others.
         begun = time.monotonic()
-        report = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)["continuous"]
+        estimate = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if estimate.returncode != 0 and "no measure is called" in estimate.stderr:
+            return "–"
+        if estimate.returncode != 0:
+            sys.exit(f"{' '.join(command)}: {estimate.stderr}")
+        report = json.loads(estimate.stdout)["continuous"]
         # Beside the names of the parameters, the report has the measure alone: a number, or bounds.
         found = next((value for name, value in report.items() if name != "parameters"), None)
         if isinstance(found, dict):
@@ -163,14 +176,16 @@ def rate(text):
 
 
 def shown(time):
-    unit, size = next((u, s) for u, s in [("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)] if time >= s or u == "ns")
-    return f"{time / size:.3g} {unit}"
+    rounded = float(f"{time:.3g}")
+    unit, size = next((u, s) for u, s in [("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)] if rounded >= s or u == "ns")
+    number = float(f"{time / size:.3g}")
+    return f"{number:,.0f} {unit}" if number >= 100 else f"{number:g} {unit}"
 
 
 def benches(trees):
     rows = []
     for bench in BENCHES:
-        before, now = (divan(tree.cargo("bench", "--locked", "--bench", bench)) for tree in trees)
+        before, now = (divan(tree.cargo("bench", "--locked", "--bench", bench)) if tree.has_bench(bench) else {} for tree in trees)
         for name, time in now.items():
             old = before.get(name)
             rows.append([f"`{bench}`: {name}", shown(old) if old else "", shown(time), f"{old / time:.2f}" if old else ""])
@@ -215,11 +230,17 @@ def main():
             "before": f"`{trees[0].commit}`",
             "now": f"`{trees[1].commit}`",
             "rounds": str(arguments.rounds),
-            "campaigns": campaigns(trees, arguments.rounds),
-            "cliffs": cliffs(trees),
-            "benches": benches(trees),
-            **{name: example(trees[1], name) for name in EXAMPLES},
         }
+        measured = {
+            "campaigns": lambda: campaigns(trees, arguments.rounds),
+            "cliffs": lambda: cliffs(trees),
+            "benches": lambda: benches(trees),
+            **{name: lambda name=name: example(trees[1], name) for name in EXAMPLES},
+        }
+        for part, measure in measured.items():
+            # A later part may fail. The parts so far are kept for whoever looks for the reason.
+            parts[part] = measure()
+            (scratch / "parts.json").write_text(json.dumps(parts, indent=1))
     finally:
         run(["git", "worktree", "remove", "--force", str(earlier)])
     page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], (ROOT / "benches/page.md").read_text())

@@ -122,13 +122,13 @@ impl FailureEstimate {
         if failures == 0 || failures == judged.len() {
             return Ok(None);
         }
-        let tests = judged.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?;
         // The verdict determines the sign, even if rounding gave the robustness another sign.
         let robustness = judged.iter().map(|trial| {
             let size = log.scales().objective(trial).map_or(1.0, f64::abs);
             if trial.is_failure() { -size } else { size }
         });
-        let Some(model) = FailureModel::fit(study.space(), &tests, &robustness.collect::<Vec<_>>()) else {
+        let robustness: Vec<f64> = robustness.collect();
+        let Some(model) = FailureModel::fit(study.space(), &points(study, &judged)?, &robustness) else {
             return Ok(None);
         };
         let (others, samples) = others(study)?;
@@ -227,13 +227,21 @@ pub fn decided(share: &FailingShare) -> Option<bool> {
         .find_map(|(is, what)| is.then_some(what))
 }
 
+/// Returns the tests of trials as points of the study's space.
+fn points(study: &Study, trials: &[&Trial]) -> Result<Vec<Point>, Error> {
+    Ok(trials.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?)
+}
+
 /// Returns the tests of the groups, each with the probability that its world can be built.
 fn weighed(study: &Study, trials: &[Trial], groups: Vec<Vec<Point>>) -> Result<Vec<Vec<(Point, f64)>>, Error> {
-    let built: Vec<&Trial> = trials.iter().filter(|trial| trial.verdict != Verdict::Error).collect();
-    let tests = built.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?;
-    let sides: Vec<f64> =
-        built.iter().map(|trial| if trial.verdict == Verdict::Invalid { -1.0 } else { 1.0 }).collect();
-    let model = if sides.contains(&-1.0) { FailureModel::fit(study.space(), &tests, &sides) } else { None };
+    let model = if trials.iter().any(|trial| trial.verdict == Verdict::Invalid) {
+        let built: Vec<&Trial> = trials.iter().filter(|trial| trial.verdict != Verdict::Error).collect();
+        let side = |trial: &&Trial| if trial.verdict == Verdict::Invalid { -1.0 } else { 1.0 };
+        let sides: Vec<f64> = built.iter().map(side).collect();
+        FailureModel::fit(study.space(), &points(study, &built)?, &sides)
+    } else {
+        None
+    };
     let weigh = |group: Vec<Point>| {
         let invalid = model.as_ref().map_or_else(|| vec![0.0; group.len()], |model| model.probabilities(&group));
         group.into_iter().zip(invalid).map(|(test, invalid)| (test, 1.0 - invalid)).collect()

@@ -148,6 +148,8 @@ impl<'a> Campaign<'a> {
         let mut steering = Steering::new(study, self.extension.take().map(|(_, points)| points).unwrap_or_default())?;
         observers.iter_mut().try_for_each(|observer| observer.begun())?;
         let mut expected = Expected::of(study, &self.known);
+        // Known trials are handed over batch by batch. The observers copy the trials that they need.
+        let mut known = std::mem::take(&mut self.known).into_iter();
         let mut done = 0;
         let mut finish = Finish::Budget;
         while done < budget {
@@ -158,15 +160,13 @@ impl<'a> Campaign<'a> {
                 break;
             }
             let tests: Vec<Values> = points.iter().map(|point| study.space().decode(point)).collect();
-            let known = self.known.get(done..).unwrap_or_default();
-            if let Some((trial, _)) = known.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
+            let mut trials: Vec<Trial> = known.by_ref().take(tests.len()).collect();
+            if let Some((trial, _)) = trials.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
                 return Err(foreign(trial));
             }
-            let mut trials: Vec<Trial> = Vec::with_capacity(tests.len());
-            for trial in known.iter().take(tests.len()) {
-                trials.push(trial.clone());
+            for (at, trial) in trials.iter().enumerate() {
                 if all(&mut observers, |observer| observer.known(trial))?.is_break() {
-                    if let Some(trial) = known.get(trials.len()) {
+                    if let Some(trial) = trials.get(at + 1).or(known.as_slice().first()) {
                         return Err(foreign(trial));
                     }
                     observers.iter_mut().try_for_each(|observer| observer.ended())?;
@@ -190,8 +190,8 @@ impl<'a> Campaign<'a> {
             }
             done += points.len();
         }
-        if let Some(trial) = self.known.get(done) {
-            return Err(foreign(trial));
+        if let Some(trial) = known.next() {
+            return Err(foreign(&trial));
         }
         observers.iter_mut().try_for_each(|observer| observer.ended())?;
         Ok(finish)

@@ -48,7 +48,8 @@ fn is_quick(dims: usize, points: usize) -> bool {
 /// Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
 /// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. In the
-/// plane 10,000 points take about a second. On a line the time is O(n log n). The discrepancy of a set without points is 1, because the whole cube is uncovered.
+/// plane 10,000 points take about a second. On a line the time is O(n log n). The discrepancy of a set without points
+/// is 1, because the whole cube is uncovered.
 pub fn extreme_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
     if points.is_empty() {
         return Bracket::exact(1.0);

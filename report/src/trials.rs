@@ -20,8 +20,8 @@ impl Artefact for TrialTable<'_> {
 
 fn csv(log: &Log) -> Vec<u8> {
     let (study, trials) = (log.study(), log.trials());
-    let measured: Vec<Vec<(String, Metric)>> = trials.iter().map(Trial::metrics).collect();
-    let metrics = each_once(measured.iter().flatten().map(|(name, _)| name.as_str()));
+    // The metrics of all trials at once would take more memory than the trials.
+    let metrics = each_once(trials.iter().flat_map(Trial::metrics).map(|(name, _)| name));
     let stated = study.requirements().iter().map(|requirement| requirement.id.as_str());
     let ids = each_once(stated.chain(trials.iter().flat_map(Trial::requirements)));
     let mut csv = csv::Writer::from_writer(Vec::new());
@@ -32,8 +32,8 @@ fn csv(log: &Log) -> Vec<u8> {
     let header = header.chain(["ticks", "trace_hash", "error"].map(str::to_owned));
     let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
     write(header.collect());
-    for (trial, measured) in trials.iter().zip(&measured) {
-        let measured: BTreeMap<&str, &Metric> = measured.iter().map(|(name, metric)| (name.as_str(), metric)).collect();
+    for trial in trials {
+        let measured: BTreeMap<String, Metric> = trial.metrics().into_iter().collect();
         let mut row = vec![trial.index.to_string()];
         row.extend(trial.test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string));
         row.push(trial.verdict.to_string());
@@ -48,7 +48,7 @@ fn csv(log: &Log) -> Vec<u8> {
 }
 
 /// Returns the names without repetitions, in the order of their first occurrence.
-fn each_once<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+fn each_once<N: PartialEq>(names: impl Iterator<Item = N>) -> Vec<N> {
     let mut once = Vec::new();
     for name in names {
         if !once.contains(&name) {

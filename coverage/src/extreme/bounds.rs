@@ -1,8 +1,8 @@
 //! Upper bounds on the differences of the boxes of all parts of a region, in one pass over its runs.
 //!
 //! The bound of a part takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of
-//! each undecided point. But a closed box is wider by a gap between positions for each position whose points it takes
-//! in, and an open box is narrower by a gap for each position whose points it leaves out. The price of a point is the
+//! each undecided point. But a closed box that takes in the points at a position is wider by a gap between positions. An
+//! open box that leaves out the points at a position is narrower by a gap. The price of a point is the
 //! number of points that this gap would hold in a set of evenly spread points. A box of height `h` pays `h G` at least,
 //! where `G` is the sum of the prices of undecided points between bottom and top.
 //!
@@ -12,8 +12,8 @@
 //! therefore for a rounded sum, too.
 //!
 //! Most of the time of the search is spent here. The largest sum of weights is that of Kadane's algorithm (Bentley,
-//! Programming Pearls, Communications of the ACM 27, 1984). Each of its steps waits for the step before, so that the
-//! steps of all parts are taken side by side.
+//! Programming Pearls, Communications of the ACM 27, 1984). Each step waits for the step before. Therefore the loop
+//! takes one step for all parts at a time.
 
 use super::plane::Plane;
 use super::run::{NODES, Parts};
@@ -26,33 +26,33 @@ use std::ops::Range;
 pub(super) const PARTS: usize = 4;
 
 /// A number for each part of a region.
-type Lanes = [f64; PARTS];
+type PerPart = [f64; PARTS];
 
 /// Returns the numbers that a function gives for the parts.
 #[inline(always)]
-fn lanes(of: impl FnMut(usize) -> f64) -> Lanes {
+fn per_part(of: impl FnMut(usize) -> f64) -> PerPart {
     std::array::from_fn(of)
 }
 
 /// The places of the points that some boxes of a part hold along x, and of the points that all boxes hold. The numbers
 /// are of the same type as the weights, so that all parts are compared at once.
 struct Inside {
-    some: [Lanes; 2],
-    all: [Lanes; 2],
+    some: [PerPart; 2],
+    all: [PerPart; 2],
     /// The place from which on a point is on the right.
-    middle: Lanes,
+    middle: PerPart,
     /// 1 for a part whose undecided points have a price, or 0.
-    priced: Lanes,
+    priced: PerPart,
 }
 
 impl Inside {
     fn of<'a>(kind: BoxKind, part: impl Fn(usize) -> &'a Ends) -> Self {
-        let place = |of: fn([Range<u32>; 2]) -> u32| lanes(|lane| f64::from(of(part(lane).inside(kind))));
+        let place = |of: fn([Range<u32>; 2]) -> u32| per_part(|at| f64::from(of(part(at).inside(kind))));
         Self {
             some: [place(|[_, some]| some.start), place(|[_, some]| some.end)],
             all: [place(|[all, _]| all.start), place(|[all, _]| all.end)],
-            middle: lanes(|lane| f64::from(part(lane).left.end)),
-            priced: lanes(|lane| f64::from(u8::from(part(lane).are_apart()))),
+            middle: per_part(|at| f64::from(part(at).left.end)),
+            priced: per_part(|at| f64::from(u8::from(part(at).are_apart()))),
         }
     }
 }
@@ -62,18 +62,19 @@ impl Inside {
 ///
 /// # Panics
 /// There is no part.
-pub(super) fn bounds(region: &Strips, parts: &[Ends], plane: &Plane) -> Lanes {
+pub(super) fn bounds(region: &Strips, parts: &[Ends], plane: &Plane) -> PerPart {
     let kind = region.kind;
     let is_closed = kind == BoxKind::Closed;
-    let part = |lane: usize| &parts[lane.min(parts.len() - 1)];
+    let sign = if is_closed { 1.0 } else { -1.0 };
+    let part = |at: usize| &parts[at.min(parts.len() - 1)];
     let inside = Inside::of(kind, part);
-    let totals = lanes(|lane| total_price(kind, part(lane), plane));
-    let widths: [_; PARTS] = std::array::from_fn(|lane| {
-        let [narrowest, widest] = part(lane).widths(plane);
-        let paid = totals[lane] / 2.0 / plane.n;
+    let totals = per_part(|at| total_price(kind, part(at), plane));
+    let widths: [_; PARTS] = std::array::from_fn(|at| {
+        let [narrowest, widest] = part(at).widths(plane);
+        let paid = totals[at] / 2.0 / plane.n;
         region.width(if is_closed { narrowest + paid } else { widest - paid }).weights()
     });
-    let widths: [Lanes; NODES] = std::array::from_fn(|node| lanes(|lane| widths[lane][node]));
+    let widths: [PerPart; NODES] = std::array::from_fn(|node| per_part(|at| widths[at][node]));
     let [mut tail, mut any] = [[0.0; PARTS]; 2];
     // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
     let [mut excess, mut lowest, mut highest] = [[0.0; PARTS]; 3];
@@ -82,31 +83,30 @@ pub(super) fn bounds(region: &Strips, parts: &[Ends], plane: &Plane) -> Lanes {
         // A closed box pays for the gap between the point and the other side.
         let [on_left, on_right] = if is_closed { [above, below] } else { [below, above] };
         let place = f64::from(*place);
-        let parts = |of: fn(&Parts) -> f64| {
-            lanes(|lane| (0..NODES).map(|node| of(&run.parts[node]) * widths[node][lane]).sum())
-        };
+        let parts =
+            |of: fn(&Parts) -> f64| per_part(|at| (0..NODES).map(|node| of(&run.parts[node]) * widths[node][at]).sum());
         let (sums, heads) = (parts(|parts| parts.sum), parts(|parts| parts.head));
         let (tails, largest) = (parts(|parts| parts.tail), parts(|parts| parts.any));
-        for lane in 0..PARTS {
-            let some = (inside.some[0][lane] <= place) & (place < inside.some[1][lane]);
-            let all = (inside.all[0][lane] <= place) & (place < inside.all[1][lane]);
+        for at in 0..PARTS {
+            let some = (inside.some[0][at] <= place) & (place < inside.some[1][at]);
+            let all = (inside.all[0][at] <= place) & (place < inside.all[1][at]);
             let held = if is_closed { some } else { all };
-            let weight = if held { 1.0 } else { 0.0 } * if is_closed { 1.0 } else { -1.0 };
-            let price = if place < inside.middle[lane] { on_left } else { on_right };
-            let price = if some & !all { price } else { 0.0 } * inside.priced[lane];
-            let at_point = greatest(tail[lane] + (weight - price / 2.0), 0.0);
-            any[lane] = greatest(greatest(any[lane], at_point), greatest(largest[lane], at_point + heads[lane]));
-            tail[lane] = greatest(at_point + sums[lane], tails[lane]);
-            excess[lane] += price;
-            highest[lane] = greatest(highest[lane], excess[lane]);
-            excess[lane] -= totals[lane] * run.height;
-            lowest[lane] = least(lowest[lane], excess[lane]);
+            let weight = (if held { 1.0 } else { 0.0 }) * sign;
+            let price = if place < inside.middle[at] { on_left } else { on_right };
+            let price = (if some & !all { price } else { 0.0 }) * inside.priced[at];
+            let at_point = greatest(tail[at] + (weight - price / 2.0), 0.0);
+            any[at] = greatest(greatest(any[at], at_point), greatest(largest[at], at_point + heads[at]));
+            tail[at] = greatest(at_point + sums[at], tails[at]);
+            excess[at] += price;
+            highest[at] = greatest(highest[at], excess[at]);
+            excess[at] -= totals[at] * run.height;
+            lowest[at] = least(lowest[at], excess[at]);
         }
     }
-    lanes(|lane| {
-        let (total, range) = (totals[lane], highest[lane] - lowest[lane]);
+    per_part(|at| {
+        let (total, range) = (totals[at], highest[at] - lowest[at]);
         let unpaid = if total > 0.0 { total / 4.0 + range * range / (4.0 * total) } else { 0.0 };
-        plane.difference(any[lane] + unpaid)
+        plane.difference(any[at] + unpaid)
     })
 }
 

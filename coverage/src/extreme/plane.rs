@@ -47,8 +47,9 @@ impl Plane {
             let [below, above] = prices_below[prices_below.len() - 1];
             prices_below.push([below + prices[0] * count, above + prices[1] * count]);
         }
-        // A sum adds each point and each gap once or twice, and straight lines between two values at each cut of a
-        // region. No number is beyond n, so that each operation is rounded by half an ulp of n at most.
+        // A sum adds each point and each gap once or twice. Each of these additions is rounded by half an ulp of n at
+        // most, because no number is beyond n. At each cut and for each bound, a run is weighed between values at other
+        // widths. The rounding of these weighted means is relative to the run, and all runs together are 2 n at most.
         let rounding = 8.0 * (n + 100.0) * n * f64::EPSILON;
         Self { positions, points, prices, prices_below, n, rounding }
     }

@@ -66,7 +66,7 @@ pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
 
 /// Returns `true` if the straight line between two points crosses the area that a body covers.
 pub(crate) fn crosses((outline, pose): (&Outline, &Pose), from: Vector2<f64>, to: Vector2<f64>) -> bool {
-    // Most bodies are far from the line, which takes no root or sine to see. The margins are far above all rounding.
+    // Most bodies are far from the line. These tests need no sine. Their margins are far above all rounding.
     let around = outline.reach_at_most() + 1e-3;
     let beside = |axis: usize| {
         let (at, from, to) = (pose.position[axis], from[axis], to[axis]);

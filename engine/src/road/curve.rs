@@ -107,8 +107,8 @@ impl Curve {
         }
     }
 
-    /// Returns `true` only if all points of the curve are more than `metres` metres away from a point. It takes no root
-    /// or sine, and no point of the curve is farther from its start than its length.
+    /// Returns `true` only if all points of the curve are more than `metres` metres away from a point. The test needs no
+    /// square root and no sine: no point of the curve is farther from the start than the length.
     pub(crate) fn is_beyond(&self, point: Vector2<f64>, metres: f64) -> bool {
         // The margin is far above all rounding.
         let reach = self.length + metres + 1e-6;
@@ -171,5 +171,25 @@ impl Curve {
         }
         let most = 2.0 * libm::acos(1.0 - tolerance / radius);
         ((self.curvature.abs() * self.length / most).ceil() as usize).max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_curve_beyond_a_distance_has_no_point_within_it(
+            at in prop::array::uniform2(-60.0..60.0), heading in -3.1..3.1, curvature in prop_oneof![Just(0.0), -0.2..0.2],
+            length in 1.0..80.0, metres in 0.0..10.0
+        ) {
+            let curve = Curve::new(Pose { position: Vector2::zeros(), heading }, curvature, length);
+            let point = Vector2::from(at);
+            let nearest = (0..=400).map(|i| (curve.point(length * f64::from(i) / 400.0) - point).norm());
+            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            prop_assert!(!curve.is_beyond(point, metres) || nearest > metres, "{nearest} m");
+        }
     }
 }

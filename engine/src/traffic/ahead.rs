@@ -74,7 +74,7 @@ impl Ahead {
     fn bend(&mut self, car: &Car, distance: f64, speed: f64) {
         let left = (distance - car.speed * BEND.0).max(0.0);
         let square = speed * speed + 2.0 * car.deceleration() * left;
-        // Most bends are too far away to matter, which takes no root to see. The margin is far above all rounding.
+        // Most bends are too far away to matter. This test needs no square root. Its margin is far above all rounding.
         let reached = car.speed + self.acceleration * BEND.0 + 1e-6;
         if reached < 0.0 || square > reached * reached {
             return;
@@ -84,7 +84,7 @@ impl Ahead {
     }
 }
 
-/// Lowers a limit. [`f64::min`] would also care for NaN, which is not needed here.
+/// Lowers a limit to a number if the number is less. A NaN changes nothing.
 fn lower(limit: &mut f64, to: f64) {
     if to < *limit {
         *limit = to;

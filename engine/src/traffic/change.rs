@@ -54,9 +54,9 @@ impl Car {
             self.path.truncate(0);
             self.complete = false;
         } else {
-            self.path.put_first(lane);
+            self.path.put_first(&[lane]);
         }
-        self.path.put_first(to);
+        self.path.put_first(&[to]);
         self.extend_path(map);
     }
 }
@@ -186,9 +186,7 @@ impl Car {
         let Some(way) = ways.min_by(|a, b| a.length.total_cmp(&b.length)) else { return };
         self.complete = self.end.is_finite();
         self.path.leave(if self.complete { self.path.len() } else { 3 });
-        for lane in way.lanes.iter().rev() {
-            self.path.put_first(*lane);
-        }
-        self.path.put_first(self.lane);
+        self.path.put_first(&way.lanes);
+        self.path.put_first(&[self.lane]);
     }
 }

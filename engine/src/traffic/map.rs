@@ -1,6 +1,6 @@
 //! Facts about lanes that traffic needs at every tick, computed once for each network.
 
-use super::obstacle::Lies;
+use super::obstacle::LaneShape;
 use crate::road::{Lane, LaneId, LaneKind, RoadNetwork};
 use std::sync::Arc;
 
@@ -62,8 +62,8 @@ pub(super) struct Facts {
 pub(super) struct Map {
     pub network: Arc<RoadNetwork>,
     lanes: Vec<Facts>,
-    /// The places of the lanes in the plane, which only obstacles need.
-    lies: Vec<Lies>,
+    /// The shapes of the lanes, which only obstacles need.
+    shapes: Vec<LaneShape>,
 }
 
 impl Facts {
@@ -116,16 +116,16 @@ impl Map {
                 through: !road && (wide(lane) || from_wide),
             });
         }
-        let lies = network.lanes().iter().map(Lies::of).collect();
-        Self { network, lanes, lies }
+        let shapes = network.lanes().iter().map(LaneShape::of).collect();
+        Self { network, lanes, shapes }
     }
 
     pub fn lane(&self, lane: LaneId) -> &Facts {
         &self.lanes[lane.index()]
     }
 
-    pub fn lies(&self, lane: LaneId) -> &Lies {
-        &self.lies[lane.index()]
+    pub fn shape(&self, lane: LaneId) -> &LaneShape {
+        &self.shapes[lane.index()]
     }
 
     pub fn length(&self, lane: LaneId) -> f64 {

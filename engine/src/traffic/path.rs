@@ -1,7 +1,7 @@
 //! The lanes ahead of a car: a list that loses lanes at its beginning and gains lanes at its end.
 //!
-//! Cars look along their lanes at every tick, so the lanes lie side by side in memory, as a slice. A lane that the car
-//! has left is counted and removed later.
+//! Cars read their lanes at every tick, so the lanes are a slice. Lanes that the car has left stay at the beginning for
+//! a while.
 
 use crate::road::LaneId;
 use std::ops::Deref;
@@ -38,15 +38,10 @@ impl LanesAhead {
         }
     }
 
-    /// Puts a lane before the first lane.
-    pub fn put_first(&mut self, lane: LaneId) {
-        match self.left.checked_sub(1) {
-            Some(left) => {
-                self.lanes[left] = lane;
-                self.left = left;
-            }
-            None => self.lanes.insert(0, lane),
-        }
+    /// Puts lanes before the first lane.
+    pub fn put_first(&mut self, lanes: &[LaneId]) {
+        self.lanes.splice(..self.left, lanes.iter().copied());
+        self.left = 0;
     }
 
     /// Keeps only the first `count` lanes.
@@ -88,8 +83,9 @@ mod tests {
                         naive.drain(..number.min(naive.len()));
                     }
                     2 => {
-                        lanes.put_first(lane);
-                        naive.push_front(lane);
+                        let more = &ids[..number % ids.len()];
+                        lanes.put_first(more);
+                        more.iter().rev().for_each(|lane| naive.push_front(*lane));
                     }
                     _ => {
                         lanes.truncate(number);

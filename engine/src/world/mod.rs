@@ -82,15 +82,16 @@ impl World {
         let square = |other: &BodyState| (car.pose.position - other.pose.position).norm_squared();
         let present = || others.iter().enumerate().filter(|(_, other)| other.present);
         let squares = present().map(|(index, other)| (square(other), index));
-        // The body whose middle is nearest comes first: then most others are too far away, which takes no root to see.
+        // The body with the nearest middle comes first. Most other bodies are then too far away. This test needs no
+        // square root.
         let Some((_, first)) = squares.reduce(|least, next| if next.0 < least.0 { next } else { least }) else {
             return f64::INFINITY;
         };
         let reach = car.body.outline.reach_at_most();
         let mut nearest = distance(car, &others[first]);
         for (index, other) in present() {
-            let reach = nearest + reach + other.body.outline.reach_at_most();
-            if square(other) <= reach * reach && index != first {
+            let near = nearest + reach + other.body.outline.reach_at_most();
+            if square(other) <= near * near && index != first {
                 nearest = nearest.min(distance(car, other));
             }
         }

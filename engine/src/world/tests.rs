@@ -1,6 +1,7 @@
 use super::*;
 use crate::object::Class;
 use crate::vehicle::Vehicle;
+use proptest::prelude::*;
 
 /// Returns the contact of the first body, which has moved within a tick.
 fn touching(world: &mut World, before: &[BodyState], bodies: &[BodyState]) -> Option<Touching> {
@@ -51,6 +52,28 @@ fn clearance_is_the_distance_between_box_and_circle() {
     assert!((corner - (5.0 - WALKER_RADIUS)).abs() < 1e-6, "{corner}");
     let alone = [car(pose(0.0, 0.0))];
     assert_eq!(World::new(&alone, &[]).clearance(&alone), f64::INFINITY);
+}
+
+proptest! {
+    #[test]
+    fn clearance_is_the_least_distance_of_the_bodies_that_are_present(
+        others in prop::collection::vec((-30.0..30.0, -30.0..30.0, -3.1..3.1, 0..4, any::<bool>()), 0..12)
+    ) {
+        let others = others.into_iter().map(|(x, y, heading, kind, present)| {
+            let body = match kind {
+                0 => Body::adult(),
+                1 => Body::truck(),
+                // A long body can be nearest although its middle is far away.
+                2 => Body::block(Class::Building, 40.0, 2.0, 3.0),
+                _ => Body::car(),
+            };
+            BodyState { present, ..BodyState::at_rest(body, Pose { heading, ..pose(x, y) }) }
+        });
+        let bodies: Vec<BodyState> = [car(pose(0.0, 0.0))].into_iter().chain(others).collect();
+        let present = bodies[1..].iter().filter(|other| other.present);
+        let least = present.map(|other| distance(&bodies[0], other)).fold(f64::INFINITY, f64::min);
+        prop_assert_eq!(World::new(&bodies, &[]).clearance(&bodies), least.max(TOUCH));
+    }
 }
 
 #[test]

@@ -92,7 +92,9 @@ impl FailureModel {
         let seen: Vec<Vec<f64>> = chosen.iter().map(|&i| places[i].clone()).collect();
         let told: Vec<f64> = chosen.iter().map(|&i| robustness[i]).collect();
         let verdicts = Fitter::new(&axes).fit(&seen, &told)?;
-        let others = thinned((0..places.len()).filter(|i| !chosen.contains(i)).collect());
+        let mut is_chosen = vec![false; places.len()];
+        chosen.iter().for_each(|&i| is_chosen[i] = true);
+        let others = thinned((0..places.len()).filter(|&i| !is_chosen[i]).collect());
         let all = || chosen.iter().chain(&others);
         let (places, robustness): (Vec<Vec<f64>>, Vec<f64>) =
             all().map(|&i| (places[i].clone(), robustness[i])).unzip();

@@ -1,6 +1,7 @@
 //! Draws the failure map: every test is a mark at the values of two parameters, as in the paper's Figure 9.
 
 use super::DrawResult;
+use super::drawn::{MOST_MARKS, is_drawn};
 use super::mark::{Drawn, Mark, ORDER};
 use super::wrapped::wrapped;
 use super::{GRID, HPos, INK, Tints, ink, level, shade};
@@ -120,14 +121,21 @@ impl FailureMap {
         })
     }
 
+    /// Returns the number of tests with a mark.
+    fn count(&self, mark: Mark) -> usize {
+        self.marks.iter().filter(|other| other.2 == mark).count()
+    }
+
     /// Returns the lines of text below the title of the map. The text names the contents of the map, and the
     /// coordinates that vary although the map does not show them.
     fn note(&self) -> String {
         let others = self.others.join(", ");
+        let is_thinned = ORDER.into_iter().any(|mark| self.count(mark) > MOST_MARKS);
+        let drawn = if is_thinned { format!("; about {MOST_MARKS} marks of a kind are drawn") } else { String::new() };
         match (self.others.is_empty(), &self.estimate) {
-            (true, _) => self.note.clone(),
-            (false, None) => format!("{}; other open parameters, not shown: {others}", self.note),
-            (false, Some(_)) => format!("{}; averaged over the other open parameters: {others}", self.note),
+            (true, _) => format!("{}{drawn}", self.note),
+            (false, None) => format!("{}{drawn}; other open parameters, not shown: {others}", self.note),
+            (false, Some(_)) => format!("{}{drawn}; averaged over the other open parameters: {others}", self.note),
         }
     }
 
@@ -174,7 +182,8 @@ impl FailureMap {
             .draw()?;
         let along = (0, (body.dim_in_pixel().1 - px(3.3 * text)) as i32);
         // A thousand marks have room. If there are more, they become smaller, so that they do not run together.
-        let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
+        let drawn: usize = ORDER.into_iter().map(|mark| self.count(mark).min(MOST_MARKS)).sum();
+        let crowd = (drawn as f64 / 1000.0).max(1.0);
         let side = (side / crowd.sqrt()).max(1.2) * scale;
         if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
             shade::draw_lines(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
@@ -183,14 +192,18 @@ impl FailureMap {
             let dot = |((x, y, _), value): (&(f64, f64, Mark), &f64)| {
                 Circle::new((*x, *y), 2.2 * side, tints.colour(*value).filled())
             };
-            chart.draw_series(self.marks.iter().zip(&tints.values).map(dot))?;
+            let dots = self.marks.iter().zip(&tints.values).enumerate();
+            let dots = dots.filter(|(index, _)| is_drawn(*index, self.marks.len()));
+            chart.draw_series(dots.map(|(_, tinted)| dot(tinted)))?;
             tints.draw_bar(bar, along, text * scale)?;
         }
         for mark in ORDER {
             // On a map with tints, a tinted dot without another mark is a passing test.
             let hidden = self.tints.is_some() && mark == Mark::Verdict(Verdict::Pass);
-            let marks = self.marks.iter().filter(|other| other.2 == mark && !hidden);
-            chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Drawn { mark, side }))?;
+            let count = self.count(mark);
+            let marks = self.marks.iter().filter(|other| other.2 == mark && !hidden).enumerate();
+            let marks = marks.filter(|(index, _)| is_drawn(*index, count));
+            chart.draw_series(marks.map(|(_, (x, y, _))| EmptyElement::at((*x, *y)) + Drawn { mark, side }))?;
         }
         Ok(())
     }
@@ -216,7 +229,7 @@ impl FailureMap {
         let mut at = left + side as i32;
         let of_faults = self.marks.iter().any(|mark| matches!(mark.2, Mark::Fault(_)));
         for mark in ORDER.into_iter().rev() {
-            let count = self.marks.iter().filter(|other| other.2 == mark).count();
+            let count = self.count(mark);
             if count == 0 && !mark.is_listed(of_faults) {
                 continue;
             }
@@ -294,7 +307,30 @@ pub(super) fn round_step(width: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Picture;
     use super::*;
+
+    #[test]
+    fn a_map_of_many_tests_draws_all_rare_marks_and_some_of_the_others_and_counts_all() {
+        let place = |i: u32| (f64::from(i % 251) / 251.0, f64::from(i) / 40_000.0);
+        let mark = |i: u32| Mark::Verdict(if i.is_multiple_of(1000) { Verdict::Fail } else { Verdict::Pass });
+        let axis = || Axis { label: "x".to_owned(), range: (0.0, 1.0) };
+        let map = FailureMap {
+            title: "many tests".to_owned(),
+            note: "40000 tests".to_owned(),
+            others: Vec::new(),
+            x: axis(),
+            y: axis(),
+            marks: (0..40_000).map(|i| (place(i).0, place(i).1, mark(i))).collect(),
+            estimate: None,
+            tints: None,
+        };
+        let svg = Picture::of(map).svg().unwrap();
+        assert!(svg.contains("about 10000 marks of a kind are drawn"));
+        assert!(svg.contains("fail 40") && svg.contains("pass 39960"));
+        let dots = svg.matches("<circle").count();
+        assert!((9_600..=10_500).contains(&dots), "{dots} dots");
+    }
 
     #[test]
     fn numbers_on_an_axis_are_round_and_include_both_ends() {

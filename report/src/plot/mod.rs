@@ -7,6 +7,7 @@
 mod animation;
 mod bar;
 mod contour;
+mod drawn;
 mod frame;
 mod heat;
 mod lines;
