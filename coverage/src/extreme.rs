@@ -5,6 +5,7 @@
 //! plane the search cuts other regions, which are far fewer (`strips`). On a line there is a formula (`line`).
 
 mod bounds;
+mod ends;
 mod line;
 mod plane;
 mod run;

@@ -15,9 +15,9 @@
 //! Programming Pearls, Communications of the ACM 27, 1984). Each step waits for the step before. Therefore the loop
 //! takes one step for all parts at a time.
 
+use super::ends::{Ends, NO_POINT};
 use super::plane::Plane;
-use super::run::{NODES, Parts};
-use super::strips::{Ends, NO_POINT, Strips};
+use super::run::{NODES, Parts, Run, Width};
 use crate::ordered::{greatest, least};
 use crate::star::BoxKind;
 use std::ops::Range;
@@ -62,29 +62,29 @@ impl Inside {
 ///
 /// # Panics
 /// There is no part.
-pub(super) fn bounds(region: &Strips, parts: &[Ends], plane: &Plane) -> PerPart {
-    let kind = region.kind;
+pub(super) fn bounds(kind: BoxKind, widths: [f64; 2], runs: &[(u32, Run)], parts: &[Ends], plane: &Plane) -> PerPart {
     let is_closed = kind == BoxKind::Closed;
     let sign = if is_closed { 1.0 } else { -1.0 };
     let part = |at: usize| &parts[at.min(parts.len() - 1)];
     let inside = Inside::of(kind, part);
     let totals = per_part(|at| total_price(kind, part(at), plane));
-    let widths: [_; PARTS] = std::array::from_fn(|at| {
+    let weights: [_; PARTS] = std::array::from_fn(|at| {
         let [narrowest, widest] = part(at).widths(plane);
         let paid = totals[at] / 2.0 / plane.n;
-        region.width(if is_closed { narrowest + paid } else { widest - paid }).weights()
+        Width::between(widths, if is_closed { narrowest + paid } else { widest - paid }).weights()
     });
-    let widths: [PerPart; NODES] = std::array::from_fn(|node| per_part(|at| widths[at][node]));
+    let weights: [PerPart; NODES] = std::array::from_fn(|node| per_part(|at| weights[at][node]));
     let [mut tail, mut any] = [[0.0; PARTS]; 2];
     // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
     let [mut excess, mut lowest, mut highest] = [[0.0; PARTS]; 3];
-    for (place, run) in &region.runs {
+    for (place, run) in runs {
         let [below, above] = if *place == NO_POINT { [0.0; 2] } else { plane.prices_at(*place) };
         // A closed box pays for the gap between the point and the other side.
         let [on_left, on_right] = if is_closed { [above, below] } else { [below, above] };
         let place = f64::from(*place);
-        let parts =
-            |of: fn(&Parts) -> f64| per_part(|at| (0..NODES).map(|node| of(&run.parts[node]) * widths[node][at]).sum());
+        let parts = |of: fn(&Parts) -> f64| {
+            per_part(|at| (0..NODES).map(|node| of(&run.parts[node]) * weights[node][at]).sum())
+        };
         let (sums, heads) = (parts(|parts| parts.sum), parts(|parts| parts.head));
         let (tails, largest) = (parts(|parts| parts.tail), parts(|parts| parts.any));
         for at in 0..PARTS {

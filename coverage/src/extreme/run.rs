@@ -114,10 +114,16 @@ pub(super) struct Width {
 
 impl Width {
     /// Makes the width at the given share of the way from the least to the greatest width.
-    pub(super) fn at(share: f64) -> Self {
+    fn at(share: f64) -> Self {
         let steps = share * (NODES - 1) as f64;
         let node = (steps as usize).min(NODES - 2);
         Self { node, share: steps - node as f64 }
+    }
+
+    /// Makes the width `width` between the least and the greatest width of a run.
+    pub(super) fn between([narrowest, widest]: [f64; 2], width: f64) -> Self {
+        let share = if widest > narrowest { (width - narrowest) / (widest - narrowest) } else { 0.0 };
+        Self::at(share.clamp(0.0, 1.0))
     }
 
     /// Returns the weights of the widths at which a run knows its parts, in the straight line to this width.

@@ -14,80 +14,28 @@
 //! take some five times as long.
 
 use super::bounds::bounds;
+use super::ends::{Ends, NO_POINT};
 use super::plane::Plane;
 use super::run::{NODES, Parts, Run, Weights, Width};
 use crate::star::{BoxKind, Region, Relaxed};
-use std::ops::Range;
 
 /// The boxes of one kind whose left side is in one strip, and whose right side is in another strip.
 pub(super) struct Strips {
-    pub(super) kind: BoxKind,
+    kind: BoxKind,
     ends: Ends,
     /// The least and the greatest width of a box.
     widths: [f64; 2],
     /// The points of the strips in the order of y, by the places of their x, with the run above each point. The first
     /// run has no point; its place is [`NO_POINT`].
-    pub(super) runs: Vec<(u32, Run)>,
+    runs: Vec<(u32, Run)>,
     bound: f64,
 }
 
-/// The place of a point that does not exist, which is in no strip.
-pub(super) const NO_POINT: u32 = u32::MAX;
-
-/// The places of the positions that the left sides and the right sides of boxes may take. The two ranges are the same
-/// or have no place in common.
-pub(super) struct Ends {
-    pub(super) left: Range<u32>,
-    right: Range<u32>,
-}
-
-impl Ends {
-    /// Returns the parts: each range with more than one place is cut into halves.
-    fn parts(&self) -> impl Iterator<Item = Self> + use<> {
-        let halves = |range: &Range<u32>| {
-            let middle = range.start.midpoint(range.end);
-            [range.start..middle, middle..range.end]
-        };
-        let [lefts, rights] = [halves(&self.left), halves(&self.right)];
-        let pairs =
-            lefts.into_iter().flat_map(move |left| rights.clone().map(|right| Self { left: left.clone(), right }));
-        pairs.filter(|ends| !ends.left.is_empty() && !ends.right.is_empty() && ends.left.start <= ends.right.start)
-    }
-
-    /// Returns `true` if the two ranges have no place in common.
-    pub(super) fn are_apart(&self) -> bool {
-        self.left != self.right
-    }
-
-    /// Returns the least and the greatest width of a box.
-    pub(super) fn widths(&self, plane: &Plane) -> [f64; 2] {
-        [plane.width(self.left.end - 1, self.right.start), plane.width(self.left.start, self.right.end - 1)]
-    }
-
-    /// Returns the places of the points that are inside all boxes along x, and the places of the points that are
-    /// inside some boxes.
-    pub(super) fn inside(&self, kind: BoxKind) -> [Range<u32>; 2] {
-        // Open boxes leave out the points on their faces.
-        let face = u32::from(kind == BoxKind::Open);
-        [
-            self.left.end - 1 + face..(self.right.start + 1).saturating_sub(face),
-            self.left.start + face..self.right.end.saturating_sub(face),
-        ]
-    }
-}
-
 impl Strips {
-    /// Returns a width as its share of the way from the least to the greatest width of a box.
-    pub(super) fn width(&self, width: f64) -> Width {
-        let [narrowest, widest] = self.widths;
-        let share = if widest > narrowest { (width - narrowest) / (widest - narrowest) } else { 0.0 };
-        Width::at(share.clamp(0.0, 1.0))
-    }
-
     /// Returns a part of the region.
     fn part(&self, ends: Ends, bound: f64, plane: &Plane) -> Self {
         let widths = ends.widths(plane);
-        let nodes = nodes(widths).map(|width| self.width(width));
+        let nodes = nodes(widths).map(|width| Width::between(self.widths, width));
         let inside = Some(Parts::of(Weights::of(self.kind, plane.n, 0.0).point));
         let [all, some] = ends.inside(self.kind);
         // About half of the points stay undecided.
@@ -149,7 +97,7 @@ impl Region for Strips {
 
     fn split(self, plane: &Plane, threshold: f64, _: &mut Vec<f64>, parts: &mut Vec<Self>) {
         let ends: Vec<Ends> = self.ends.parts().collect();
-        let bounds = bounds(&self, &ends, plane);
+        let bounds = bounds(self.kind, self.widths, &self.runs, &ends, plane);
         for (ends, bound) in ends.into_iter().zip(bounds) {
             let bound = bound.min(self.bound);
             if bound > threshold {

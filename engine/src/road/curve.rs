@@ -116,7 +116,7 @@ impl Curve {
     }
 
     /// Returns the centre of the circle of an arc.
-    pub(crate) fn centre(&self) -> Vector2<f64> {
+    fn centre(&self) -> Vector2<f64> {
         self.start.position + left_of(self.forward) / self.curvature
     }
 

@@ -1,6 +1,5 @@
 //! Facts about lanes that traffic needs at every tick, computed once for each network.
 
-use super::obstacle::LaneShape;
 use crate::road::{Lane, LaneId, LaneKind, RoadNetwork};
 use std::sync::Arc;
 
@@ -62,8 +61,6 @@ pub(super) struct Facts {
 pub(super) struct Map {
     pub network: Arc<RoadNetwork>,
     lanes: Vec<Facts>,
-    /// The shapes of the lanes, which only obstacles need.
-    shapes: Vec<LaneShape>,
 }
 
 impl Facts {
@@ -116,16 +113,11 @@ impl Map {
                 through: !road && (wide(lane) || from_wide),
             });
         }
-        let shapes = network.lanes().iter().map(LaneShape::of).collect();
-        Self { network, lanes, shapes }
+        Self { network, lanes }
     }
 
     pub fn lane(&self, lane: LaneId) -> &Facts {
         &self.lanes[lane.index()]
-    }
-
-    pub fn shape(&self, lane: LaneId) -> &LaneShape {
-        &self.shapes[lane.index()]
     }
 
     pub fn length(&self, lane: LaneId) -> f64 {

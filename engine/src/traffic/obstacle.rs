@@ -8,7 +8,7 @@
 use super::map::Map;
 use super::occupancy::{Body, Who};
 use crate::geometry::{Frame, Pose};
-use crate::road::{Bounds, Crossing, Curve, Lane, LaneId, RoadNetwork};
+use crate::road::{Bounds, Crossing, Curve, LaneId, RoadNetwork};
 use nalgebra::Vector2;
 
 /// A body for which traffic cars stop, such as the ego vehicle, a pedestrian, or an object that stands in the way.
@@ -42,11 +42,6 @@ const BEFORE_ZEBRA: f64 = 1.0;
 const LONGEST_PEDESTRIAN: f64 = 2.5;
 /// The speed in m/s below which a person stands.
 const STANDING: f64 = 0.1;
-
-/// A distance in metres far above all rounding of places.
-const ROUNDING: f64 = 1e-6;
-/// The greatest radius in metres of an arc that [`LaneShape`] describes. On larger arcs, [`ROUNDING`] is too small.
-const LARGEST: f64 = 1e4;
 
 /// Returns half the size of an obstacle along and across a direction.
 fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
@@ -84,66 +79,6 @@ impl Foot {
     }
 }
 
-/// The shape of a lane in the plane. It shows without a sine that an obstacle cannot reach the lane.
-#[derive(Debug)]
-pub(super) struct LaneShape {
-    start: Frame,
-    length: f64,
-    half_width: f64,
-    bend: Option<Arc>,
-}
-
-/// The parts of a lane that is an arc.
-#[derive(Debug)]
-struct Arc {
-    end: Frame,
-    centre: Vector2<f64>,
-    radius: f64,
-}
-
-impl LaneShape {
-    pub fn of(Lane { curve, width, .. }: &Lane) -> Self {
-        let length = curve.length();
-        let arc = || Arc { end: curve.frame(length), centre: curve.centre(), radius: 1.0 / curve.curvature().abs() };
-        Self { start: curve.frame(0.0), length, half_width: 0.5 * width, bend: (curve.curvature() != 0.0).then(arc) }
-    }
-
-    /// Returns `true` only if [`drives_along`] is false and [`on_lane`] returns no body. An obstacle farther than `around`
-    /// metres from the middle of a lane does not block the lane.
-    ///
-    /// The nearest place of an arc is its start, its end, or a place between them. All three have to be out of reach.
-    fn is_out_of_reach(&self, obstacle: &Obstacle, around: f64) -> bool {
-        let beyond = around.max(self.half_width) + ROUNDING;
-        let Some(arc) = &self.bend else { return self.is_past(&self.start, 0.0, obstacle, beyond) };
-        if arc.radius > LARGEST {
-            return false;
-        }
-        let spoke = obstacle.pose.position - arc.centre;
-        let distance = spoke.norm();
-        let (inside, outward) = (arc.radius - distance, spoke.dot(&obstacle.velocity) / distance);
-        stays_beside(inside, -outward, beyond)
-            && self.is_past(&self.start, 0.0, obstacle, beyond)
-            && self.is_past(&arc.end, self.length, obstacle, beyond)
-    }
-
-    /// Returns `true` if an obstacle stays away from the lane, if its nearest place is `frame`, `s` metres along the
-    /// lane.
-    fn is_past(&self, frame: &Frame, s: f64, obstacle: &Obstacle, beyond: f64) -> bool {
-        let local = frame.to_local(obstacle.pose.position);
-        let speed = frame.turn_to_local(obstacle.velocity);
-        let (rearmost, foremost) = (FORESEEN * speed.x.min(0.0) - beyond, FORESEEN * speed.x.max(0.0) + beyond);
-        let (rear, front) = (s + local.x + rearmost, s + local.x + foremost);
-        stays_beside(local.y, speed.y, beyond) || front < 0.0 || rear > self.length
-    }
-}
-
-/// Returns `true` if an obstacle stays more than `beyond` metres away from the middle of a lane for [`FORESEEN`]
-/// seconds. It is `aside` metres away and has the speed `speed` across the lane.
-fn stays_beside(aside: f64, speed: f64, beyond: f64) -> bool {
-    let far = aside.abs() - beyond;
-    far > 0.0 && (aside * speed >= 0.0 || far > FORESEEN * speed.abs())
-}
-
 /// Adds the bodies by which an obstacle occupies the lanes of a network, for cars up to `half_width`.
 pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut Near, bodies: &mut Vec<Body>) {
     let from = obstacle.pose.position;
@@ -152,11 +87,7 @@ pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut 
     let bounds = Bounds { min: from.inf(&to).add_scalar(-around), max: from.sup(&to).add_scalar(around) };
     let Near { lanes, feet, open, own } = near;
     lanes.clear();
-    map.network.lanes_near(&bounds, open, |id| {
-        if !map.shape(id).is_out_of_reach(obstacle, around) {
-            lanes.push(id);
-        }
-    });
+    map.network.lanes_near(&bounds, open, |lane| lanes.push(lane));
     lanes.sort_unstable();
     feet.clear();
     feet.extend(lanes.iter().map(|lane| Foot::of(from, &map.network.lane(*lane).curve)));
@@ -237,53 +168,5 @@ fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &RoadNetwork, 
             bodies.push(Body { lane, rear: s - half - BEFORE_ZEBRA, front: s + half, speed: 0.0, who: Who::Zebra });
         }
         edge += width;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::road::{Composite, Roundabout, grid_city};
-    use proptest::prelude::*;
-    use std::sync::LazyLock;
-
-    static MAPS: LazyLock<[Map; 2]> = LazyLock::new(|| {
-        let roundabout: Composite = Roundabout::new().lanes(2).arms(4).into();
-        [grid_city(2, 2, 60.0, 2), roundabout].map(|city| Map::new(city.build().unwrap()))
-    });
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
-        #[test]
-        fn a_lane_out_of_reach_of_an_obstacle_has_no_body_of_it(
-            at in prop::array::uniform2(-100.0..160.0), heading in -3.1..3.1, speed in prop_oneof![Just(0.0), 0.0..20.0],
-            turned in prop_oneof![Just(0.0), Just(std::f64::consts::PI), -3.1..3.1],
-            size in (0.3..12.0, 0.3..2.5), clear in 0.4..1.5, map in 0..2_usize
-        ) {
-            let (map, pose) = (&MAPS[map], Pose { position: at.into(), heading });
-            let velocity = Pose { heading: heading + turned, ..pose }.forward() * speed;
-            let obstacle = Obstacle { pose, length: size.0, width: size.1, velocity };
-            let around = 0.5 * (obstacle.length + obstacle.width) + clear;
-            for (id, lane) in map.network.ids().zip(map.network.lanes()) {
-                let foot = Foot::of(pose.position, &lane.curve);
-                let matters = drives_along(&obstacle, pose.forward(), &foot, lane.width)
-                    || on_lane(&obstacle, map, id, &foot, clear).is_some();
-                prop_assert!(!matters || !map.shape(id).is_out_of_reach(&obstacle, around), "{id:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn most_lanes_near_an_obstacle_are_out_of_its_reach() {
-        let map = &MAPS[0];
-        let pose = map.network.on_lane("street 0,0 east", 1, 10.0).unwrap();
-        let obstacle = Obstacle { pose, length: 4.5, width: 1.8, velocity: pose.forward() * 10.0 };
-        let bounds = Bounds::around([pose.position, pose.position + obstacle.velocity * FORESEEN]).grown(4.4);
-        let (mut near, mut reached) = (0, 0);
-        map.network.lanes_near(&bounds, &mut Vec::new(), |id| {
-            near += 1;
-            reached += usize::from(!map.shape(id).is_out_of_reach(&obstacle, 4.4));
-        });
-        assert!(reached > 0 && 2 * reached < near, "{reached} of {near}");
     }
 }
