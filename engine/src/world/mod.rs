@@ -2,8 +2,8 @@
 //!
 //! Bodies follow poses that the vehicle model and the programs compute in 64 bits. Rapier finds the contacts, and moves
 //! [`Physical`](crate::object::Physical) bodies. Its pipeline takes longer than everything else in a tick
-//! (BENCHMARKS.md). Therefore, if nothing is physical, it runs only if a body is within [`REACH`] of the car: nothing
-//! is integrated then, so that a tick without it leaves no gap.
+//! (docs/decisions/002-*). Therefore, if nothing is physical, it runs only if a body is within [`REACH`] of the car:
+//! nothing is integrated then, so that a tick without it leaves no gap.
 
 mod physical;
 
