@@ -11,7 +11,7 @@ const ON_LANE: (f64, f64) = (1.2, 0.6);
 /// Returns the seconds until the first road user with the right of way comes to the car's place in an intersection;
 /// infinite if none comes, 0 if one is there already.
 ///
-/// The places are the [conflicts](crate::road::Conflict) of the car's lanes in which the car gives way. Other road
+/// The places are the [conflicts](crate::road::LaneConflict) of the car's lanes in which the car gives way. Other road
 /// users count if they are on the conflict's lane or on a lane that leads to it, and have not passed the conflict yet.
 pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
     let (car, others) = (&bodies[0], &bodies[1..]);
