@@ -2,18 +2,18 @@
 //!
 //! The bound of a part takes the narrowest closed boxes, or the widest open boxes, with the most favourable weight of
 //! each undecided point. But a closed box that takes in the points at a position is wider by a gap between positions. An
-//! open box that leaves out the points at a position is narrower by a gap. The price of a point is the
-//! number of points that this gap would hold in a set of evenly spread points. A box of height `h` pays `h G` at least,
-//! where `G` is the sum of the prices of undecided points between bottom and top.
+//! open box that leaves out the points at a position is narrower by a gap. The price of a point is the number of points
+//! that this gap would hold in a set of evenly spread points. A box of height `h` pays `h G` at least, where `G` is the
+//! sum of the prices of undecided points between bottom and top.
 //!
 //! This product is bounded from below by a sum. Let `M` be the sum of all prices, and `E` the largest of `|G - M h|`
 //! over all bottoms and tops. Then `(h - 1/2) (G - M/2) >= -E^2 / (4 M)`, and thus `h G >= G/2 + M h/2 - M/4 - E^2 / (4
 //! M)`: the box pays half a price for each undecided point, and `M/2` for its height. This holds for any `M`, and
 //! therefore for a rounded sum, too.
 //!
-//! Most of the time of the search is spent here. The largest sum of weights is that of Kadane's algorithm (Bentley,
-//! Programming Pearls, Communications of the ACM 27, 1984). Each step waits for the step before. Therefore the loop
-//! takes one step for all parts at a time.
+//! Kadane's algorithm finds the largest sum of weights (Bentley, Programming Pearls, Communications of the ACM 27,
+//! 1984). Each step of the algorithm waits for the step before. Therefore the loop takes one step for all parts at a
+//! time.
 
 use super::ends::{Ends, NO_POINT};
 use super::plane::Plane;
@@ -23,7 +23,7 @@ use crate::star::BoxKind;
 use std::ops::Range;
 
 /// The greatest number of parts of a region.
-pub(super) const PARTS: usize = 4;
+const PARTS: usize = 4;
 
 /// A number for each part of a region.
 type PerPart = [f64; PARTS];

@@ -97,23 +97,19 @@ impl Traffic {
                 None => self.cars[index].ticket = None,
             }
         }
-        let mut served = std::mem::take(&mut self.served);
-        served.clear();
-        served.extend(0..self.askers.len());
-        served.sort_unstable_by(|a, b| self.askers[*a].order(&self.askers[*b]));
+        self.askers.sort_unstable_by(Asker::order);
         for (number, asker) in self.askers.iter().enumerate() {
             for lane in &self.cars[asker.car].path[asker.ask.index..=asker.passage.last] {
                 self.asking.add(*lane, asker.car, number);
             }
         }
-        for number in &served {
-            let asker = self.askers[*number];
+        for number in 0..self.askers.len() {
+            let asker = self.askers[number];
             if !asker.far && self.view().may_go(&asker, &self.askers, &self.asking) {
-                self.askers[*number].granted = true;
+                self.askers[number].granted = true;
                 self.grant(&asker);
             }
         }
-        self.served = served;
         for (car, ahead) in self.cars.iter_mut().zip(&mut self.ahead) {
             if let Some(ask) = ahead.ask.filter(|ask| !ask.held) {
                 if ask.distance <= car.asking_distance() {

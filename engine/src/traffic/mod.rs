@@ -74,8 +74,6 @@ pub struct Traffic {
     /// The limits that each car has found ahead of it.
     ahead: Vec<Ahead>,
     askers: Vec<Asker>,
-    /// The indices of the askers in the order in which they are served.
-    served: Vec<usize>,
     asking: Lists<usize>,
     /// The lanes to which a car has begun to change in this step.
     changed: Vec<LaneId>,
@@ -132,7 +130,6 @@ impl Traffic {
             claims: Lists::new(lanes, 4 * count),
             ahead: vec![Ahead::nothing(); count],
             askers: Vec::with_capacity(count),
-            served: Vec::with_capacity(count),
             asking: Lists::new(lanes, 4 * count),
             changed: Vec::with_capacity(count),
             near: Near::default(),
