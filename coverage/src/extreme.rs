@@ -6,6 +6,7 @@
 
 mod bounds;
 mod ends;
+mod lanes;
 mod line;
 mod plane;
 mod run;
@@ -37,7 +38,7 @@ const QUICK: f64 = 4e6;
 /// The largest number of points in the plane for which the search takes a second or two.
 const QUICK_IN_THE_PLANE: usize = 10_000;
 /// The largest number of points in the plane for which the regions of strips fit into memory.
-const MOST_IN_STRIPS: usize = 500_000;
+const MOST_IN_STRIPS: usize = 300_000;
 
 /// Returns `true` if the extreme discrepancy of so many points takes little time.
 fn is_quick(dims: usize, points: usize) -> bool {

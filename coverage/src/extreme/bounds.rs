@@ -16,43 +16,32 @@
 //! time.
 
 use super::ends::{Ends, NO_POINT};
+use super::lanes::{LANES, Lanes};
 use super::plane::Plane;
-use super::run::{NODES, Parts, Run, Width};
-use crate::ordered::{greatest, least};
+use super::run::{Run, Widths};
 use crate::star::BoxKind;
+use std::array::from_fn;
 use std::ops::Range;
-
-/// The greatest number of parts of a region.
-const PARTS: usize = 4;
-
-/// A number for each part of a region.
-type PerPart = [f64; PARTS];
-
-/// Returns the numbers that a function gives for the parts.
-#[inline(always)]
-fn per_part(of: impl FnMut(usize) -> f64) -> PerPart {
-    std::array::from_fn(of)
-}
 
 /// The places of the points that some boxes of a part hold along x, and of the points that all boxes hold. The numbers
 /// are of the same type as the weights, so that all parts are compared at once.
 struct Inside {
-    some: [PerPart; 2],
-    all: [PerPart; 2],
+    some: [[f64; LANES]; 2],
+    all: [[f64; LANES]; 2],
     /// The place from which on a point is on the right.
-    middle: PerPart,
+    middle: [f64; LANES],
     /// 1 for a part whose undecided points have a price, or 0.
-    priced: PerPart,
+    priced: [f64; LANES],
 }
 
 impl Inside {
     fn of<'a>(kind: BoxKind, part: impl Fn(usize) -> &'a Ends) -> Self {
-        let place = |of: fn([Range<u32>; 2]) -> u32| per_part(|at| f64::from(of(part(at).inside(kind))));
+        let place = |of: fn([Range<u32>; 2]) -> u32| from_fn(|at| f64::from(of(part(at).inside(kind))));
         Self {
             some: [place(|[_, some]| some.start), place(|[_, some]| some.end)],
             all: [place(|[all, _]| all.start), place(|[all, _]| all.end)],
-            middle: per_part(|at| f64::from(part(at).left.end)),
-            priced: per_part(|at| f64::from(u8::from(part(at).are_apart()))),
+            middle: from_fn(|at| f64::from(part(at).left.end)),
+            priced: from_fn(|at| f64::from(u8::from(part(at).are_apart()))),
         }
     }
 }
@@ -62,49 +51,56 @@ impl Inside {
 ///
 /// # Panics
 /// There is no part.
-pub(super) fn bounds(kind: BoxKind, widths: [f64; 2], runs: &[(u32, Run)], parts: &[Ends], plane: &Plane) -> PerPart {
+#[inline(always)]
+pub(super) fn bounds(
+    kind: BoxKind,
+    widths: [f64; 2],
+    runs: &[(u32, Run)],
+    parts: &[Ends],
+    plane: &Plane,
+) -> [f64; LANES] {
     let is_closed = kind == BoxKind::Closed;
     let sign = if is_closed { 1.0 } else { -1.0 };
     let part = |at: usize| &parts[at.min(parts.len() - 1)];
     let inside = Inside::of(kind, part);
-    let totals = per_part(|at| total_price(kind, part(at), plane));
-    let weights: [_; PARTS] = std::array::from_fn(|at| {
+    let totals: [f64; LANES] = from_fn(|at| total_price(kind, part(at), plane));
+    let paid_widths = from_fn(|at| {
         let [narrowest, widest] = part(at).widths(plane);
         let paid = totals[at] / 2.0 / plane.n;
-        Width::between(widths, if is_closed { narrowest + paid } else { widest - paid }).weights()
+        if is_closed { narrowest + paid } else { widest - paid }
     });
-    let weights: [PerPart; NODES] = std::array::from_fn(|node| per_part(|at| weights[at][node]));
-    let [mut tail, mut any] = [[0.0; PARTS]; 2];
+    let paid_widths = Widths::between(widths, paid_widths);
+    let (zero, half) = (Lanes::all(0.0), Lanes::all(0.5));
+    let [mut tail, mut any] = [zero; 2];
     // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
-    let [mut excess, mut lowest, mut highest] = [[0.0; PARTS]; 3];
+    let [mut excess, mut lowest, mut highest] = [zero; 3];
     for (place, run) in runs {
         let [below, above] = if *place == NO_POINT { [0.0; 2] } else { plane.prices_at(*place) };
         // A closed box pays for the gap between the point and the other side.
         let [on_left, on_right] = if is_closed { [above, below] } else { [below, above] };
         let place = f64::from(*place);
-        let parts = |of: fn(&Parts) -> f64| {
-            per_part(|at| (0..NODES).map(|node| of(&run.parts[node]) * weights[node][at]).sum())
-        };
-        let (sums, heads) = (parts(|parts| parts.sum), parts(|parts| parts.head));
-        let (tails, largest) = (parts(|parts| parts.tail), parts(|parts| parts.any));
-        for at in 0..PARTS {
+        let (mut weight, mut price) = ([0.0; LANES], [0.0; LANES]);
+        for at in 0..LANES {
             let some = (inside.some[0][at] <= place) & (place < inside.some[1][at]);
             let all = (inside.all[0][at] <= place) & (place < inside.all[1][at]);
             let held = if is_closed { some } else { all };
-            let weight = (if held { 1.0 } else { 0.0 }) * sign;
-            let price = if place < inside.middle[at] { on_left } else { on_right };
-            let price = (if some & !all { price } else { 0.0 }) * inside.priced[at];
-            let at_point = greatest(tail[at] + (weight - price / 2.0), 0.0);
-            any[at] = greatest(greatest(any[at], at_point), greatest(largest[at], at_point + heads[at]));
-            tail[at] = greatest(at_point + sums[at], tails[at]);
-            excess[at] += price;
-            highest[at] = greatest(highest[at], excess[at]);
-            excess[at] -= totals[at] * run.height;
-            lowest[at] = least(lowest[at], excess[at]);
+            weight[at] = (if held { 1.0 } else { 0.0 }) * sign;
+            let by_side = if place < inside.middle[at] { on_left } else { on_right };
+            price[at] = (if some & !all { by_side } else { 0.0 }) * inside.priced[at];
         }
+        let (weight, price) = (Lanes::from(weight), Lanes::from(price));
+        let next = run.parts.at(&paid_widths);
+        let at_point = (tail + (weight - price * half)).greatest(zero);
+        any = any.greatest(at_point).greatest(next.any.greatest(at_point + next.head));
+        tail = (at_point + next.sum).greatest(next.tail);
+        excess = excess + price;
+        highest = highest.greatest(excess);
+        excess = excess - Lanes::from(totals) * Lanes::all(run.height);
+        lowest = lowest.least(excess);
     }
-    per_part(|at| {
-        let (total, range) = (totals[at], highest[at] - lowest[at]);
+    let (any, range) = (any.numbers(), (highest - lowest).numbers());
+    from_fn(|at| {
+        let (total, range) = (totals[at], range[at]);
         let unpaid = if total > 0.0 { total / 4.0 + range * range / (4.0 * total) } else { 0.0 };
         plane.difference(any[at] + unpaid)
     })

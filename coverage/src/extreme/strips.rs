@@ -15,8 +15,9 @@
 
 use super::bounds::bounds;
 use super::ends::{Ends, NO_POINT};
+use super::lanes::Lanes;
 use super::plane::Plane;
-use super::run::{NODES, Parts, Run, Weights, Width};
+use super::run::{NODES, Parts, Run, Weights, Widths};
 use crate::star::{BoxKind, Region, Relaxed};
 
 /// The boxes of one kind whose left side is in one strip, and whose right side is in another strip.
@@ -32,23 +33,44 @@ pub(super) struct Strips {
 }
 
 impl Strips {
-    /// Returns a part of the region.
-    fn part(&self, ends: Ends, bound: f64, plane: &Plane) -> Self {
-        let widths = ends.widths(plane);
-        let nodes = nodes(widths).map(|width| Width::between(self.widths, width));
-        let inside = Some(Parts::of(Weights::of(self.kind, plane.n, 0.0).point));
-        let [all, some] = ends.inside(self.kind);
-        // About half of the points stay undecided.
-        let mut runs: Vec<(u32, Run)> = Vec::with_capacity(self.runs.len() / 2 + 1);
-        for (place, run) in &self.runs {
-            let is_inside = all.contains(place);
-            match runs.last_mut() {
-                Some((_, last)) if is_inside || !some.contains(place) => {
-                    last.append(if is_inside { inside } else { None }, run, &nodes);
-                }
-                _ => runs.push((*place, run.at_all(&nodes))),
+    /// Adds the parts with a bound above the threshold.
+    #[inline(always)]
+    fn split_into(self, parts: &mut Vec<Self>, plane: &Plane, threshold: f64) {
+        let ends: Vec<Ends> = self.ends.parts().collect();
+        let bounds = bounds(self.kind, self.widths, &self.runs, &ends, plane);
+        for (ends, bound) in ends.into_iter().zip(bounds) {
+            let bound = bound.min(self.bound);
+            if bound > threshold {
+                parts.push(self.part(ends, bound, plane));
             }
         }
+    }
+
+    /// Returns a part of the region.
+    #[inline(always)]
+    fn part(&self, ends: Ends, bound: f64, plane: &Plane) -> Self {
+        let widths = ends.widths(plane);
+        let nodes = Widths::between(self.widths, nodes(widths));
+        let point = Weights::of(self.kind, plane.n, 0.0).point;
+        let [all, some] = ends.inside(self.kind);
+        let (first, rest) = self.runs.split_first().expect("a region has a first run");
+        let (mut place, mut current) = (first.0, Run { height: first.1.height, parts: first.1.parts.at(&nodes) });
+        // About half of the points stay undecided.
+        let mut runs = Vec::with_capacity(self.runs.len() / 2 + 1);
+        for (next, run) in rest {
+            let is_inside = all.contains(next);
+            // A point without weight changes nothing: all points are computed alike, without a jump.
+            let decided = Parts::of(Lanes::all(if is_inside { point } else { 0.0 }));
+            let parts = run.parts.at(&nodes);
+            let joined = current.parts.followed_by(decided.followed_by(parts));
+            if is_inside || !some.contains(next) {
+                current = Run { height: current.height + run.height, parts: joined };
+            } else {
+                runs.push((place, current));
+                (place, current) = (*next, Run { height: run.height, parts });
+            }
+        }
+        runs.push((place, current));
         Self { kind: self.kind, ends, widths, runs, bound }
     }
 }
@@ -69,10 +91,14 @@ impl Region for Strips {
             .map(|kind| {
                 let ends = Ends { left: all.clone(), right: all.clone() };
                 let widths = ends.widths(plane);
-                let weights = nodes(widths).map(|width| Weights::of(kind, plane.n, width));
+                let weights = nodes(widths).map(|width| Weights::of(kind, plane.n, width).gap);
+                let gap = |height: f64| Parts::of(weights.map(|weight| weight * height).into());
                 let bottoms = [(NO_POINT, 0.0)].into_iter().chain(plane.points.iter().map(|p| (p.place, p.y)));
                 let tops = plane.points.iter().map(|point| point.y).chain([1.0]);
-                let runs = bottoms.zip(tops).map(|((place, y), top)| (place, Run::gap(top - y, weights))).collect();
+                let runs = bottoms
+                    .zip(tops)
+                    .map(|((place, y), top)| (place, Run { height: top - y, parts: gap(top - y) }))
+                    .collect();
                 Self { kind, ends, widths, runs, bound: 1.0 }
             })
             .into()
@@ -83,8 +109,8 @@ impl Region for Strips {
     }
 
     fn size(&self) -> usize {
-        // A run takes as much memory as nine numbers.
-        9 * self.runs.len()
+        // A run takes as much memory as 18 numbers.
+        18 * self.runs.len()
     }
 
     fn relax(&mut self, plane: &Plane, threshold: f64, ys: &mut Vec<f64>) -> Relaxed {
@@ -96,14 +122,8 @@ impl Region for Strips {
     }
 
     fn split(self, plane: &Plane, threshold: f64, _: &mut Vec<f64>, parts: &mut Vec<Self>) {
-        let ends: Vec<Ends> = self.ends.parts().collect();
-        let bounds = bounds(self.kind, self.widths, &self.runs, &ends, plane);
-        for (ends, bound) in ends.into_iter().zip(bounds) {
-            let bound = bound.min(self.bound);
-            if bound > threshold {
-                parts.push(self.part(ends, bound, plane));
-            }
-        }
+        // With the widest instructions that the processor has.
+        pulp::Arch::new().dispatch(|| self.split_into(parts, plane, threshold));
     }
 }
 
