@@ -5,13 +5,15 @@
 //! the same total weight, so that rare failures are explained too. The explanation states the number of tests of a leaf
 //! that fail, which may be less than half.
 
+mod table;
 mod tree;
 mod words;
 
 use paracosm_campaign::{Error, JsonArtefact, Log, Trial};
 use paracosm_oracles::Verdict;
 use serde::Serialize;
-use tree::{Column, Table, Tree};
+use table::{Column, Table};
+use tree::Tree;
 use words::Names;
 
 /// The greatest number of leaves of a tree.
@@ -175,7 +177,7 @@ fn table(log: &Log) -> Result<(Table, Names<'_>), Error> {
             (None, None) => unreachable!("what has no levels is a number"),
         });
     }
-    Ok((Table { columns, failed: judged.iter().map(|trial| trial.is_failure()).collect() }, names))
+    Ok((Table::new(columns, judged.iter().map(|trial| trial.is_failure()).collect()), names))
 }
 
 /// Grows a tree for these rows and chooses the size that predicts left-out tests best, with equal weights of failing
@@ -231,7 +233,7 @@ mod tests {
         let columns = [0, 1].map(|by| (0..1000).map(|i| at(i, by)).collect::<Vec<f64>>());
         let inside = |i: usize| columns[0][i] > 0.6 && columns[1][i] < 0.5;
         let failed = (0..1000).map(|i| inside(i) ^ (i % wrong == wrong - 1)).collect();
-        Table { columns: columns.map(Column::Numbers).to_vec(), failed }
+        Table::new(columns.map(Column::Numbers).to_vec(), failed)
     }
 
     #[test]
@@ -267,7 +269,7 @@ mod tests {
         // Of a hundred coins that depend on nothing a tree learns some by heart, but not those that it was not shown.
         let column = |by: u64| Column::Numbers((0..100).map(|i| (mix(100 * by + i) % 997) as f64).collect());
         let columns = (0..8).map(column).collect();
-        let table = Table { columns, failed: (0..100).map(|i| mix(i + 5000).is_multiple_of(2)).collect() };
+        let table = Table::new(columns, (0..100).map(|i| mix(i + 5000).is_multiple_of(2)).collect());
         let rows: Vec<usize> = (0..100).collect();
         let told = left_out(&table, &rows, FOLDS, |rows| vec![Tree::grow(&table, rows, MOST_LEAVES, 1)]);
         let left_out = Accuracy::of(&told[0], &table.failed);

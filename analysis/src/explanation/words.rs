@@ -1,6 +1,6 @@
 //! Writes the rules of a tree in words.
 
-use super::tree::Condition;
+use super::table::Condition;
 use super::{Explanation, FOLDS, MOST_LEAVES, Rule};
 use paracosm_space::{Coordinate, Space, Value};
 
