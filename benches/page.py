@@ -34,6 +34,8 @@ CAMPAIGNS = [
 ]
 SIZES = [10, 100, 1_000, 10_000, 100_000, 1_000_000]
 BENCHES = ["speed", "coverage", "camera"]
+# The time for one work in one turn.
+MOST_SECONDS = 0.5
 EXAMPLES = ["covering", "greedy", "adaptive"]
 UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 
@@ -182,14 +184,22 @@ def shown(time):
     return f"{number:,.0f} {unit}" if number >= 100 else f"{number:g} {unit}"
 
 
-def benches(trees):
+def benches(trees, rounds):
     rows = []
     for bench in BENCHES:
-        before, now = (divan(tree.cargo("bench", "--locked", "--bench", bench)) if tree.has_bench(bench) else {} for tree in trees)
-        for name, time in now.items():
-            old = before.get(name)
-            rows.append([f"`{bench}`: {name}", shown(old) if old else "", shown(time), f"{old / time:.2f}" if old else ""])
-    return table(["work", "before", "now", "ratio"], rows)
+        with_bench = [tree.has_bench(bench) for tree in trees]
+        arguments = ["bench", "--locked", "--bench", bench, "--", "--max-time", str(MOST_SECONDS)]
+        turns = [[divan(tree.cargo(*arguments)) if has else {} for tree, has in zip(trees, with_bench)] for _ in range(rounds)]
+        for name in turns[0][1]:
+            now = statistics.median(turn[1][name] for turn in turns)
+            if name not in turns[0][0]:
+                rows.append([f"`{bench}`: {name}", "", shown(now), "", ""])
+                continue
+            before = statistics.median(turn[0][name] for turn in turns)
+            ratios = [turn[0][name] / turn[1][name] for turn in turns]
+            rows.append([f"`{bench}`: {name}", shown(before), shown(now), f"{before / now:.2f}",
+                         f"{min(ratios):.2f} to {max(ratios):.2f}"])
+    return table(["work", "before", "now", "ratio", "ratios of the turns"], rows)
 
 
 def example(tree, name):
@@ -214,7 +224,7 @@ def machine():
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--before", required=True, metavar="COMMIT", help="the commit to compare with, such as the last release")
-    arguments.add_argument("--rounds", type=int, default=3, help="how often each campaign runs")
+    arguments.add_argument("--rounds", type=int, default=3, help="how often each campaign and each work of `cargo bench` runs")
     arguments = arguments.parse_args()
     if run(["git", "status", "--porcelain", "--untracked-files=no"]).strip():
         sys.exit("there are changes that are not committed: commit them first, so that the page can name what it measured")
@@ -234,7 +244,7 @@ def main():
         measured = {
             "campaigns": lambda: campaigns(trees, arguments.rounds),
             "cliffs": lambda: cliffs(trees),
-            "benches": lambda: benches(trees),
+            "benches": lambda: benches(trees, arguments.rounds),
             **{name: lambda name=name: example(trees[1], name) for name in EXAMPLES},
         }
         for part, measure in measured.items():
