@@ -34,7 +34,7 @@ CAMPAIGNS = [
 ]
 SIZES = [10, 100, 1_000, 10_000, 100_000, 1_000_000]
 BENCHES = ["speed", "coverage", "camera"]
-# The time for one work in one turn.
+# A work takes samples in a turn until this time in seconds has passed, and at least one sample.
 MOST_SECONDS = 0.5
 EXAMPLES = ["covering", "greedy", "adaptive"]
 UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
@@ -188,11 +188,21 @@ def benches(trees, rounds):
     rows = []
     for bench in BENCHES:
         with_bench = [tree.has_bench(bench) for tree in trees]
-        arguments = ["bench", "--locked", "--bench", bench, "--", "--max-time", str(MOST_SECONDS)]
-        turns = [[divan(tree.cargo(*arguments)) if has else {} for tree, has in zip(trees, with_bench)] for _ in range(rounds)]
+        turns = [[{}, {}] for _ in range(rounds)]
+        # Nothing is compiled between two measurements.
+        for tree in (tree for tree, has in zip(trees, with_bench) if has):
+            tree.cargo("bench", "--locked", "--bench", bench, "--no-run")
+        for turn, measured in enumerate(turns):
+            # Each commit is the first one in half of the turns.
+            for i in (0, 1) if turn % 2 == 0 else (1, 0):
+                if with_bench[i]:
+                    arguments = ["bench", "--locked", "--bench", bench, "--", "--max-time", str(MOST_SECONDS)]
+                    measured[i] = divan(trees[i].cargo(*arguments))
         for name in turns[0][1]:
+            if not all(name in turn[1] for turn in turns):
+                sys.exit(f"the work `{name}` of the benchmark `{bench}` is missing in a turn")
             now = statistics.median(turn[1][name] for turn in turns)
-            if name not in turns[0][0]:
+            if not all(name in turn[0] for turn in turns):
                 rows.append([f"`{bench}`: {name}", "", shown(now), "", ""])
                 continue
             before = statistics.median(turn[0][name] for turn in turns)
@@ -224,10 +234,10 @@ def machine():
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--before", required=True, metavar="COMMIT", help="the commit to compare with, such as the last release")
-    arguments.add_argument("--rounds", type=int, default=3, help="how often each campaign and each work of `cargo bench` runs")
+    arguments.add_argument("--rounds", type=int, default=3, help="the number of turns of each campaign and of each work of `cargo bench`")
     arguments = arguments.parse_args()
     if run(["git", "status", "--porcelain", "--untracked-files=no"]).strip():
-        sys.exit("there are changes that are not committed: commit them first, so that the page can name what it measured")
+        sys.exit("there are changes that are not committed: commit them first, so that the page can name the commit that it measured")
     scratch = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "page"
     earlier = scratch / "earlier"
     shutil.rmtree(earlier, ignore_errors=True)
@@ -248,7 +258,7 @@ def main():
             **{name: lambda name=name: example(trees[1], name) for name in EXAMPLES},
         }
         for part, measure in measured.items():
-            # A later part may fail. The parts so far are kept for whoever looks for the reason.
+            # A later part may fail. The file keeps the finished parts, so that one can look for the reason.
             parts[part] = measure()
             (scratch / "parts.json").write_text(json.dumps(parts, indent=1))
     finally:

@@ -37,8 +37,8 @@ impl Measure {
 const QUICK: f64 = 4e6;
 /// The largest number of points in the plane for which the search takes a second or two.
 const QUICK_IN_THE_PLANE: usize = 10_000;
-/// The largest number of points in the plane for which the regions of strips fit into memory.
-const MOST_IN_STRIPS: usize = 300_000;
+/// The largest number of points in the plane for which one task can keep all open regions of strips.
+const MOST_IN_STRIPS: usize = 275_000;
 
 /// Returns `true` if the extreme discrepancy of so many points takes little time.
 fn is_quick(dims: usize, points: usize) -> bool {
@@ -49,7 +49,7 @@ fn is_quick(dims: usize, points: usize) -> bool {
 /// < b} / n` and `#{a <= x <= b} / n - vol [a,b]` over all axis-parallel boxes in the unit cube (Niederreiter, Random
 /// Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
-/// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. In the
+/// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB for each thread) cuts the search short. In the
 /// plane 10,000 points take about a second. On a line the time is O(n log n). The discrepancy of a set without points
 /// is 1, because the whole cube is uncovered.
 pub fn extreme_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {

@@ -174,7 +174,7 @@ fn table(log: &Log) -> Result<(Table, Names<'_>), Error> {
             (None, Some((index, count))) => {
                 Column::Levels(points.iter().map(|point| point.discrete[index]).collect(), count)
             }
-            (None, None) => unreachable!("what has no levels is a number"),
+            (None, None) => unreachable!("a coordinate without levels is a number"),
         });
     }
     Ok((Table::new(columns, judged.iter().map(|trial| trial.is_failure()).collect()), names))
@@ -225,6 +225,7 @@ fn mix(word: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use super::table::Condition;
     use super::*;
 
     /// A thousand tests in the plane that fail in a corner; every `wrong`-th verdict is turned around.
@@ -251,8 +252,8 @@ mod tests {
     fn rare_failures_are_found_where_nowhere_most_tests_fail() {
         // In a half of the plane a quarter of the tests fails, in the other one hardly any.
         let mut table = corner(2000);
-        let Column::Numbers(x) = &table.columns[0] else { unreachable!("they are numbers") };
-        table.failed = (0..1000).map(|i| mix(i as u64 + 7000) % 100 < if x[i] > 0.5 { 25 } else { 2 }).collect();
+        let rare = |row: usize| table.is_yes(&Condition::Below(0, 0.5), row);
+        table.failed = (0..1000).map(|row| mix(row as u64 + 7000) % 100 < if rare(row) { 2 } else { 25 }).collect();
         let rows: Vec<usize> = (0..1000).collect();
         let told = left_out(&table, &rows, FOLDS, |rows| vec![chosen(&table, rows)]);
         let found = Accuracy::of(&told[0], &table.failed);
@@ -266,7 +267,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_known_is_not_in_the_accuracy_of_left_out_tests() {
-        // Of a hundred coins that depend on nothing a tree learns some by heart, but not those that it was not shown.
+        // The verdicts are a hundred coin tosses. A tree learns some tosses by heart, but cannot predict other tosses.
         let column = |by: u64| Column::Numbers((0..100).map(|i| (mix(100 * by + i) % 997) as f64).collect());
         let columns = (0..8).map(column).collect();
         let table = Table::new(columns, (0..100).map(|i| mix(i + 5000).is_multiple_of(2)).collect());

@@ -1,9 +1,9 @@
 //! The tests as a table, and the divisions of its rows that separate failing tests from passing tests best.
 //!
-//! Every split is the one that reduces Gini's impurity most, over all columns and all places between two different
+//! Every split reduces Gini's impurity most, over all columns and all places between two different
 //! numbers (Breiman, Friedman, Olshen and Stone, "Classification and Regression Trees", 1984). Levels without an order
-//! are first sorted by their share of failures; for two classes no division of the levels is better than the best one
-//! in this order (their theorem 4.5; splits with too few tests on a side are skipped).
+//! are first sorted by their share of failures. For two classes no division of the levels is better than the best
+//! division in this order (their theorem 4.5; splits with too few tests on a side are skipped).
 //!
 //! Each column of numbers is sorted once, for all trees.
 
@@ -19,16 +19,16 @@ pub enum Column {
 /// The tests as columns of values, with a mark for each test that failed. Each test is a row.
 #[derive(Debug, Clone)]
 pub struct Table {
-    pub(super) columns: Vec<Column>,
+    columns: Vec<Column>,
     pub failed: Vec<bool>,
     /// The rows in the order of each column of numbers; no rows for a column of levels.
     orders: Vec<Vec<u32>>,
 }
 
-/// The rows of a table that reach a node. They are never sorted again: a part of sorted rows is sorted.
+/// The rows of a table that reach a node. The rows are never sorted again, because a part of sorted rows is sorted.
 pub struct Part {
     rows: Vec<u32>,
-    /// The rows in the order of each column of numbers; no rows for a column of levels.
+    /// The rows of the part, in the orders of the table.
     orders: Vec<Vec<u32>>,
 }
 
@@ -46,11 +46,11 @@ pub enum Condition {
 pub struct Split {
     /// The decrease of Gini's impurity by the split, in weighted tests.
     pub gain: f64,
-    pub test: Condition,
+    pub condition: Condition,
 }
 
 impl Column {
-    /// The rows in the order of the numbers, and rows with equal numbers in the order of the table.
+    /// Returns the rows in the order of the numbers. Rows with equal numbers keep the order of the table.
     fn order(&self) -> Vec<u32> {
         let Self::Numbers(numbers) = self else { return Vec::new() };
         let mut rows: Vec<u32> = (0..numbers.len() as u32).collect();
@@ -64,9 +64,7 @@ impl Part {
     pub fn of(table: &Table, rows: &[usize]) -> Self {
         let mut is_in = vec![false; table.failed.len()];
         rows.iter().for_each(|&row| is_in[row] = true);
-        let orders =
-            table.orders.iter().map(|order| order.iter().copied().filter(|&row| is_in[row as usize]).collect());
-        Self { rows: rows.iter().map(|&row| row as u32).collect(), orders: orders.collect() }
+        Self { rows: rows.iter().map(|&row| row as u32).collect(), orders: chosen(&table.orders, &is_in) }
     }
 
     /// Returns the numbers of tests and of failures.
@@ -74,13 +72,20 @@ impl Part {
         [self.rows.len(), self.rows.iter().filter(|&&row| table.failed[row as usize]).count()]
     }
 
-    /// Divides the rows by a condition: the rows for yes, and the rows for no.
-    pub fn divided(self, table: &Table, test: &Condition) -> [Self; 2] {
-        let sides = |rows: Vec<u32>| rows.into_iter().partition(|&row| table.is_yes(test, row as usize));
-        let (yes, no) = sides(self.rows);
-        let orders: (Vec<_>, Vec<_>) = self.orders.into_iter().map(sides).unzip();
-        [Self { rows: yes, orders: orders.0 }, Self { rows: no, orders: orders.1 }]
+    /// Returns the part that fulfils a condition, and the part that does not.
+    pub fn divided(&self, table: &Table, condition: &Condition) -> [Self; 2] {
+        let is_yes: Vec<bool> = (0..table.failed.len()).map(|row| table.is_yes(condition, row)).collect();
+        let is_no: Vec<bool> = is_yes.iter().map(|yes| !yes).collect();
+        [is_yes, is_no].map(|is_in| {
+            let rows = self.rows.iter().copied().filter(|&row| is_in[row as usize]).collect();
+            Self { rows, orders: chosen(&self.orders, &is_in) }
+        })
     }
+}
+
+/// Returns the rows of some orders that are in a part.
+fn chosen(orders: &[Vec<u32>], is_in: &[bool]) -> Vec<Vec<u32>> {
+    orders.iter().map(|order| order.iter().copied().filter(|&row| is_in[row as usize]).collect()).collect()
 }
 
 impl Table {
@@ -91,8 +96,8 @@ impl Table {
     }
 
     /// Returns `true` if the value of the row fulfils the condition.
-    pub fn is_yes(&self, test: &Condition, row: usize) -> bool {
-        match test {
+    pub fn is_yes(&self, condition: &Condition, row: usize) -> bool {
+        match condition {
             Condition::Below(column, limit) => {
                 matches!(&self.columns[*column], Column::Numbers(all) if all[row] < *limit)
             }
@@ -102,8 +107,8 @@ impl Table {
         }
     }
 
-    /// Finds the best split of these rows with at least `least` rows on either side; among equal splits the first
-    /// split.
+    /// Finds the best split of these rows with at least `least` rows on either side. Of equal splits it returns the
+    /// first split.
     pub fn best_split(&self, part: &Part, weights: Weights, least: usize) -> Option<Split> {
         let cutting = Cutting { weights, least };
         let splits = (0..self.columns.len()).filter_map(|column| match &self.columns[column] {
@@ -121,7 +126,7 @@ impl Table {
         let counts: Vec<[usize; 2]> = order.iter().map(|&row| [1, usize::from(self.failed[row as usize])]).collect();
         let number = |i: usize| numbers[order[i] as usize];
         let (gain, at) = cutting.best(&counts, |i| number(i - 1) < number(i))?;
-        Some(Split { gain, test: Condition::Below(column, round_between(number(at - 1), number(at))) })
+        Some(Split { gain, condition: Condition::Below(column, round_between(number(at - 1), number(at))) })
     }
 
     fn split_levels(
@@ -144,7 +149,7 @@ impl Table {
         let (gain, at) = cutting.best(&sorted, |_| true)?;
         let mut among = vec![false; levels];
         order[..at].iter().for_each(|&level| among[level] = true);
-        Some(Split { gain, test: Condition::Among(column, among) })
+        Some(Split { gain, condition: Condition::Among(column, among) })
     }
 }
 
@@ -282,16 +287,17 @@ pub(super) mod tests {
         fn the_best_split_is_that_of_a_search_through_all(table in tables(), least in 1..4_usize) {
             // With more than one test to a side the order of the levels is no proof any more, but of numbers all is
             // tried.
-            let mut table = table;
-            table.columns.truncate(if least == 1 { 3 } else { 2 });
+            let mut columns = table.columns;
+            columns.truncate(if least == 1 { 3 } else { 2 });
+            let table = Table::new(columns, table.failed);
             let rows: Vec<usize> = (0..table.failed.len()).collect();
             let of = [rows.len(), table.failed.iter().filter(|failed| **failed).count()];
             let found = table.best_split(&Part::of(&table, &rows), Weights::balanced(of[0], of[1]), least);
             let gain = naive(&table, least);
             prop_assert!((found.as_ref().map_or(0.0, |split| split.gain) - gain).abs() < 1e-8, "{found:?} {gain}");
-            if let Some(Split { gain, test }) = found {
+            if let Some(Split { gain, condition }) = found {
                 let count = |side: bool| {
-                    let rows = rows.iter().filter(|&&row| table.is_yes(&test, row) == side);
+                    let rows = rows.iter().filter(|&&row| table.is_yes(&condition, row) == side);
                     [rows.clone().count(), rows.filter(|&&row| table.failed[row]).count()]
                 };
                 let (yes, no) = (count(true), count(false));

@@ -40,14 +40,14 @@ impl Tree {
             let gain = |split: &Option<Split>| split.as_ref().map_or(0.0, |split| split.gain);
             let best = (0..open.len()).rev().max_by(|&a, &b| gain(&open[a].2).total_cmp(&gain(&open[b].2)));
             let Some(best) = best.filter(|&best| open[best].2.is_some()) else { break };
-            let (node, part, Some(Split { test, .. })) = open.remove(best) else { break };
+            let (node, part, Some(Split { condition, .. })) = open.remove(best) else { break };
             let children = [tree.nodes.len(), tree.nodes.len() + 1];
-            for (child, part) in children.into_iter().zip(part.divided(table, &test)) {
+            for (child, part) in children.into_iter().zip(part.divided(table, &condition)) {
                 tree.nodes.push(leaf(&part));
                 let split = table.best_split(&part, weights, least);
                 open.push((child, part, split));
             }
-            tree.nodes[node].split = Some((test, children));
+            tree.nodes[node].split = Some((condition, children));
         }
         tree
     }
@@ -71,13 +71,13 @@ impl Tree {
     /// Returns `true` if the tree predicts that the test in a row fails.
     pub fn fails(&self, table: &Table, row: usize) -> bool {
         let mut at = &self.nodes[0];
-        while let Some((test, [yes, no])) = &at.split {
-            at = &self.nodes[if table.is_yes(test, row) { *yes } else { *no }];
+        while let Some((condition, [yes, no])) = &at.split {
+            at = &self.nodes[if table.is_yes(condition, row) { *yes } else { *no }];
         }
         self.says_fail(at)
     }
 
-    /// Returns the tree without the splits of which both sides give the same prediction.
+    /// Returns the tree without the splits whose two sides give the same prediction.
     pub fn pruned(&self) -> Self {
         let mut tree = self.clone();
         // Children come after their parents in the list.
@@ -101,9 +101,9 @@ impl Tree {
             match &node.split {
                 None if self.says_fail(node) => failing.push((path, node)),
                 None => {}
-                Some((test, children)) => {
+                Some((condition, children)) => {
                     for (child, answer) in children.iter().zip([true, false]).rev() {
-                        open.push((*child, path.iter().copied().chain([(test, answer)]).collect()));
+                        open.push((*child, path.iter().copied().chain([(condition, answer)]).collect()));
                     }
                 }
             }

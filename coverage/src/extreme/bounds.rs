@@ -18,7 +18,7 @@
 use super::ends::{Ends, NO_POINT};
 use super::lanes::{LANES, Lanes};
 use super::plane::Plane;
-use super::run::{Run, Widths};
+use super::run::{Interpolation, Run, point_weight};
 use crate::star::BoxKind;
 use std::array::from_fn;
 use std::ops::Range;
@@ -28,7 +28,7 @@ use std::ops::Range;
 struct Inside {
     some: [[f64; LANES]; 2],
     all: [[f64; LANES]; 2],
-    /// The place from which on a point is on the right.
+    /// The first place on the right.
     middle: [f64; LANES],
     /// 1 for a part whose undecided points have a price, or 0.
     priced: [f64; LANES],
@@ -46,11 +46,11 @@ impl Inside {
     }
 }
 
-/// Returns an upper bound on the difference of every box of each part of a region, and fills up with repetitions of the
-/// last bound.
+/// Returns an upper bound on the difference of every box, for each part of a region. If there are fewer parts than
+/// lanes, the last bound is repeated.
 ///
 /// # Panics
-/// There is no part.
+/// There is no part, or there are more parts than lanes.
 #[inline(always)]
 pub(super) fn bounds(
     kind: BoxKind,
@@ -59,8 +59,9 @@ pub(super) fn bounds(
     parts: &[Ends],
     plane: &Plane,
 ) -> [f64; LANES] {
+    assert!(parts.len() <= LANES, "there is a lane for each part");
     let is_closed = kind == BoxKind::Closed;
-    let sign = if is_closed { 1.0 } else { -1.0 };
+    let point = point_weight(kind);
     let part = |at: usize| &parts[at.min(parts.len() - 1)];
     let inside = Inside::of(kind, part);
     let totals: [f64; LANES] = from_fn(|at| total_price(kind, part(at), plane));
@@ -69,7 +70,7 @@ pub(super) fn bounds(
         let paid = totals[at] / 2.0 / plane.n;
         if is_closed { narrowest + paid } else { widest - paid }
     });
-    let paid_widths = Widths::between(widths, paid_widths);
+    let paid_widths = Interpolation::between(widths, paid_widths);
     let (zero, half) = (Lanes::all(0.0), Lanes::all(0.5));
     let [mut tail, mut any] = [zero; 2];
     // `G - M h` from 0 up to the current y, and its extremes, whose difference is `E`.
@@ -84,7 +85,7 @@ pub(super) fn bounds(
             let some = (inside.some[0][at] <= place) & (place < inside.some[1][at]);
             let all = (inside.all[0][at] <= place) & (place < inside.all[1][at]);
             let held = if is_closed { some } else { all };
-            weight[at] = (if held { 1.0 } else { 0.0 }) * sign;
+            weight[at] = if held { point } else { 0.0 };
             let by_side = if place < inside.middle[at] { on_left } else { on_right };
             price[at] = (if some & !all { by_side } else { 0.0 }) * inside.priced[at];
         }

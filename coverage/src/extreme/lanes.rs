@@ -1,9 +1,9 @@
-//! Four numbers that are computed together, so that a processor computes them by one instruction.
+//! Four numbers that are computed together. With AVX2 one instruction computes all four.
 
 use crate::ordered::{greatest, least};
 use std::ops::{Add, Mul, Sub};
 
-/// The number of numbers that are computed together.
+/// The number of lanes.
 pub(super) const LANES: usize = 4;
 
 /// Numbers that are computed together.
@@ -11,7 +11,7 @@ pub(super) const LANES: usize = 4;
 pub(super) struct Lanes([f64; LANES]);
 
 impl Lanes {
-    /// Makes lanes with the same number.
+    /// Makes lanes that all hold the same number.
     #[inline(always)]
     pub(super) const fn all(number: f64) -> Self {
         Self([number; LANES])
@@ -35,6 +35,7 @@ impl Lanes {
         self.zip(other, least)
     }
 
+    /// Computes each lane. The lanes are listed one by one, because the compiler makes one instruction of them then.
     #[inline(always)]
     fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
@@ -73,5 +74,20 @@ impl From<[f64; LANES]> for Lanes {
     #[inline(always)]
     fn from(numbers: [f64; LANES]) -> Self {
         Self(numbers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_lane_is_computed_alone() {
+        let (a, b) = (Lanes::from([1.0, -2.0, 3.0, 0.5]), Lanes::from([4.0, -5.0, 0.0, 0.5]));
+        assert_eq!((a + b).numbers(), [5.0, -7.0, 3.0, 1.0]);
+        assert_eq!((a - b).numbers(), [-3.0, 3.0, 3.0, 0.0]);
+        assert_eq!((a * b).numbers(), [4.0, 10.0, 0.0, 0.25]);
+        assert_eq!(a.greatest(b).numbers(), [4.0, -2.0, 3.0, 0.5]);
+        assert_eq!(a.least(b).numbers(), [1.0, -5.0, 0.0, 0.5]);
     }
 }

@@ -49,7 +49,9 @@ impl Plane {
         }
         // A sum adds each point and each gap once or twice. Each of these additions is rounded by half an ulp of n at
         // most, because no number is beyond n. At each cut and for each bound, a run is weighed between values at other
-        // widths. The rounding of these weighted means is relative to the run, and all runs together are 2 n at most.
+        // widths. The rounding of these weighted means is relative to the run, and all runs together are 2 n at most. The
+        // rounding of the widths moves a sum by n times half an ulp of 1. The number of cuts on the way to a region is the
+        // logarithm of n.
         let rounding = 8.0 * (n + 100.0) * n * f64::EPSILON;
         Self { positions, points, prices, prices_below, n, rounding }
     }

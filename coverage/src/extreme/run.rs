@@ -3,31 +3,28 @@
 use super::lanes::{LANES, Lanes};
 use crate::star::BoxKind;
 
-/// The number of widths at which a run knows its parts. With two widths the straight lines between them are so far
-/// from the truth that some regularly spread points need many more cuts.
+/// The number of widths at which a run knows its parts: one for each lane. With two widths the straight lines between
+/// them are so far from the truth that some regularly spread points need many more cuts.
 pub(super) const NODES: usize = LANES;
 
-/// The weights of points and gaps, for boxes of one kind and one width.
-#[derive(Clone, Copy)]
-pub(super) struct Weights {
-    /// The weight of a point.
-    pub(super) point: f64,
-    /// The weight of a gap of height 1.
-    pub(super) gap: f64,
-}
-
-impl Weights {
-    /// Makes the weights for boxes of the given width, among `n` points.
-    pub(super) fn of(kind: BoxKind, n: f64, width: f64) -> Self {
-        match kind {
-            BoxKind::Open => Self { point: -1.0, gap: n * width },
-            BoxKind::Closed => Self { point: 1.0, gap: -n * width },
-        }
+/// Returns the weight of a point, for boxes of one kind.
+pub(super) fn point_weight(kind: BoxKind) -> f64 {
+    match kind {
+        BoxKind::Open => -1.0,
+        BoxKind::Closed => 1.0,
     }
 }
 
-/// The sum of the weights of a sequence, and the largest sums of its parts, at some widths. The empty part counts, so
-/// that the largest sums are not negative.
+/// Returns the weight of a gap of height 1, for boxes of one kind and one width among `n` points.
+pub(super) fn gap_weight(kind: BoxKind, n: f64, width: f64) -> f64 {
+    match kind {
+        BoxKind::Open => n * width,
+        BoxKind::Closed => -n * width,
+    }
+}
+
+/// The sum of the weights of a sequence, and the largest sums of its parts, each at the widths of the run. The empty
+/// part counts, so that the largest sums are not negative.
 #[derive(Clone, Copy)]
 pub(super) struct Parts {
     pub(super) sum: Lanes,
@@ -60,12 +57,12 @@ impl Parts {
 
     /// Returns the parts at other widths.
     #[inline(always)]
-    pub(super) fn at(&self, widths: &Widths) -> Self {
+    pub(super) fn at(&self, widths: &Interpolation) -> Self {
         Self {
-            sum: widths.of(self.sum),
-            head: widths.of(self.head),
-            tail: widths.of(self.tail),
-            any: widths.of(self.any),
+            sum: widths.interpolated(self.sum),
+            head: widths.interpolated(self.head),
+            tail: widths.interpolated(self.tail),
+            any: widths.interpolated(self.any),
         }
     }
 }
@@ -82,12 +79,25 @@ pub(super) struct Run {
     pub(super) parts: Parts,
 }
 
-/// Some widths between the least and the greatest width of a run: for each width at which the run knows its parts, the
-/// weight that it has at each of the widths, in the straight line to this width.
-pub(super) struct Widths([Lanes; NODES]);
+impl Run {
+    /// Makes the run that is a single gap. The weights are the weights of a gap of height 1 at the widths of the run.
+    pub(super) fn gap(height: f64, weights: [f64; NODES]) -> Self {
+        Self { height, parts: Parts::of(weights.map(|weight| weight * height).into()) }
+    }
 
-impl Widths {
-    /// Makes the widths `widths` between the least and the greatest width of a run.
+    /// Returns the run at other widths, between the least and the greatest width.
+    #[inline(always)]
+    pub(super) fn at(&self, widths: &Interpolation) -> Self {
+        Self { height: self.height, parts: self.parts.at(widths) }
+    }
+}
+
+/// Widths between the least and the greatest width of a run. The parts at these widths are interpolated between the
+/// widths at which the run knows its parts. The field holds the weights of each of the latter.
+pub(super) struct Interpolation([Lanes; NODES]);
+
+impl Interpolation {
+    /// Makes the interpolation at `widths`, which are between the least and the greatest width of a run.
     pub(super) fn between([narrowest, widest]: [f64; 2], widths: [f64; LANES]) -> Self {
         let steps = widths.map(|width| {
             let share = if widest > narrowest { (width - narrowest) / (widest - narrowest) } else { 0.0 };
@@ -97,9 +107,9 @@ impl Widths {
     }
 
     #[inline(always)]
-    fn of(&self, numbers: Lanes) -> Lanes {
-        let [a, b, c, d] = numbers.numbers();
-        let [e, f, g, h] = &self.0;
-        (Lanes::all(a) * *e + Lanes::all(b) * *f) + (Lanes::all(c) * *g + Lanes::all(d) * *h)
+    fn interpolated(&self, numbers: Lanes) -> Lanes {
+        let [a, b, c, d] = numbers.numbers().map(Lanes::all);
+        let [e, f, g, h] = self.0;
+        (a * e + b * f) + (c * g + d * h)
     }
 }
