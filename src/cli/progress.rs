@@ -13,6 +13,9 @@ use std::time::{Duration, Instant};
 /// The time between two messages beside the bar. The bar is drawn at most 20 times a second anyway.
 const BETWEEN_MESSAGES: Duration = Duration::from_millis(50);
 
+/// The time between two drawings of the bar after the last test.
+const BETWEEN_TICKS: Duration = Duration::from_millis(200);
+
 /// Makes a progress bar for `tests` tests; `--quiet` hides the bar.
 pub(super) fn bar(verbosity: Verbosity, tests: usize) -> ProgressBar {
     let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(tests as u64) };
@@ -112,6 +115,8 @@ impl Observer for Progress<'_> {
 
     fn ended(&mut self) -> Result<(), Error> {
         self.bar.set_message("measuring coverage");
+        // Without ticks, the last count may never be drawn: the bar is drawn at most 20 times a second.
+        self.bar.enable_steady_tick(BETWEEN_TICKS);
         Ok(())
     }
 }

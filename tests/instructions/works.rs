@@ -23,12 +23,12 @@ pub type Work = (&'static str, fn() -> Ready);
 
 /// All works.
 pub const ALL: &[Work] = &[
-    ("test of pedestrian-crossing", || tests("pedestrian-crossing", 5)),
-    ("test of follow-leader", || tests("follow-leader", 2)),
-    ("test of cut-out", || tests("cut-out", 2)),
-    ("test of ncap-cpna", || tests("ncap-cpna", 2)),
-    ("test of t-loop", || tests("t-loop", 1)),
-    ("test of grid-traffic", || tests("grid-traffic", 1)),
+    ("5 tests of pedestrian-crossing", || tests("pedestrian-crossing", 5)),
+    ("2 tests of follow-leader", || tests("follow-leader", 2)),
+    ("2 tests of cut-out", || tests("cut-out", 2)),
+    ("2 tests of ncap-cpna", || tests("ncap-cpna", 2)),
+    ("1 test of t-loop", || tests("t-loop", 1)),
+    ("1 test of grid-traffic", || tests("grid-traffic", 1)),
     ("100 ticks of a graph of 1000 nodes", graph),
     ("1000 points of halton", || points(Strategy::HALTON)),
     ("1000 points of sobol", || points(Strategy::SOBOL)),
