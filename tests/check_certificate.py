@@ -21,15 +21,103 @@ import json
 import sys
 from fractions import Fraction
 from itertools import combinations, product
-from math import inf, prod
+from math import comb, inf, isfinite, prod
 from operator import sub
 
 MARGIN = 1e-12
+MOST_PROJECTIONS = 1_000_000
 
 
 def check(holds, message):
     if not holds:
         sys.exit(f"refused: {message() if callable(message) else message}")
+
+
+# The form of a certificate: a test of a value, a list with the form of its items, or a dict with the forms of its entries.
+# The names of tests stand in messages.
+def a_number(value):
+    return type(value) in (int, float) and abs(value) < 1e300 and isfinite(value)
+
+
+def an_index(value):
+    return type(value) is int and 0 <= value < 2**53
+
+
+def a_text(value):
+    return type(value) is str
+
+
+def a_text_or_null(value):
+    return value is None or a_text(value)
+
+
+def anything(_):
+    return True
+
+
+LEVELS = [[an_index]]
+WITNESS = {"fixed": LEVELS, "axes": [an_index], "lower": [a_number], "upper": [a_number]}
+PROOF = {"fixed": LEVELS, "axes": [an_index], "pivots": [an_index]}
+CLAIM = {"measure": a_text, "lower": a_number, "upper": a_number, "note": a_text_or_null, "proofs": [PROOF]}
+CERTIFICATE = {
+    "format": an_index,
+    "continuous": [anything],
+    "discrete": [{"values": [anything]}],
+    "coordinates": [[a_number]],
+    "levels": [[an_index]],
+    "constraints": [a_text],
+    "claims": [CLAIM],
+}
+
+
+def check_form(value, form, where):
+    """Checks that a value has a form. Entries of a dict that the form does not name are ignored."""
+    if isinstance(form, list):
+        check(isinstance(value, list), lambda: f"{where} is {shown(value)}, expected a list")
+        for i, item in enumerate(value):
+            check_form(item, form[0], f"{where}[{i}]")
+    elif isinstance(form, dict):
+        check(isinstance(value, dict), lambda: f"{where} is {shown(value)}, expected an object")
+        for name, entry in form.items():
+            check(name in value, lambda: f"{where} has no entry `{name}`")
+            check_form(value[name], entry, f"{where}.{name}")
+    else:
+        check(form(value), lambda: f"{where} is {shown(value)}, expected {form.__name__.replace('_', ' ')}")
+
+
+def check_claim_form(claim, where):
+    """Checks the entries that only some claims have."""
+    check("witness" in claim, f"{where} has no entry `witness`")
+    if claim["witness"] is not None:
+        check_form(claim["witness"], WITNESS, f"{where}.witness")
+        ends = [len(claim["witness"][end]) for end in ("axes", "lower", "upper")]
+        check(len(set(ends)) == 1, f"{where}.witness has {ends[0]} axes, {ends[1]} lower and {ends[2]} upper ends")
+    if claim["measure"] == "k-wise-dispersion":
+        check_form(claim, {"k": an_index, "excluded": [LEVELS]}, where)
+    pairs = [pair for of in (claim["witness"] or {}, *claim["proofs"]) for pair in of.get("fixed", [])]
+    pairs += [pair for fixed in claim.get("excluded") or [] for pair in fixed]
+    check(all(len(pair) == 2 for pair in pairs), f"{where} has a fixed level that is no pair of a parameter and a level")
+
+
+def shown(value):
+    """A value in a message."""
+    text = json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:40]}..."
+
+
+def read(path):
+    """The contents of a JSON file."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except OSError as error:
+        return check(False, f"{path} cannot be read: {error.strerror}")
+    except UnicodeDecodeError:
+        return check(False, f"{path} is not UTF-8")
+    except RecursionError:
+        return check(False, f"{path} is nested too deeply")
+    except ValueError as error:
+        return check(False, f"{path} is not JSON: {error}")
 
 
 def follow(tests, axes, bound, pivots, where):
@@ -65,6 +153,8 @@ def projections(claim, dims, levels, constrained):
     check(claim["measure"] == "k-wise-dispersion", f"{claim['measure']} is no measure")
     k, parameters, wanted = claim["k"], range(dims + len(levels)), []
     check(k in range(1, len(parameters) + 1), f"there are no {k} parameters")
+    most = comb(len(parameters), k) * max([1, *levels]) ** min(k, len(levels))
+    check(most <= MOST_PROJECTIONS, f"there may be {most} projections; this script checks {MOST_PROJECTIONS} at most")
     for chosen in combinations(parameters, k):
         axes, discrete = [i for i in chosen if i < dims], [i - dims for i in chosen if i >= dims]
         wanted += [(tuple(zip(discrete, v)), tuple(axes)) for v in product(*(range(levels[q]) for q in discrete))]
@@ -108,9 +198,11 @@ def check_claim(claim, coordinates, levels, dims, choices, constrained):
 
 
 def main(path):
-    with open(path, encoding="utf-8") as file:
-        certificate = json.load(file)
+    certificate = read(path)
+    check_form(certificate, CERTIFICATE, "the certificate")
     check(certificate["format"] == 1, "this script knows format 1")
+    for i, claim in enumerate(certificate["claims"]):
+        check_claim_form(claim, f"the certificate.claims[{i}]")
     coordinates, levels = certificate["coordinates"], certificate["levels"]
     dims, choices = len(certificate["continuous"]), [len(choice["values"]) for choice in certificate["discrete"]]
     check(dims <= 1000 and len(levels) == len(coordinates), "too many dimensions, or halves of tests")
@@ -123,4 +215,5 @@ def main(path):
 
 
 if __name__ == "__main__":
+    check(len(sys.argv) == 2, "expected the path of a certificate")
     main(sys.argv[1])

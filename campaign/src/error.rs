@@ -91,8 +91,8 @@ pub enum Failure {
         /// The error that the operating system reported.
         source: std::io::Error,
     },
-    /// A file or a folder was removed while the campaign used it.
-    #[error("{} was removed while the campaign ran", path.display())]
+    /// A file or a folder was removed or moved while the campaign used it.
+    #[error("{} was removed or moved while the campaign ran", path.display())]
     Removed {
         /// The path of the removed file or folder.
         path: PathBuf,

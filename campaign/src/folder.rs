@@ -8,18 +8,19 @@
 
 use crate::files::write_whole;
 use crate::json::differing_key;
+use crate::lock::Lock;
 use crate::scales::Learned;
-use crate::study_file::StudyFile;
-use crate::trials_file::read_trials;
+use crate::study_file::{STUDY, StudyFile, hash_of_text};
+use crate::trial::Line;
+use crate::trials_file::{Read, TRIALS, read_trials};
 use crate::{Catalogue, Error, Extension, Failure, Reason, Study, Trial};
+use same_file::Handle;
 use std::ffi::OsStr;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-pub(crate) const STUDY: &str = "campaign.json";
-pub(crate) const TRIALS: &str = "trials.jsonl";
 /// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
 /// The names of the files that hold results derived from the trials of a campaign.
@@ -44,6 +45,10 @@ pub const DERIVED: [&str; 13] = [
 pub struct Folder {
     path: PathBuf,
     log: File,
+    /// The identity of the log.
+    handle: Handle,
+    /// The hash of the study, which every line of the log has; `None` in a log of an older version.
+    study: Option<String>,
 }
 
 /// The reason why a campaign cannot be begun or continued in a folder.
@@ -85,12 +90,6 @@ pub enum FolderFlaw {
         /// The value of the differing entry in the given study.
         here: String,
     },
-    /// Another process writes to the folder.
-    #[error("another process is writing to {}; wait until it ends", path.display())]
-    InUse {
-        /// The path of the log, which another process has locked.
-        path: PathBuf,
-    },
 }
 
 /// The error that a file name is reserved for a campaign's own files.
@@ -116,12 +115,13 @@ impl Folder {
             return Err(FolderFlaw::File { path: path.to_owned() }.into());
         }
         fs::create_dir_all(path).map_err(Error::io("create", path))?;
+        let log = Lock::of(&path.join(TRIALS))?;
         if let Some(name) = present(path, &[STUDY]) {
             return Err(FolderFlaw::Occupied { path: path.to_owned(), name }.into());
         }
-        write_study(path, study, &Learned::new(), extension)?;
+        let text = write_study(path, study, &Learned::new(), extension)?;
         keep_extended(path, study, extension)?;
-        Self::open(path)
+        Self::open(path, log, Some(hash_of_text(&text)))
     }
 
     /// Opens the folder of a study's campaign to continue the campaign, and returns the trials in the log. Begins the
@@ -136,26 +136,23 @@ impl Folder {
             }
             return Self::create(path, study, extension).map(|folder| (folder, Vec::new()));
         }
-        same_study(path, study, extension)?;
+        let log = Lock::of(&path.join(TRIALS))?;
+        let hash = same_study(path, study, extension)?;
         keep_extended(path, study, extension)?;
-        let mut folder = Self::open(path)?;
+        let mut folder = Self::open(path, log, Some(hash.clone()))?;
         let file = path.join(TRIALS);
-        let (trials, whole) = read_trials(&file, &folder.log)?;
-        folder.log.set_len(whole).map_err(Error::io("write", &file))?;
+        let Read { trials, bytes, is_older } = read_trials(&file, &folder.log, &hash)?;
+        // A log of an older version goes on as it began.
+        folder.study = folder.study.filter(|_| !is_older);
+        folder.log.set_len(bytes).map_err(Error::io("write", &file))?;
         folder.log.seek(SeekFrom::End(0)).map_err(Error::io("write", &file))?;
         Ok((folder, trials))
     }
 
-    fn open(path: &Path) -> Result<Self, Error> {
-        let file = path.join(TRIALS);
-        let mut options = File::options();
-        let log = options.read(true).write(true).create(true).truncate(false);
-        let log = log.open(&file).map_err(Error::io("write", &file))?;
-        match log.try_lock() {
-            Ok(()) => Ok(Self { path: path.to_owned(), log }),
-            Err(TryLockError::WouldBlock) => Err(FolderFlaw::InUse { path: file }.into()),
-            Err(TryLockError::Error(source)) => Err(Error::io("lock", &file)(source)),
-        }
+    fn open(path: &Path, lock: Lock, study: Option<String>) -> Result<Self, Error> {
+        let log = lock.kept();
+        let handle = log.try_clone().and_then(Handle::from_file).map_err(Error::io("open", &path.join(TRIALS)))?;
+        Ok(Self { path: path.to_owned(), log, handle, study })
     }
 
     /// Returns the path of the folder.
@@ -168,7 +165,8 @@ impl Folder {
     /// # Errors
     /// The file cannot be written.
     pub fn write_study(&self, study: &Study, learned: &Learned, extension: Option<&Extension>) -> Result<(), Error> {
-        write_study(&self.path, study, learned, extension)
+        self.is_still_there()?;
+        write_study(&self.path, study, learned, extension).map(|_| ())
     }
 
     /// Appends a trial to the log.
@@ -177,11 +175,9 @@ impl Folder {
     /// The log cannot be written: the disk is full, say.
     pub fn append(&mut self, trial: &Trial) -> Result<(), Error> {
         let file = self.path.join(TRIALS);
-        // A removed folder takes the log with it, but writing to the open file still succeeds.
-        if !file.exists() {
-            return Err(Failure::Removed { path: file }.into());
-        }
-        let mut line = serde_json::to_string(trial).expect("a trial is always JSON");
+        self.is_still_there()?;
+        let line = Line::of(trial, self.study.as_deref());
+        let mut line = serde_json::to_string(&line).expect("a trial is always JSON");
         line.push('\n');
         self.log.write_all(line.as_bytes()).map_err(Error::io("write", &file))
     }
@@ -191,7 +187,16 @@ impl Folder {
     /// # Errors
     /// The file cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Error> {
+        self.is_still_there()?;
         write_whole(&self.path.join(name), contents)
+    }
+
+    /// Checks that the path of the log still leads to the log. If the folder was removed or moved, writing to the open
+    /// log still succeeds, and another campaign may have begun at the path.
+    fn is_still_there(&self) -> Result<(), Error> {
+        let path = self.path.join(TRIALS);
+        let is_there = Handle::from_path(&path).is_ok_and(|there| there == self.handle);
+        if is_there { Ok(()) } else { Err(Failure::Removed { path }.into()) }
     }
 
     /// Returns `true` if the campaign reserves the given file name for its own files.
@@ -201,14 +206,17 @@ impl Folder {
 }
 
 /// Returns the name of a campaign's file that exists. It is one of `first`, the log, the tests that count as done, or
-/// an artefact.
+/// an artefact. A log without a byte is no campaign: a process may have ended after it locked the folder.
 fn present(path: &Path, first: &[&'static str]) -> Option<&'static str> {
     let mut ours = first.iter().copied().chain([TRIALS, EXTENDED]).chain(DERIVED);
-    ours.find(|name| path.join(name).exists())
+    ours.find(|name| fs::metadata(path.join(name)).is_ok_and(|there| *name != TRIALS || there.len() > 0))
 }
 
-fn write_study(path: &Path, study: &Study, learned: &Learned, extension: Option<&Extension>) -> Result<(), Error> {
-    write_whole(&path.join(STUDY), StudyFile::new(study, learned, extension).text().as_bytes())
+/// Writes `campaign.json`, and returns its text.
+fn write_study(path: &Path, study: &Study, learned: &Learned, extension: Option<&Extension>) -> Result<String, Error> {
+    let text = StudyFile::new(study, learned, extension).text();
+    write_whole(&path.join(STUDY), text.as_bytes())?;
+    Ok(text)
 }
 
 /// Writes the tests that the study counts as done to the folder, if they are not there yet.
@@ -220,15 +228,15 @@ fn keep_extended(path: &Path, study: &Study, extension: Option<&Extension>) -> R
     }
 }
 
-/// Checks that a folder holds the campaign of this study.
-fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(), Error> {
+/// Checks that a folder holds the campaign of this study, and returns the hash of the study.
+fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<String, Error> {
     let file = path.join(STUDY);
     let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
     let there = StudyFile::parse(&text, &Catalogue::default());
     let there = there.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
     let here = StudyFile::new(study, &Learned::new(), extension);
     let (tests_there, tests_here) = (there.identity(), here.identity());
-    let Some(key) = differing_key(&tests_there, &tests_here) else { return Ok(()) };
+    let Some(key) = differing_key(&tests_there, &tests_here) else { return Ok(hash_of_text(&text)) };
     let [there, here] = [there, here].map(|study| serde_json::to_value(study).expect("a study is always JSON"));
     let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);
     let (there, here) = (show(&there), show(&here));

@@ -32,6 +32,7 @@ pub mod files;
 mod folder;
 mod json;
 mod judge;
+mod lock;
 mod log;
 mod observer;
 mod process;
@@ -47,6 +48,7 @@ mod test_set;
 mod trace_file;
 mod trial;
 mod trials_file;
+mod trust;
 mod worker;
 
 pub use artefact::{Artefact, JsonArtefact};
@@ -60,15 +62,17 @@ pub use folder::{DERIVED, Folder};
 pub use json::{Number, differing_key};
 pub use log::{Log, read_tests};
 pub use observer::Observer;
+pub use process::end_all_processes;
 pub use regression::{Expectation, Regression, Replayed};
 pub use scales::{Learned, Scales};
 pub use space_file::{SpaceFile, is_model};
 pub use steering::Steering;
-pub use study::{Sampling, StatedRequirement, Study, StudyBuilder, Subject};
+pub use study::{NamedCommand, Sampling, StatedRequirement, Study, StudyBuilder, Subject};
 pub use study_file::StudyFile;
 pub use test_set::{PartialRow, TestSet};
 pub use trace_file::{read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};
+pub use trust::Trust;
 pub use worker::Worker;
 
 /// The error types that [`Error::Use`] and [`BadFile`] hold as reasons.
@@ -82,6 +86,7 @@ pub mod reasons {
     pub use crate::extension::OtherTests;
     pub use crate::files::Exists;
     pub use crate::folder::{FolderFlaw, NotYours};
+    pub use crate::lock::InUse;
     pub use crate::log::HasSpace;
     pub use crate::process::CommandFlaw;
     pub use crate::regression::{NoRegressionName, RegressionFlaw};
@@ -89,7 +94,7 @@ pub mod reasons {
     pub use crate::space_file::SpaceFileFlaw;
     pub use crate::study::{
         AppearanceFlaw, DriverFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario, OddFlaw,
-        ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, WithoutCameras,
+        ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted, WithoutCameras,
     };
     pub use crate::study_file::FormatFlaw;
     pub use crate::test_set::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};

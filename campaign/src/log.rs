@@ -1,11 +1,11 @@
 //! The log of a campaign: its study, and the result of each test.
 
-use crate::folder::{EXTENDED, STUDY, TRIALS};
+use crate::folder::EXTENDED;
 use crate::scales::{Learned, Scales};
-use crate::study_file::StudyFile;
+use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::test_set::TestSet;
-use crate::trials_file::read_trials;
-use crate::{Catalogue, Error, Extension, Reason, Study, Trial};
+use crate::trials_file::{TRIALS, read_trials};
+use crate::{Catalogue, Error, Extension, Reason, Study, Trial, Trust};
 use paracosm_space::{Point, Space};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -48,11 +48,18 @@ impl Log {
         let file = path.join(STUDY);
         let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
         let read = StudyFile::parse(&text, catalogue);
+        let hash = hash_of_text(&text);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
         let log = path.join(TRIALS);
-        let (trials, _) = read_trials(&log, File::open(&log).map_err(Error::io("read", &log))?)?;
+        let read = read_trials(&log, File::open(&log).map_err(Error::io("read", &log))?, &hash)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
-        Ok(Self::new(study, learned, extension, trials))
+        Ok(Self::new(study, learned, extension, read.trials))
+    }
+
+    /// Returns the log with the trust of the user in the command that its study names. Without trust, no test of a log
+    /// that was read from a file can be run if it needs the command.
+    pub fn trusting(self, trust: &Trust) -> Self {
+        Self { study: self.study.trusting(trust), ..self }
     }
 
     /// Returns the study of the campaign.

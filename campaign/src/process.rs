@@ -21,6 +21,28 @@ pub const ARRIVAL: Duration = Duration::from_secs(1);
 /// The longest time that a process may take to end by itself after its standard input is closed.
 const FAREWELL: Duration = Duration::from_millis(500);
 
+/// The ids of all processes that were started and not ended.
+static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+/// Kills all processes that this software has started, with the processes that those have started, before this process
+/// ends. From then on no process can be started. A process that has left its process group (`setsid`) survives.
+pub fn end_all_processes() {
+    let running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+    running.iter().for_each(|id| end_group(*id));
+    // Whoever starts a process now waits until this process has ended.
+    std::mem::forget(running);
+}
+
+/// Kills the processes of a group. Processes that have ended already cannot be killed.
+fn end_group(leader: u32) {
+    #[cfg(unix)]
+    if let Some(group) = i32::try_from(leader).ok().and_then(rustix::process::Pid::from_raw) {
+        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+    }
+    #[cfg(not(unix))]
+    let _ = leader;
+}
+
 /// An external process with its standard streams.
 pub struct Process {
     child: Child,
@@ -32,12 +54,15 @@ impl Process {
     /// Starts the process of a command, with additional environment variables. The command is a list of words, which
     /// must not be empty and begins with the program.
     pub fn start(words: &[String], environment: &[(&str, String)]) -> io::Result<Self> {
+        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).envs(environment.iter().map(|(name, value)| (name, value)));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = command.spawn()?;
+        running.push(child.id());
+        drop(running);
         let stderr = child.stderr.take().expect("it is piped");
         let mut process = Self { child, complaints: Arc::default(), listeners: Vec::new() };
         process.keep_last_of(stderr);
@@ -86,12 +111,13 @@ impl Process {
 
     /// Kills the process and all processes that it started.
     pub fn end(&mut self) {
-        // Processes that have ended already cannot be ended.
-        #[cfg(unix)]
-        let _ = rustix::process::kill_process_group(
-            rustix::process::Pid::from_child(&self.child),
-            rustix::process::Signal::KILL,
-        );
+        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+        // Once the process has been waited for, its number may be another process's.
+        if let Some(place) = running.iter().position(|id| *id == self.child.id()) {
+            running.swap_remove(place);
+            end_group(self.child.id());
+        }
+        drop(running);
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

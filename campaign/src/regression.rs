@@ -6,7 +6,7 @@
 
 use crate::files::{is_new, write_whole};
 use crate::study_file::StudyFile;
-use crate::{Campaign, Catalogue, Error, Folder, Reason, Study, Trial};
+use crate::{Campaign, Catalogue, Error, Folder, Reason, Study, Trial, Trust};
 use paracosm_oracles::Verdict;
 use paracosm_space::{SpaceError, Values};
 use serde::{Deserialize, Serialize};
@@ -136,6 +136,13 @@ impl Regression {
             return Err(NoRegressionName { path: path.to_owned() }.into());
         }
         Ok(is_new(path, "a regression file")?)
+    }
+
+    /// Returns the regression test with the trust of the user in the command that its study names. Without trust, a test
+    /// that was read from a file cannot be run if it needs the command.
+    pub fn trusting(mut self, trust: &Trust) -> Self {
+        self.study.study = self.study.study.trusting(trust);
+        self
     }
 
     /// Returns the study to which the regression test belongs.

@@ -92,6 +92,14 @@ pub enum TraceFlaw {
 
 impl Reason for TraceFlaw {}
 
+/// The greatest number of names in a message.
+const MOST_NAMES: usize = 20;
+
 fn found(signals: &[String]) -> String {
-    if signals.is_empty() { "nothing".to_owned() } else { signals.join(", ") }
+    let (shown, more) = signals.split_at(signals.len().min(MOST_NAMES));
+    match (shown, more.len()) {
+        ([], _) => "nothing".to_owned(),
+        (_, 0) => shown.join(", "),
+        (_, more) => format!("{} and {more} more", shown.join(", ")),
+    }
 }

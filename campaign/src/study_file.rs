@@ -5,7 +5,12 @@ use crate::{Catalogue, Extension, ExtensionRecord, Learned, Reason};
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
 use paracosm_space::Space;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use thiserror::Error;
+use xxhash_rust::xxh3::xxh3_64;
+
+/// The name of the file in the folder of a campaign.
+pub(crate) const STUDY: &str = "campaign.json";
 
 /// The version of the files that this software writes.
 const FORMAT: u32 = 1;
@@ -109,18 +114,8 @@ impl StudyFile {
     /// same entries hold the same campaign. The result does not have the learned scales, which a campaign learns on its
     /// way; the name of the file that the campaign extends, since the same tests may stand in another file; and the
     /// texts that explain requirements, which another version of the software may word differently.
-    pub fn identity(&self) -> serde_json::Value {
-        let mut entries = serde_json::to_value(self).expect("a study is always JSON");
-        if let Some(extends) = entries.get_mut("extends") {
-            *extends = extends["hash"].take();
-        }
-        if let Some(entries) = entries.as_object_mut() {
-            entries.remove("learned_scales");
-        }
-        for requirement in entries["requirements"].as_array_mut().into_iter().flatten() {
-            requirement.as_object_mut().map(|entries| entries.remove("text"));
-        }
-        entries
+    pub fn identity(&self) -> Value {
+        identity(serde_json::to_value(self).expect("a study is always JSON"))
     }
 
     /// Returns the study, the learned scales and the extended tests as the text of a `campaign.json`.
@@ -129,6 +124,28 @@ impl StudyFile {
         text.push('\n');
         text
     }
+}
+
+/// Returns the hash of the study in the text of a `campaign.json`: the 64-bit XXH3 of its [identity](StudyFile::identity),
+/// as 16 hexadecimal digits. The hash is that of the text, and not of what this version of the software makes of it:
+/// another version finds the same hash.
+pub(crate) fn hash_of_text(text: &str) -> String {
+    let entries = serde_json::from_str(text).unwrap_or_default();
+    format!("{:016x}", xxh3_64(identity(entries).to_string().as_bytes()))
+}
+
+/// Removes the entries that do not determine the tests and their verdicts.
+fn identity(mut entries: Value) -> Value {
+    if let Some(hash) = entries.pointer_mut("/extends/hash").map(Value::take) {
+        entries["extends"] = hash;
+    }
+    if let Some(entries) = entries.as_object_mut() {
+        entries.remove("learned_scales");
+    }
+    for requirement in entries.get_mut("requirements").and_then(Value::as_array_mut).into_iter().flatten() {
+        requirement.as_object_mut().map(|entries| entries.remove("text"));
+    }
+    entries
 }
 
 impl TryFrom<Entries> for StudyFile {

@@ -1,9 +1,15 @@
 //! Reads `trials.jsonl`, which has one trial per line.
 
+use crate::study_file::STUDY;
+use crate::trial::Line;
 use crate::{Error, Reason, Trial};
-use std::io::{BufRead, BufReader, Read};
+use serde::de::Error as _;
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 use thiserror::Error;
+
+/// The name of the file in the folder of a campaign.
+pub(crate) const TRIALS: &str = "trials.jsonl";
 
 /// The error in a line of a log.
 #[derive(Debug, Error)]
@@ -25,33 +31,59 @@ pub enum LogFlaw {
         /// The index that the trial should have, which matches the number of the line.
         expected: usize,
     },
+    /// The trial belongs to another study than the file `campaign.json`.
+    #[error(
+        "found a trial of the study {found}, but {STUDY} in the same folder is the study {expected}: two campaigns were mixed"
+    )]
+    OtherStudy {
+        /// The hash of the study that the trial names.
+        found: String,
+        /// The hash of the study in `campaign.json`.
+        expected: String,
+    },
 }
 
 impl Reason for LogFlaw {}
 
-/// Reads the trials of a log line by line. Returns the trials, and the number of bytes that they take. A last line
-/// without its end is ignored.
-pub(crate) fn read_trials(file: &Path, log: impl Read) -> Result<(Vec<Trial>, u64), Error> {
+/// The trials of a log.
+#[derive(Default)]
+pub(crate) struct Read {
+    pub trials: Vec<Trial>,
+    /// The number of bytes that the trials take.
+    pub bytes: u64,
+    /// True if a line does not name its study, as in logs of older versions.
+    pub is_older: bool,
+}
+
+/// Reads the trials of a log line by line. A last line without its end is ignored. `study` is the hash of the study to
+/// which the trials have to belong.
+pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &str) -> Result<Read, Error> {
     let mut log = BufReader::new(log);
-    let (mut trials, mut whole): (Vec<Trial>, u64) = (Vec::new(), 0);
+    let mut found = Read::default();
     let mut line = Vec::new();
     loop {
         line.clear();
         log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
         let Some(text) = line.strip_suffix(b"\n") else { break };
-        let trial = parse(text, trials.len()).map_err(|flaw| Error::in_file(file, trials.len() + 1, flaw))?;
-        trial.append_to(&mut trials);
-        whole += line.len() as u64;
+        let index = found.trials.len();
+        let line_read = parse(text, index, study).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
+        found.is_older |= line_read.study().is_none();
+        let trial = Trial::try_from(line_read).map_err(|flaw| LogFlaw::NoTrial(serde_json::Error::custom(flaw)));
+        trial.map_err(|flaw| Error::in_file(file, index + 1, flaw))?.append_to(&mut found.trials);
+        found.bytes += line.len() as u64;
     }
-    Ok((trials, whole))
+    Ok(found)
 }
 
 /// Reads a line of a log, which should be the trial with the given index.
-fn parse(line: &[u8], index: usize) -> Result<Trial, LogFlaw> {
+fn parse(line: &[u8], index: usize, study: &str) -> Result<Line, LogFlaw> {
     let line = std::str::from_utf8(line).map_err(|_| LogFlaw::NoText)?;
     if line.ends_with('\r') {
         return Err(LogFlaw::CarriageReturn);
     }
-    let trial: Trial = serde_json::from_str(line).map_err(LogFlaw::NoTrial)?;
-    if trial.index == index { Ok(trial) } else { Err(LogFlaw::Index { found: trial.index, expected: index }) }
+    let line: Line = serde_json::from_str(line).map_err(LogFlaw::NoTrial)?;
+    if let Some(found) = line.study().filter(|found| *found != study) {
+        return Err(LogFlaw::OtherStudy { found: found.to_owned(), expected: study.to_owned() });
+    }
+    if line.index() == index { Ok(line) } else { Err(LogFlaw::Index { found: line.index(), expected: index }) }
 }

@@ -53,6 +53,7 @@ impl<'a> Worker<'a> {
     /// Makes a further worker, which shares the given darkroom with other workers. If no driver can be made, the first
     /// test reports the error.
     pub fn beside(study: &'a Study, stop: Arc<AtomicBool>, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
+        study.check_trust()?;
         let bench = match study.subject() {
             Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
             Subject::System(system) => Bench::System(Connection::new(system, stop)?),

@@ -49,8 +49,9 @@ impl Junit {
     pub fn of_campaign(log: &Log, folder: &Path, program: &str) -> Self {
         let study = log.study();
         let (program, folder) = (shell_word(program), shell_word(&folder.to_string_lossy()));
-        let case =
-            |trial: &Trial| Case::of(study, trial, format!("{program} replay {folder} {}", trial.index)).junit(study);
+        let command = command_option(study);
+        let replay = |trial: &Trial| format!("{program} replay {folder} {}{command}", trial.index);
+        let case = |trial: &Trial| Case::of(study, trial, replay(trial)).junit(study);
         let mut suite = suite(study, study.title());
         suite.add_test_cases(log.trials().iter().map(case));
         Self::of([suite])
@@ -198,6 +199,13 @@ pub fn shell_word(word: &str) -> String {
     } else {
         format!("'{}'", word.replace('\'', "'\\''"))
     }
+}
+
+/// Returns the option that repeats the command of a study, after a space; an empty text if the study has no command.
+/// Without the option, the programs do not run the command that a folder or a file names.
+pub fn command_option(study: &Study) -> String {
+    let named = study.command().map(|named| format!(" {} {}", named.option, shell_word(named.command)));
+    named.unwrap_or_default()
 }
 
 #[cfg(test)]

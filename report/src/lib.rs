@@ -30,6 +30,6 @@ mod trials;
 pub mod write_up;
 
 pub use blame::BlameTable;
-pub use junit::{Junit, shell_word};
+pub use junit::{Junit, command_option, shell_word};
 pub use plot::{Axis, FailureMap, HeatMap, Lines, Mark, Picture, Tints, drawing_png, film_gif};
 pub use trials::TrialTable;

@@ -3,6 +3,7 @@
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::HashSet;
 use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -11,6 +12,9 @@ use std::sync::Arc;
 /// Every name occurs once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record<T>(Vec<(Arc<str>, T)>);
+
+/// The number of names up to which it is faster to compare all names than to hash them.
+const FEW: usize = 32;
 
 impl<T> Record<T> {
     /// The record without values.
@@ -81,11 +85,18 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Record<T> {
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Record<T>, A::Error> {
                 let mut record = Record::default();
+                let mut names = HashSet::new();
                 while let Some((name, value)) = map.next_entry::<String, T>()? {
-                    if record.get(&name).is_some() {
+                    let name: Arc<str> = name.into();
+                    let count = record.0.len();
+                    if count == FEW {
+                        names = record.0.iter().map(|(name, _)| name.clone()).collect();
+                    }
+                    let is_new = if count < FEW { record.get(&name).is_none() } else { names.insert(name.clone()) };
+                    if !is_new {
                         return Err(A::Error::custom(format!("found `{name}` twice, expected one value per name")));
                     }
-                    record.0.push((name.into(), value));
+                    record.0.push((name, value));
                 }
                 Ok(record)
             }

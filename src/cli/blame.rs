@@ -4,7 +4,7 @@ use super::map::Axes;
 use super::output::{Format, Table, digits, json, percent, plural};
 use super::progress::bar;
 use super::report::in_words;
-use super::{Failure, Status, Verbosity, on_interrupt, print};
+use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
 use clap::Args;
 use paracosm_analysis::blame::{Blame, Blamed, Inquiry, Preventability, REFERENCES};
 use paracosm_campaign::files::write_whole;
@@ -45,6 +45,8 @@ pub(super) struct Options {
     /// The number of tests that run at a time; results do not depend on this number [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
+    #[command(flatten)]
+    trust: trust::Options,
     /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
@@ -52,7 +54,7 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = Log::read(&self.dir, &crate::catalogue())?;
+        let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
         let study = log.study();
         let references: Vec<&str> = self.driver.iter().map(String::as_str).collect();
         let mut inquiry = Inquiry::new(study, &references)?;

@@ -6,6 +6,8 @@ use super::usage;
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{Error, Failure as Breakdown, Folder};
 use paracosm_space::{did_you_mean, nearest};
+use same_file::is_same_file;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The format of a picture file.
@@ -37,11 +39,11 @@ pub(super) struct Target {
 
 impl Target {
     /// Checks that a picture of one of these kinds can be written to the file of an option. This check comes before all
-    /// slow work.
+    /// slow work. `inputs` are the files that the command reads.
     ///
     /// # Errors
-    /// The file belongs to a campaign, or has another ending.
-    pub fn new(option: &str, path: &Path, kinds: &[FileKind]) -> Result<Self, Error> {
+    /// The file belongs to a campaign, is read by the command, or has another ending.
+    pub fn new(option: &str, path: &Path, kinds: &[FileKind], inputs: &[&Path]) -> Result<Self, Error> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending) else {
             let known: Vec<_> = kinds.iter().map(|kind| kind.ending()).collect();
@@ -51,7 +53,7 @@ impl Target {
             let message = format!("{option} {path}: found {found}, expected {}{meant}", known.join(" or "));
             return Err(usage(message));
         };
-        is_ours_to_write(option, path)?;
+        is_ours_to_write(option, path, inputs)?;
         Ok(Self { path: path.to_owned(), kind: *kind })
     }
 
@@ -70,14 +72,31 @@ impl Target {
     }
 }
 
-/// Checks that the file of an option does not have the name of a campaign's own file, which nothing replaces.
-pub(super) fn is_ours_to_write(option: &str, path: &Path) -> Result<(), Error> {
-    if path.file_name().is_some_and(Folder::owns) {
+/// Checks that an option's file may be written: it is no file of a campaign, which nothing replaces, and none of the
+/// files that the command reads. Links are followed.
+///
+/// # Errors
+/// The file is one of these.
+pub(super) fn is_ours_to_write(option: &str, path: &Path, inputs: &[&Path]) -> Result<(), Error> {
+    // The end of a link may be a file of a campaign, even if the link has another name.
+    let end = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if [path, &end].into_iter().any(|path| path.file_name().is_some_and(Folder::owns)) {
         let message = format!(
             "{option} {} has the name of a file that belongs to campaigns; choose another name",
             path.display()
         );
         return Err(usage(message));
     }
-    Ok(())
+    match inputs.iter().find(|input| is_same_file(path, input).unwrap_or(false)) {
+        Some(input) if *input == path => {
+            Err(usage(format!("{option} {}: this command reads the file, choose another file", path.display())))
+        }
+        Some(input) => {
+            let (path, input) = (path.display(), input.display());
+            Err(usage(format!(
+                "{option} {path} is the same file as {input}, which this command reads: choose another file"
+            )))
+        }
+        None => Ok(()),
+    }
 }

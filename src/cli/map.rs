@@ -42,7 +42,7 @@ pub(super) struct Axes {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Csv];
-        let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds)).transpose()?;
+        let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds, &[])).transpose()?;
         let log = Log::read(&self.dir, &crate::catalogue())?;
         let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
         let [x, y] = self.axes.find(log.study())?.ok_or_else(|| usage(nowhere.into()))?;

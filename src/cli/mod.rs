@@ -31,16 +31,16 @@ mod subject;
 mod suspects;
 mod system;
 mod trace;
+mod trust;
 
 use clap::Args;
+use interrupt::on_interrupt;
 use paracosm_campaign::executor::WORKER;
 use paracosm_campaign::{Error, Reason, SpaceFile};
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 /// The options that decide how much is printed to standard error.
@@ -93,11 +93,13 @@ fn usage(message: String) -> Error {
 /// Runs the program `paracosm-fuzz`.
 pub fn fuzz() -> ExitCode {
     quiet_workers();
+    interrupt::listen();
     exit(arguments::parse::<fuzz::Command>().execute())
 }
 
 /// Runs the program `paracosm-cover`.
 pub fn cover() -> ExitCode {
+    interrupt::listen();
     exit(arguments::parse::<cover::Command>().execute().map(|()| Status::Nothing))
 }
 
@@ -121,16 +123,15 @@ fn complain(message: &impl Display) {
     let _ = writeln!(io::stderr(), "{message}");
 }
 
-/// Lets an interrupt set `stop`. Without a handler an interrupt ends the program at once; logs survive this, too.
-fn on_interrupt(stop: Arc<AtomicBool>) {
-    let _ = ctrlc::set_handler(move || stop.store(true, Ordering::Relaxed));
-}
-
 /// Prints a result.
 fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    stdout.write_all(text.as_bytes())?;
-    Ok(stdout.flush()?)
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(format!("cannot write to the standard output: {error}").into())
+        }
+        written => Ok(written?),
+    }
 }
 
 /// Keeps panics of tests off the terminal. They are recorded as trials.

@@ -6,9 +6,9 @@ use super::usage;
 use super::{Failure, Status, print};
 use crate::oracles::Verdict;
 use paracosm_campaign::files::write_whole;
-use paracosm_campaign::{Error, Expectation, Regression, Replayed, Study, Trial};
+use paracosm_campaign::{Error, Expectation, Regression, Replayed, Study, Trial, Trust};
 use paracosm_report::junit::{Case, End};
-use paracosm_report::{Junit, shell_word};
+use paracosm_report::{Junit, command_option, shell_word};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -19,14 +19,15 @@ use std::path::{Path, PathBuf};
 /// the trace that the same software has recorded, becomes the error of the command.
 pub(super) fn replay(
     files: &[PathBuf],
+    trust: &Trust,
     expect: Option<Expectation>,
     junit: Option<&Path>,
     format: Option<Format>,
 ) -> Result<Status, Failure> {
-    junit.map_or(Ok(()), is_report)?;
+    junit.map_or(Ok(()), |path| is_report(path, files))?;
     let mut regressions = Vec::new();
     for file in files {
-        let mut regression = Regression::read(file, &crate::catalogue())?;
+        let mut regression = Regression::read(file, &crate::catalogue())?.trusting(trust);
         regression.expect = expect.unwrap_or(regression.expect);
         regressions.push((file, regression));
     }
@@ -61,8 +62,9 @@ pub(super) fn replay(
 }
 
 /// Checks that a report may be written to `path`, and that `path` is not a regression file, given by mistake.
-fn is_report(path: &Path) -> Result<(), Error> {
-    is_ours_to_write("--junit", path)?;
+fn is_report(path: &Path, files: &[PathBuf]) -> Result<(), Error> {
+    let files: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    is_ours_to_write("--junit", path, &files)?;
     if path.extension().is_some_and(|ending| ending == "json") {
         return Err(usage(format!("--junit {}: a report is XML, expected FILE.xml", path.display())));
     }
@@ -86,7 +88,7 @@ fn suite<'a>(
     (trial, (end, message)): (&'a Trial, (End, String)),
 ) -> (String, &'a Study, Case<'a>) {
     let name = file.to_string_lossy().into_owned();
-    let replay = format!("paracosm-fuzz replay {}", shell_word(&name));
+    let replay = format!("paracosm-fuzz replay {}{}", shell_word(&name), command_option(regression.study()));
     let expected = Some(if regression.expect == Expectation::Fail { "fail" } else { "pass" });
     let case = Case { name: name.clone(), trial, replay, end, message, expected };
     (name, regression.study(), case)

@@ -1,9 +1,9 @@
 //! `paracosm-fuzz replay`: runs a test of a campaign's log again, or the tests in regression files.
 
-use super::draw::{FileKind, Target};
+use super::draw::{FileKind, Target, is_ours_to_write};
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::usage;
-use super::{Failure, Status, Verbosity, on_interrupt, print, regressions};
+use super::{Failure, Status, Verbosity, on_interrupt, print, regressions, trust};
 use crate::engine::sensor::Cameras;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
@@ -46,6 +46,8 @@ pub(super) struct Options {
     /// Exit with status 1 if a test violates a requirement, expected or not
     #[arg(long)]
     fail_on_violation: bool,
+    #[command(flatten)]
+    trust: trust::Options,
     /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
@@ -74,7 +76,7 @@ impl Options {
             }
             files => {
                 let expect = self.expect.map(Expectation::from);
-                regressions::replay(files, expect, self.junit.as_deref(), self.format)?
+                regressions::replay(files, &self.trust.trust(), expect, self.junit.as_deref(), self.format)?
             }
         };
         Ok(if self.fail_on_violation { found } else { Status::Nothing })
@@ -87,13 +89,14 @@ impl Options {
             let message = format!("{option} is for regression files; for a test of a campaign the log has the verdict");
             return Err(usage(message).into());
         }
-        let log = Log::read(dir, &crate::catalogue())?;
+        let log = Log::read(dir, &crate::catalogue())?.trusting(&self.trust.trust());
         let (study, logged) = (log.study(), logged(dir, &log, index)?);
-        let target = self
-            .draw
-            .as_ref()
-            .map(|file| Target::new("--draw", file, &[FileKind::Svg, FileKind::Png, FileKind::Gif]))
-            .transpose()?;
+        let inputs: Vec<&Path> = self.cameras.as_deref().into_iter().collect();
+        let kinds = [FileKind::Svg, FileKind::Png, FileKind::Gif];
+        let target = self.draw.as_ref().map(|file| Target::new("--draw", file, &kinds, &inputs)).transpose()?;
+        for (option, file) in [("--trace", &self.trace), ("--camera", &self.camera)] {
+            file.as_deref().map_or(Ok(()), |file| is_ours_to_write(option, file, &inputs))?;
+        }
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;

@@ -9,7 +9,7 @@ use crate::oracles::Verdict;
 use crate::space::Value;
 use paracosm_analysis::{Judged, Modes};
 use paracosm_campaign::{Extension, ExtensionRecord, Finish, Number, Study, Trial};
-use paracosm_report::shell_word;
+use paracosm_report::{command_option, shell_word};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -223,7 +223,8 @@ impl Printed<'_> {
 
     /// Returns a command about a test, with the program as it was called.
     fn command(&self, verb: &str, index: usize) -> String {
-        format!("{} {verb} {} {index}", shell_word(self.program), shell_word(&self.out.to_string_lossy()))
+        let (program, out) = (shell_word(self.program), shell_word(&self.out.to_string_lossy()));
+        format!("{program} {verb} {out} {index}{}", command_option(self.study()))
     }
 }
 

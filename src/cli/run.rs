@@ -185,7 +185,6 @@ impl Options {
         if self.subject.is_system() || crate::catalogue().programs().iter().any(|program| program.name() == name) {
             return Ok(());
         }
-        let is_campaign = |folder: &Path| folder.join("campaign.json").exists();
         let folder = Path::new(name);
         let said = "--resume takes no folder; --out names the folder";
         if is_campaign(folder) {
@@ -229,10 +228,22 @@ fn note_outlasting(study: &Study, verbosity: Verbosity) -> Result<(), Error> {
     Ok(())
 }
 
+/// Returns `true` if a folder holds a campaign.
+fn is_campaign(folder: &Path) -> bool {
+    folder.join("campaign.json").exists()
+}
+
 /// Describes an error that ended the campaign, and says which trials are safe.
 fn cut_short(error: Error, out: &Path, safe: usize) -> Failure {
     if let Error::Environment(Breakdown::Unanswered { .. }) = error {
         return format!("{error}\n  the tests are in {}", out.display()).into();
+    }
+    if matches!(error, Error::Environment(Breakdown::Removed { .. })) || !is_campaign(out) {
+        let (trials, out) = (plural(safe, "trial"), out.display());
+        let message = format!(
+            "{error}\n  {out} is no longer there; if it was moved, it holds {trials}; if it was removed, they are lost"
+        );
+        return message.into();
     }
     format!("{error}\n  {} safe in {}; --resume continues from there", safe_words(safe), out.display()).into()
 }

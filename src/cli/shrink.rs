@@ -2,7 +2,7 @@
 
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::replay::logged;
-use super::{Failure, Status, Verbosity, print};
+use super::{Failure, Status, Verbosity, print, trust};
 use clap::Args;
 use paracosm_analysis::{Change, Sameness, Shrunk};
 use paracosm_campaign::{Log, Regression, Study};
@@ -25,6 +25,8 @@ pub(super) struct Options {
     /// Write the simplest test to a new regression file, which `replay` runs
     #[arg(long, value_name = "FILE.json")]
     save: Option<PathBuf>,
+    #[command(flatten)]
+    trust: trust::Options,
     /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
@@ -33,7 +35,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         self.save.as_deref().map_or(Ok(()), Regression::check_path)?;
-        let log = Log::read(&self.dir, &crate::catalogue())?;
+        let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
         let study = log.study();
         let same = if self.same_mode { Sameness::Mode } else { Sameness::Requirements };
         let shrunk = Shrunk::of(&log, logged(&self.dir, &log, self.index)?, same, self.budget)?;

@@ -33,7 +33,7 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self) -> Result<Status, Failure> {
-        let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[FileKind::Csv])).transpose()?;
+        let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[FileKind::Csv], &[])).transpose()?;
         let log = Log::read(&self.dir, &crate::catalogue())?;
         let traceability = Traceability::of(&log)?;
         if let Some(target) = &target {

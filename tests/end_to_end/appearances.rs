@@ -1,6 +1,6 @@
 //! Models of users' own, by the command line: campaigns, replays and recordings show the same.
 
-use crate::common::{fuzz, refused, succeeds};
+use crate::common::{fuzz, refused, succeeds, without_study};
 use std::fs;
 use std::path::Path;
 
@@ -83,7 +83,7 @@ fn a_leader_looks_like_the_model_in_recordings_and_replays_and_is_still_a_car() 
     succeeds(fuzz(dir, &[&FOLLOW[..5], &["--out", "usual"]].concat()));
     succeeds(fuzz(dir, &[&["replay", "usual", "0"][..], &film, &["red"]].concat()));
     assert_eq!(blue(&image("red")), 0);
-    let log = |folder: &str| fs::read_to_string(dir.join(folder).join("trials.jsonl")).expect("a log");
+    let log = |folder: &str| without_study(&fs::read_to_string(dir.join(folder).join("trials.jsonl")).expect("a log"));
     assert_eq!(log("shown"), log("usual"), "who does not see drives as ever");
 
     fs::write(dir.join("box.glb"), model([0.9, 0.9, 0.9])).expect("a file");

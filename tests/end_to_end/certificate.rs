@@ -191,3 +191,72 @@ fn a_certificate_replaces_an_older_one_and_needs_something_to_prove() {
     succeeds(estimate(dir.path(), 20, &[]));
     assert!(fs::read_to_string(dir.path().join("certificate.json")).unwrap().starts_with('{'));
 }
+
+/// The number of malformed certificates that are checked.
+const MALFORMED: u64 = 200;
+
+#[test]
+fn the_checker_refuses_malformed_certificates_in_its_own_words() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(estimate(dir.path(), 30, &[]));
+    let whole = read(dir.path());
+    let (mut refusals, mut places) = (0, 0);
+    count(&whole, &mut places);
+    for turn in 0..MALFORMED {
+        let mut certificate = whole.clone();
+        let wrong = [json!(null), json!(-1), json!("x"), json!([]), json!({}), json!(1e308), json!(true), json!([[0]])];
+        let (mut place, with) = (turn * 7919 % places, wrong[(turn % 8) as usize].clone());
+        replace(&mut certificate, &mut place, &with);
+        let Some(checked) = check(dir.path(), &certificate) else { return };
+        let message = stderr(&checked);
+        match checked.status.code() {
+            Some(0) => {}
+            code => {
+                refusals += 1;
+                assert!(code == Some(1) && message.starts_with("refused: "), "{with} in place {turn}: {message}");
+            }
+        }
+    }
+    assert!(refusals > MALFORMED / 2, "{refusals}");
+    for (text, says) in [
+        ("", "is not JSON"),
+        ("{", "is not JSON"),
+        ("[]", "expected an object"),
+        ("NaN", "expected an object"),
+        ("\u{ff}", "expected"),
+        (&"[".repeat(100_000), "nested too deeply"),
+    ] {
+        let file = dir.path().join("text.json");
+        fs::write(&file, text).unwrap();
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check_certificate.py");
+        let Ok(checked) = Command::new("python3").arg(script).arg(file).output() else { return };
+        let message = stderr(&checked);
+        assert!(message.starts_with("refused: "), "{message}");
+        assert!(message.contains(says) || text == "\u{ff}", "{message}");
+    }
+}
+
+/// Counts the values in a value.
+fn count(value: &Value, places: &mut u64) {
+    *places += 1;
+    match value {
+        Value::Array(items) => items.iter().for_each(|item| count(item, places)),
+        Value::Object(entries) => entries.values().for_each(|entry| count(entry, places)),
+        _ => {}
+    }
+}
+
+/// Replaces the value in a place, counted as `count` counts.
+fn replace(value: &mut Value, place: &mut u64, with: &Value) {
+    if *place == 0 {
+        *value = with.clone();
+        *place = u64::MAX;
+        return;
+    }
+    *place = place.wrapping_sub(1);
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(|item| replace(item, place, with)),
+        Value::Object(entries) => entries.values_mut().for_each(|entry| replace(entry, place, with)),
+        _ => {}
+    }
+}

@@ -28,6 +28,13 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("it prints text")
 }
 
+/// The lines of a log without the hash of the study, to compare the tests of different studies.
+pub fn without_study(log: &str) -> String {
+    let without =
+        |line: &str| line.split_once(",\"study\":").map_or(line.to_owned(), |(tests, _)| format!("{tests}}}"));
+    log.lines().map(|line| without(line) + "\n").collect()
+}
+
 /// Checks that a command did its work.
 #[track_caller]
 pub fn succeeds(output: Output) -> Output {

@@ -1,11 +1,13 @@
-//! Ctrl-C during a search: what there is so far is printed.
+//! Signals: what there is so far is printed or safe, and no process is left behind.
 
-use crate::common::{cover, stdout, succeeds};
+use crate::common::{cover, fuzz, refused, stdout, succeeds};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 /// `paracosm-cover generate` as it runs, once it has said a line that contains this on standard error; with what it
 /// will say after that.
@@ -65,4 +67,123 @@ fn interrupted_tests_that_are_to_reach_epsilon_are_printed_with_what_they_reach(
     assert!(all.ends_with('\n') && all.lines().all(|line| line.split(',').count() == 2), "no test is cut off");
     fs::write(dir.path().join("tests.csv"), &all).unwrap();
     succeeds(cover(dir.path(), &["estimate", "tests.csv", "--measures", "l2_star"]));
+}
+
+/// The process ids that a system has written to a file, once there are two: the id of the system, and of its child.
+fn processes(file: &Path) -> Vec<String> {
+    for _ in 0..500 {
+        let ids: Vec<String> = fs::read_to_string(file).unwrap_or_default().lines().map(str::to_owned).collect();
+        if ids.len() >= 2 {
+            return ids;
+        }
+        thread::sleep(Duration::from_millis(20));
+    }
+    panic!("the system has not started");
+}
+
+/// Waits until no process of the list is left, for at most 5 s; returns the processes that are left.
+fn left(ids: &[String]) -> Vec<&String> {
+    let alive = || -> Vec<&String> {
+        let is_alive = |id: &&String| {
+            let status = fs::read_to_string(format!("/proc/{id}/stat"));
+            // A zombie has ended; whoever adopts it removes it.
+            status.is_ok_and(|status| !status.rsplit(')').next().unwrap_or_default().starts_with(" Z"))
+        };
+        ids.iter().filter(is_alive).collect()
+    };
+    for _ in 0..250 {
+        if alive().is_empty() {
+            break;
+        }
+        thread::sleep(Duration::from_millis(20));
+    }
+    alive()
+}
+
+/// A system that starts a child, and answers no more once there is a file `stop`.
+const SLEEPER: &str = r#"echo $$ > "$1"; sleep 1000 & echo $! >> "$1"
+while read -r line; do i=${line#*:}; i=${i%%,*}
+if [ -e stop ]; then wait; fi; echo "{\"index\":$i,\"robustness\":{\"a\":-1}}"; done"#;
+
+const SPACE: &str = "parameter = [{ name = \"x\", interval = [-1, 1] }, { name = \"y\", interval = [0, 1] }]\n";
+
+#[test]
+fn no_signal_leaves_a_process_of_a_system_behind() {
+    if !Path::new("/proc/self/stat").exists() {
+        eprintln!("there is no /proc: whether processes are left is not checked");
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("system.sh"), SLEEPER).unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    let arguments = [
+        "--system",
+        "sh system.sh first",
+        "--space",
+        "SPACE.toml",
+        "--budget",
+        "5",
+        "--jobs",
+        "1",
+        "--out",
+        "camp",
+        "-q",
+    ];
+    succeeds(fuzz(dir.path(), &arguments));
+    fs::write(dir.path().join("stop"), "").unwrap();
+    for signal in ["INT", "TERM", "HUP"] {
+        let run = [
+            "--system",
+            "sh system.sh run",
+            "--space",
+            "SPACE.toml",
+            "--budget",
+            "5",
+            "--jobs",
+            "1",
+            "--out",
+            signal,
+            "-q",
+        ];
+        for (file, arguments) in
+            [("run", &run[..]), ("first", &["shrink", "camp", "0", "--trust", "--budget", "100", "-q"])]
+        {
+            let _ = fs::remove_file(dir.path().join(file));
+            let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+            let program = program.args(arguments).current_dir(dir.path());
+            let child = program.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts");
+            let ids = processes(&dir.path().join(file));
+            let sent = Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status();
+            assert!(sent.expect("kill is there").success());
+            let output = child.wait_with_output().unwrap();
+            assert_ne!(output.status.code(), Some(0), "{signal} {arguments:?}");
+            assert_eq!(left(&ids), [] as [&String; 0], "{signal} {arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn a_program_that_is_to_ignore_the_end_of_the_terminal_ignores_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let program = env!("CARGO_BIN_EXE_paracosm-fuzz");
+    let line = format!("trap '' HUP; '{program}' --budget 400 --out camp -q & sleep 0.3; kill -HUP $!; wait $!");
+    let output = Command::new("sh").args(["-c", &line]).current_dir(dir.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn a_limit_on_the_size_of_files_is_an_error_that_names_the_file() {
+    let dir = tempfile::tempdir().unwrap();
+    let program = env!("CARGO_BIN_EXE_paracosm-fuzz");
+    let line = format!("ulimit -f 8; '{program}' --budget 400 --out camp -q");
+    let output = Command::new("sh").args(["-c", &line]).current_dir(dir.path()).output().unwrap();
+    refused(&output, &["camp/", "File too large"]);
+}
+
+#[test]
+fn a_full_standard_output_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let line = format!("'{}' list > /dev/full", env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let output = Command::new("sh").args(["-c", &line]).current_dir(dir.path()).output().unwrap();
+    refused(&output, &["the standard output", "No space left"]);
 }

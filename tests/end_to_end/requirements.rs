@@ -303,6 +303,7 @@ fn unescaped(text: &str) -> String {
             "lt" => '<',
             "gt" => '>',
             "quot" => '"',
+            "apos" => '\'',
             code => char::from_u32(code.strip_prefix('#').unwrap().parse().unwrap()).unwrap(),
         });
         rest = after;

@@ -1,6 +1,6 @@
 //! What scenarios have around them, by the command line: closed it changes nothing, opened it is seen.
 
-use crate::common::{fuzz, refused, stdout, succeeds};
+use crate::common::{fuzz, refused, stdout, succeeds, without_study};
 use std::fs;
 use std::path::Path;
 
@@ -20,7 +20,7 @@ fn recorded(dir: &Path, out: &str, options: &[&str]) -> (String, std::path::Path
     fs::write(dir.join("cameras.toml"), CAMERAS).expect("a file");
     let record = ["record", "pedestrian-crossing", "--budget", "1", "--cameras", "cameras.toml", "--out", out];
     succeeds(fuzz(dir, &[&record[..], options].concat()));
-    let log = fs::read_to_string(dir.join(out).join("trials.jsonl")).expect("a log");
+    let log = without_study(&fs::read_to_string(dir.join(out).join("trials.jsonl")).expect("a log"));
     (log, dir.join(out).join("000000/front"))
 }
 
@@ -72,6 +72,8 @@ fn a_campaign_written_before_its_scenario_asked_for_the_sun_is_replayed_as_it_wa
         assert!(fixed.remove(name).is_some(), "{name}");
     }
     fs::write(&path, study.to_string()).expect("a file");
+    let log = fs::read_to_string(dir.join("old/trials.jsonl")).expect("a log");
+    fs::write(dir.join("old/trials.jsonl"), without_study(&log)).expect("a file");
     assert!(stdout(&succeeds(fuzz(dir, &["replay", "old", "1"]))).contains("trace_hash"));
 }
 

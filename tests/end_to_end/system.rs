@@ -85,13 +85,14 @@ fn robustness_is_judged_by_its_sign_and_shown_in_every_file() {
     assert!(read("failure-map.svg").contains("system sh system.sh"));
     let study: Value = serde_json::from_str(&read("campaign.json")).unwrap();
     assert_eq!((&study["system"], &study["timeout"]), (&json!("sh system.sh"), &json!(60.0)));
-    let replay = succeeds(fuzz(dir.path(), &["replay", "out", "7", "--format", "table", "--trace", "trace.csv"]));
+    let replay =
+        succeeds(fuzz(dir.path(), &["replay", "out", "7", "--trust", "--format", "table", "--trace", "trace.csv"]));
     assert!(stdout(&replay).contains("trace hash            none, as logged"), "{}", stdout(&replay));
     assert!(stderr(&replay).contains("no trace to write") && !dir.path().join("trace.csv").exists());
     // A system that answers otherwise by now.
     script(dir.path(), &ROBUSTNESS.replace('2', "3"));
-    refused(&fuzz(dir.path(), &["replay", "out", "7"]), &["test 7 differs from the log", "robustness"]);
-    let drawn = fuzz(dir.path(), &["replay", "out", "7", "--draw", "test.svg"]);
+    refused(&fuzz(dir.path(), &["replay", "out", "7", "--trust"]), &["test 7 differs from the log", "robustness"]);
+    let drawn = fuzz(dir.path(), &["replay", "out", "7", "--trust", "--draw", "test.svg"]);
     refused(&drawn, &["test.svg", "no world to draw"]);
 }
 
@@ -119,9 +120,9 @@ fn formulas_are_asked_of_traces_and_each_is_reported() {
     assert_eq!(said["worst"]["cause"], json!({"time": 0.1, "part": "(speed > -0.5)"}));
     assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > -0.5)`, 0.1 s after the start");
     let worst = said["worst"]["index"].to_string();
-    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--format", "table"])));
+    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--trust", "--format", "table"])));
     assert!(replay.contains("critical_part.spec-1  (speed > -0.5)\n"), "{replay}");
-    succeeds(fuzz(dir.path(), &["replay", "out", "2", "--trace", "trace.csv"]));
+    succeeds(fuzz(dir.path(), &["replay", "out", "2", "--trust", "--trace", "trace.csv"]));
     let trace = fs::read_to_string(dir.path().join("trace.csv")).unwrap();
     assert_eq!(trace, "time,speed,on\n0,1,1\n0.1,0.5,1\n0.2,1,0\n");
     let late = run(dir.path(), "late", &["--spec", "eventually[0,5] (speed > 9)", "--budget", "4"]);
@@ -150,7 +151,7 @@ fn a_formula_may_speak_of_the_time_between_samples_and_names_the_instant_that_co
     assert_eq!(said["worst"]["cause"], json!({"time": 0.05, "part": "(speed > 0.3)"}));
     assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > 0.3)`, 0.1 s after the start");
     let worst = said["worst"]["index"].to_string();
-    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--format", "table"])));
+    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--trust", "--format", "table"])));
     assert!(replay.contains("critical_part.spec-1  (speed > 0.3)\n"), "{replay}");
     // What is missing is asked in the same way, and by no other.
     let whole = log(dir.path(), "out");
@@ -210,7 +211,7 @@ fn bad_answers_are_errors_that_say_why_and_the_rest_goes_on_for_any_number_of_wo
         assert_eq!(log(dir.path(), &one), log(dir.path(), &many), "{bad}");
     }
     // A replay comes to the same end.
-    succeeds(fuzz(dir.path(), &["replay", "one-13", "2"]));
+    succeeds(fuzz(dir.path(), &["replay", "one-13", "2", "--trust"]));
 }
 
 #[test]
@@ -262,7 +263,7 @@ fn all_answers_judge_the_same_requirements() {
     let trials = trials(dir.path(), "out");
     assert_eq!(trials[5]["error"], "found the robustness of below, expected the robustness of above, as in test 0");
     assert_eq!(trials.iter().filter(|trial| trial["verdict"] == "pass").count(), 8);
-    succeeds(fuzz(dir.path(), &["replay", "out", "5"]));
+    succeeds(fuzz(dir.path(), &["replay", "out", "5", "--trust"]));
 }
 
 #[test]
@@ -391,4 +392,34 @@ fn an_interrupt_does_not_wait_for_a_system_that_hangs() {
     let campaign = campaign.args(options).current_dir(dir.path()).stdout(Stdio::null()).stderr(Stdio::piped());
     let output = campaign.spawn().unwrap().wait_with_output().unwrap();
     refused(&output, &["interrupted", "the first 3 trials are safe", "--resume"]);
+}
+
+#[test]
+fn an_answer_with_very_many_signals_is_read_in_time() {
+    let dir = tempfile::tempdir().unwrap();
+    let signals = r#"awk -v i="$i" 'BEGIN { printf "{\"index\":%d,\"trace\":{\"time\":[0,1]", i
+for (n = 0; n < 200000; n++) printf ",\"s%d\":[0,1]", n; print "}}" }'"#;
+    script(dir.path(), signals);
+    succeeds(run(dir.path(), "many", &["--spec", "s199999 >= 0", "--budget", "1", "--timeout", "30"]));
+    assert_eq!(trials(dir.path(), "many")[0]["verdict"], "pass");
+}
+
+#[test]
+fn a_message_about_very_many_signals_stays_short() {
+    let dir = tempfile::tempdir().unwrap();
+    let signals = r#"awk -v i="$i" 'BEGIN { printf "{\"index\":%d,\"trace\":{\"s\":[0,1]", i
+for (n = 0; n < 1000; n++) printf ",\"s%d\":[0,1]", n; print "}}" }'"#;
+    script(dir.path(), signals);
+    run(dir.path(), "many", &["--spec", "s1 >= 0", "--budget", "1"]);
+    let error = trials(dir.path(), "many")[0]["error"].as_str().unwrap().to_owned();
+    assert!(error.contains("s18 and 981 more, expected `time` among them"), "{error}");
+}
+
+#[test]
+fn an_answer_that_is_too_long_is_an_error_that_names_the_limit() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), "head -c 70000000 /dev/zero | tr '\\0' ' '; echo");
+    run(dir.path(), "long", &["--budget", "1"]);
+    let error = trials(dir.path(), "long")[0]["error"].as_str().unwrap().to_owned();
+    assert!(error.contains("longer than 64 MiB"), "{error}");
 }

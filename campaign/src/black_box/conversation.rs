@@ -8,13 +8,19 @@ use crate::{Problem, ProblemKind, Reason};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::ExitStatus;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
 use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
+/// The longest answer in MiB. The samples of an answer of this length take less than 1 GiB of memory.
+const MOST_MEBIBYTES: u64 = 64;
+
 /// The longest answer in bytes.
-const LONGEST_ANSWER: u64 = 1 << 28;
+const LONGEST_ANSWER: u64 = MOST_MEBIBYTES << 20;
+
+/// The number of lines that are read before they are asked for. A process that says more has to wait.
+const AHEAD: usize = 1;
 
 /// The time between two checks of a process that does not answer.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -28,7 +34,9 @@ enum Heard {
 /// Output that cannot be an answer.
 #[derive(Debug, Error)]
 enum Noise {
-    #[error("found a line that is too long, expected an answer of at most {LONGEST_ANSWER} bytes")]
+    #[error(
+        "the answer is longer than {MOST_MEBIBYTES} MiB, which is the limit: let the system leave out signals or samples"
+    )]
     TooLong,
     #[error("found bytes that are not UTF-8, expected an answer as JSON")]
     NoText,
@@ -64,7 +72,7 @@ impl Process {
         let (questions, asked) = mpsc::channel::<Vec<u8>>();
         // A process that does not listen is noticed by its silence, so that an error in writing adds nothing.
         thread::spawn(move || asked.iter().try_for_each(|question| stdin.write_all(&question)));
-        let (speaker, heard) = mpsc::channel();
+        let (speaker, heard) = mpsc::sync_channel(AHEAD);
         thread::spawn(move || hear(stdout, &speaker));
         Ok(Self { questions, heard, process, answered: false })
     }
@@ -91,8 +99,7 @@ impl Process {
                 return Err(Problem::new(ProblemKind::Interrupted, "interrupted"));
             }
             if asked.elapsed() >= timeout {
-                let message = format!("no answer within {} s", timeout.as_secs_f64());
-                return Err(Problem::new(ProblemKind::TimedOut, message));
+                return Err(Problem::timed_out(timeout));
             }
             // The children of the process may hold its end of the pipe open.
             if self.status().is_some() {
@@ -134,7 +141,7 @@ impl Process {
 }
 
 /// Passes on the output of a process line by line, until it ends or nobody listens any more.
-fn hear(stdout: impl Read, speaker: &Sender<Heard>) {
+fn hear(stdout: impl Read, speaker: &SyncSender<Heard>) {
     let mut stdout = BufReader::new(stdout);
     loop {
         let mut bytes = Vec::new();
@@ -152,5 +159,30 @@ fn hear(stdout: impl Read, speaker: &Sender<Heard>) {
         if speaker.send(heard).is_err() {
             return;
         }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_process_that_says_more_than_it_was_asked_has_to_wait() {
+        let dir = tempfile::tempdir().unwrap();
+        let count = dir.path().join("count");
+        let flood = "i=0; while [ $i -lt 5000 ]; do printf '%01000d\\n' $i; i=$((i + 1)); echo $i > \"$0\"; done";
+        let words = ["sh", "-c", flood, count.to_str().unwrap()].map(str::to_owned);
+        let process = Process::start(&words).unwrap();
+        let said = || fs::read_to_string(&count).unwrap_or_default();
+        // The process waits, or has ended, once the number stands still.
+        let (mut before, mut now) = (String::new(), said());
+        while now.is_empty() || now != before {
+            thread::sleep(Duration::from_millis(300));
+            (before, now) = (now, said());
+        }
+        let lines: usize = now.trim().parse().unwrap();
+        assert!(lines < 1000, "{lines} lines of 1000 bytes were taken, though nobody asked");
+        process.kill();
     }
 }

@@ -23,7 +23,7 @@ use paracosm_space::Values;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// An external system under test, which a command starts.
@@ -137,8 +137,14 @@ impl Connection {
                 Process::start(&self.words).map_err(|error| Problem::new(ProblemKind::Process, error.to_string()))?
             }
         };
+        let asked = Instant::now();
         let read = |line: String| {
-            Answer::read(&line, index).map_err(|flaw| Problem::new(ProblemKind::Answer, flaw.to_string()))
+            let answer = Answer::read(&line, index);
+            // The time-out covers the reading of the answer, too.
+            if asked.elapsed() >= self.timeout {
+                return Err(Problem::timed_out(self.timeout));
+            }
+            answer.map_err(|flaw| Problem::new(ProblemKind::Answer, flaw.to_string()))
         };
         match process.ask(question, self.timeout, &self.stop).and_then(read) {
             Ok(answer) => {

@@ -3,7 +3,7 @@
 use super::driver::Wish;
 use super::parameters::ParameterMisuse;
 use super::{DriverChoice, Maker, Sampling, Simulation, Study, Subject, Variation};
-use crate::{BlackBox, Error};
+use crate::{BlackBox, Error, Trust};
 use paracosm_engine::Program;
 use paracosm_engine::driver::Driver;
 use paracosm_engine::vehicle::VehicleModel;
@@ -240,7 +240,8 @@ impl StudyBuilder {
         };
         self.sampling.check()?;
         let made_by = Maker::this();
-        let mut study = Study { made_by, subject, space, requirements, odd: None, sampling: self.sampling.clone() };
+        let sampling = self.sampling.clone();
+        let mut study = Study { made_by, subject, space, requirements, odd: None, sampling, trust: Trust::all() };
         if self.driver.is_some() || !self.driver_settings.is_empty() || self.driver_timeout.is_some() {
             let simulation = study.subject.scenario_mut()?;
             let wish = self.driver.clone().unwrap_or_else(|| Wish::Name(simulation.driver.name().to_owned()));

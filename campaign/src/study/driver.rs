@@ -296,6 +296,11 @@ impl DriverChoice {
         }
     }
 
+    /// Returns the command that starts the driver; `None` if no command starts it.
+    pub fn command(&self) -> Option<&str> {
+        matches!(self.origin(), Origin::Process(..)).then_some(&self.name)
+    }
+
     /// Returns `true` if the driver is in an external process.
     pub fn is_external(&self) -> bool {
         matches!(self.source, Source::External(_))

@@ -6,6 +6,7 @@
 mod actors;
 mod appearance;
 mod builder;
+mod command;
 mod driver;
 mod formulas;
 mod listed;
@@ -21,6 +22,7 @@ mod toml_file;
 pub use actors::AppearanceFlaw;
 pub use appearance::{Appearances, ModelFlaw, WithoutCameras};
 pub use builder::StudyBuilder;
+pub use command::{NamedCommand, Untrusted};
 pub use driver::{DriverChoice, DriverFlaw, Origin};
 pub use formulas::{FormulaFlaw, SpecFlaw};
 pub use listed::ListedDriver;
@@ -33,7 +35,7 @@ pub use sampling::{Sampling, SamplingFlaw};
 pub use subject::{MissingScenario, NoScenario, Simulation, Subject};
 pub use toml_file::TomlFlaw;
 
-use crate::{BlackBox, Catalogue, Error, TARGET};
+use crate::{BlackBox, Catalogue, Error, TARGET, Trust};
 use paracosm_engine::driver::Driver;
 use paracosm_engine::{Program, Run, Setup, Test};
 use paracosm_generators::{Generator, GeneratorError};
@@ -49,6 +51,8 @@ pub struct Study {
     requirements: Vec<StatedRequirement>,
     odd: Option<Odd>,
     sampling: Sampling,
+    /// The trust in the command of the study.
+    trust: Trust,
 }
 
 /// The software that wrote a study.
@@ -87,7 +91,17 @@ impl Study {
         odd: Option<Odd>,
         sampling: Sampling,
     ) -> Self {
-        Self { made_by, subject, space, requirements, odd, sampling }
+        Self { made_by, subject, space, requirements, odd, sampling, trust: Trust::NOTHING }
+    }
+
+    /// Returns the study with the trust of the user in the command that the study names. A study that was read from a
+    /// file has none. A study that was built in this program is trusted.
+    pub fn trusting(self, trust: &Trust) -> Self {
+        Self { trust: trust.clone(), ..self }
+    }
+
+    pub(crate) fn trust(&self) -> &Trust {
+        &self.trust
     }
 
     /// Returns the software that wrote the study.

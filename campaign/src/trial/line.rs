@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// The entries of a line, in their order.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Line {
+pub(crate) struct Line {
     index: usize,
     test: Values,
     verdict: Verdict,
@@ -23,6 +23,26 @@ pub(super) struct Line {
     /// The kind of the error; logs of older versions do not have it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     cause: Option<ProblemKind>,
+    /// The hash of the study to which the test belongs; logs of older versions do not have it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    study: Option<String>,
+}
+
+impl Line {
+    /// Makes the line of a trial in the log of a study with the given hash; `None` for a log that does not name it.
+    pub(crate) fn of(trial: &Trial, study: Option<&str>) -> Self {
+        Self { study: study.map(str::to_owned), ..trial.clone().into() }
+    }
+
+    /// Returns the index of the test.
+    pub(crate) fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Returns the hash of the study to which the test belongs, if the line has it.
+    pub(crate) fn study(&self) -> Option<&str> {
+        self.study.as_deref()
+    }
 }
 
 impl From<Trial> for Line {
@@ -41,6 +61,7 @@ impl From<Trial> for Line {
             error: trial.problem.map(|problem| problem.message),
             test: trial.test,
             trace_hash: trial.trace_hash,
+            study: None,
         }
     }
 }

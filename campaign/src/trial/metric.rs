@@ -173,7 +173,7 @@ fn contact(metrics: &Record<Metric>) -> Result<Option<Contact>, UnknownWord> {
 /// The word of a metric is not known to this version.
 #[derive(Debug, thiserror::Error)]
 #[error("metric `{metric}` is `{word}`, expected one of {}", expected.join(", "))]
-pub(super) struct UnknownWord {
+pub(crate) struct UnknownWord {
     metric: &'static str,
     word: String,
     expected: Vec<String>,

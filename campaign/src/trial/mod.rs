@@ -3,6 +3,7 @@
 mod line;
 mod metric;
 
+pub(crate) use line::Line;
 pub use metric::Metric;
 
 use paracosm_engine::driver::FaultKind;
@@ -11,6 +12,7 @@ use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::{Record, Values};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::time::Duration;
 
 /// A test of a campaign, with the result of the test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,6 +58,11 @@ impl Problem {
     /// Makes a problem of the given kind with a description.
     pub fn new(kind: ProblemKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
+    }
+
+    /// Makes the problem that a system did not answer in time.
+    pub(crate) fn timed_out(timeout: Duration) -> Self {
+        Self::new(ProblemKind::TimedOut, format!("no answer within {} s", timeout.as_secs_f64()))
     }
 }
 

@@ -115,7 +115,7 @@ fn a_file_that_is_no_model_is_refused_with_what_is_wrong() {
     assert!(lines.contains("a part of it is made of Lines, expected Triangles"), "{lines}");
     let circle = text("", 6).replace(r#""mesh": 0"#, r#""mesh": 0, "children": [0]"#);
     let circle = refuse("circle.glb", &binary(&circle, &buffer()));
-    assert!(circle.contains("more than 64 deep"), "{circle}");
+    assert!(circle.contains("listed twice, expected a tree"), "{circle}");
     let other = text("", 6).replace(r#""POSITION": 0"#, r#""POSITION": 7"#);
     let other = refuse("other.glb", &binary(&other, &buffer()));
     assert!(other.contains("it names accessor 7, but its number of accessors is 2"), "{other}");
@@ -137,5 +137,65 @@ proptest::proptest! {
         let _ = gltf::load(written(folder.path(), "changed.glb", &content), Semantic::Car);
         let cut = cut % content.len();
         let _ = gltf::load(written(folder.path(), "cut.glb", &content[..cut]), Semantic::Car);
+    }
+}
+
+/// A model of nodes as JSON, with the mesh 0; `nodes` and `roots` are lists as JSON.
+fn nodes(roots: &str, nodes: &str) -> String {
+    let buffer = format!(", \"uri\": \"data:application/octet-stream;base64,{}\"", base64(&buffer()));
+    let text = text(&buffer, 6).replace("\"nodes\": [0]", &format!("\"nodes\": {roots}"));
+    let (before, after) = text.split_once("\"nodes\": [{").expect("it has nodes");
+    let (_, after) = after.split_once("}],").expect("its nodes end");
+    format!("{before}\"nodes\": {nodes},{after}")
+}
+
+#[test]
+fn nodes_that_are_no_tree_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let doubled: Vec<String> = (0..28).map(|i| format!(r#"{{"children": [{0}, {0}]}}"#, i + 1)).collect();
+    for (roots, list) in [
+        ("[0]", format!(r#"[{}, {{"mesh": 0}}]"#, doubled.join(","))),
+        ("[0, 1]", r#"[{"children": [2]}, {"children": [2]}, {"mesh": 0}]"#.to_owned()),
+        ("[0, 0]", r#"[{"mesh": 0}]"#.to_owned()),
+        ("[0]", r#"[{"children": [0], "mesh": 0}]"#.to_owned()),
+    ] {
+        let message = refusal(dir.path(), "model.gltf", nodes(roots, &list));
+        assert!(message.contains("child of two nodes or listed twice, expected a tree"), "{message}");
+    }
+}
+
+#[test]
+fn a_mesh_that_very_many_nodes_draw_is_refused_in_time() {
+    let dir = tempfile::tempdir().unwrap();
+    let count = 700_000;
+    let list = format!("[{}]", vec![r#"{"mesh": 0}"#; count].join(","));
+    let roots = format!("[{}]", (0..count).map(|i| i.to_string()).collect::<Vec<_>>().join(","));
+    let message = refusal(dir.path(), "model.gltf", nodes(&roots, &list));
+    assert!(message.contains("more than 6000000 corners") && message.contains("reduce"), "{message}");
+}
+
+#[test]
+fn buffers_are_regular_files_below_the_folder_of_the_model() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("models");
+    std::fs::create_dir_all(folder.join("parts")).unwrap();
+    written(dir.path(), "outside.bin", buffer());
+    written(&folder, "parts/inside.bin", buffer());
+    let with = |uri: &str| text(&format!(", \"uri\": \"{uri}\""), 6);
+    check(&gltf::load(written(&folder, "good.gltf", with("parts/inside.bin")), Semantic::Car).unwrap());
+    let absolute = dir.path().join("outside.bin");
+    for uri in ["../outside.bin", "parts/../../outside.bin", "%2e%2e/outside.bin", absolute.to_str().unwrap()] {
+        let message = refusal(&folder, "bad.gltf", with(uri));
+        assert!(message.contains(uri) && message.contains("in the folder of the model"), "{message}");
+    }
+    let message = refusal(&folder, "bad.gltf", with("parts"));
+    assert!(message.contains("no regular file"), "{message}");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../outside.bin", folder.join("link.bin")).unwrap();
+        assert!(refusal(&folder, "bad.gltf", with("link.bin")).contains("in the folder of the model"));
+        let pipe = folder.join("pipe.bin");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert!(refusal(&folder, "bad.gltf", with("pipe.bin")).contains("no regular file"));
     }
 }

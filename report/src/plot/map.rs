@@ -256,7 +256,8 @@ impl Ranged for Ends {
     type ValueType = f64;
 
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value - self.0.0) / (self.0.1 - self.0.0);
+        // Of halves, because the width of an interval may be beyond the largest number.
+        let share = (value / 2.0 - self.0.0 / 2.0) / (self.0.1 / 2.0 - self.0.0 / 2.0);
         limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
     }
 
@@ -274,7 +275,8 @@ impl Ends {
     /// steps.
     pub(super) fn numbers(&self, most: usize) -> Vec<f64> {
         let (lo, hi) = self.0;
-        let step = round_step((hi - lo) / most.max(2) as f64);
+        let most = most.max(2) as f64;
+        let step = round_step(hi / most - lo / most);
         let first = (lo / step).ceil() as i64;
         let last = (hi / step).floor() as i64;
         let inner = (first..=last).map(|i| i as f64 * step);
@@ -287,28 +289,61 @@ impl Ends {
 impl ValueFormatter<f64> for Ends {
     fn format(value: &f64) -> String {
         // Steps are round numbers, so that six digits hide only rounding errors.
-        let text = format!("{value:.6}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        let short = |text: &str| text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        if *value == 0.0 || PLAIN.contains(&value.abs()) {
+            return short(&format!("{value:.6}"));
+        }
+        let text = format!("{value:.6e}");
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        format!("{}e{power}", short(digits))
     }
 }
 
+/// The sizes of numbers that are written without a power of ten.
+const PLAIN: Range<f64> = 1e-4..1e9;
+
 /// Returns the least of 1, 2, 5, 10, 20, 50, ... and their tenths, hundredths and so on that is at least `width`.
 pub(super) fn round_step(width: f64) -> f64 {
-    let mut power = 1e-6;
-    loop {
-        for factor in [1.0, 2.0, 5.0] {
-            if factor * power >= width * (1.0 - 1e-9) || power > 1e12 {
-                return factor * power;
-            }
-        }
-        power *= 10.0;
-    }
+    let enough = (width * (1.0 - 1e-9)).max(f64::MIN_POSITIVE);
+    let exponent = libm::floor(libm::log10(enough)) as i32;
+    // Powers of ten from their texts are the nearest numbers.
+    let power = |exponent: i32| format!("1e{exponent}").parse::<f64>().unwrap_or(f64::MAX);
+    let steps =
+        (exponent - 1..=exponent + 1).flat_map(|exponent| [1.0, 2.0, 5.0].map(|factor| factor * power(exponent)));
+    steps.into_iter().find(|step| *step >= enough).unwrap_or(f64::MAX).min(f64::MAX)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::Picture;
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn an_axis_of_any_interval_has_a_few_rising_numbers(a in prop::num::f64::NORMAL, b in prop::num::f64::NORMAL) {
+            prop_assume!(a < b);
+            let numbers = Ends((a, b)).numbers(12);
+            prop_assert!(numbers.len() <= 16, "{numbers:?}");
+            prop_assert_eq!((numbers[0], numbers[numbers.len() - 1]), (a, b));
+            prop_assert!(numbers.is_sorted(), "{numbers:?}");
+            for number in numbers {
+                prop_assert!(Ends::format(&number).len() <= 20);
+                let place = Ends((a, b)).map(&number, (0, 1000));
+                prop_assert!((0..=1000).contains(&place), "{number} {place}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_of_any_size_are_short() {
+        for (number, text) in [(0.0, "0"), (12.5, "12.5"), (-0.001, "-0.001"), (1e18, "1e18"), (2.5e-7, "2.5e-7")] {
+            assert_eq!(Ends::format(&number), text);
+        }
+        assert_eq!(round_step(0.3), 0.5);
+        assert_eq!(round_step(1e17), 1e17);
+        assert_eq!(round_step(1.1e-9), 2e-9);
+    }
 
     #[test]
     fn a_map_of_many_tests_draws_all_rare_marks_and_some_of_the_others_and_counts_all() {

@@ -4,11 +4,10 @@
 
 use super::image::{Pixels, write};
 use super::missing::Missing;
-use super::part::Part;
 use super::video::Video;
 use super::{Film, Projector, Rendering, Shot};
 use crate::plot;
-use paracosm_campaign::files::is_new;
+use paracosm_campaign::files::{Draft, DraftFolder, is_new};
 use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
 use paracosm_engine::sensor::{CameraSpec, Cameras};
 use paracosm_render::{Stages, WantedImages};
@@ -146,7 +145,7 @@ impl Clip {
             Form::Gif => Some(self.colours(film, projector, missing)?),
             Form::Mp4 | Form::Images => None,
         };
-        let (part, file) = Part::file(&self.path)?;
+        let (draft, file) = Draft::new(&self.path)?;
         let (file, size) = (BufWriter::new(file), camera.resolution);
         let mut reel = match colours {
             Some(colours) => Reel::Gif(Box::new(plot::Reel::begin(file, size, colours.palette()).map_err(failed)?)),
@@ -166,7 +165,7 @@ impl Clip {
             self.nothing(film, missing)?;
         }
         reel.end().map_err(failed)?;
-        part.finish()?;
+        draft.finish()?;
         Ok(images)
     }
 
@@ -202,7 +201,7 @@ impl Clip {
         missing: &mut Missing<'_>,
         size: [u32; 2],
     ) -> Result<usize, Error> {
-        let part = Part::folder(&self.path)?;
+        let draft = DraftFolder::new(&self.path)?;
         let mut images = 0;
         projector.show(film, 0, |shots| {
             self.go_on()?;
@@ -210,13 +209,13 @@ impl Clip {
             images += shots.iter().filter(|(_, seen)| seen.is_ok()).count();
             shots.par_iter().filter_map(|(shot, seen)| Some((shot, colours_of(seen)?))).try_for_each(|(shot, rgb)| {
                 let Shot { number, .. } = shot;
-                write(&part.path().join(format!("{number:06}.png")), Pixels::Colours(rgb), size)
+                write(&draft.path().join(format!("{number:06}.png")), Pixels::Colours(rgb), size)
             })
         })?;
         if images == 0 {
             self.nothing(film, missing)?;
         }
-        part.finish()?;
+        draft.finish()?;
         Ok(images)
     }
 

@@ -6,9 +6,8 @@
 use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
 use super::missing::Missing;
-use super::part::Part;
 use super::{Film, Inside, Projector, Rendering, Shot, VariedCameras};
-use paracosm_campaign::files::write_whole;
+use paracosm_campaign::files::{Draft, write_whole};
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Camera, NoCamera, Stages, WantedImages, camera_settings};
@@ -216,9 +215,9 @@ impl Dataset {
         }
         let recorded = trials.into_iter().filter(|trial| self.has(trial));
         let tests: Vec<String> = recorded.map(|trial| format!("{:06}", trial.index)).collect();
-        let (part, file) = Part::file(&self.folder.join(ANNOTATIONS))?;
+        let (draft, file) = Draft::new(&self.folder.join(ANNOTATIONS))?;
         merge(&self.folder, &tests, &mut BufWriter::new(file))?;
-        part.finish()
+        draft.finish()
     }
 
     fn path(&self, trial: &Trial) -> PathBuf {

@@ -14,7 +14,6 @@ mod dataset;
 mod film;
 mod image;
 mod missing;
-mod part;
 mod projector;
 #[cfg(test)]
 pub mod tests;

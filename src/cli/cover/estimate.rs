@@ -13,7 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::Coverage;
 use paracosm_campaign::{Error, SpaceFile, TestSet, read_tests};
 use paracosm_coverage::Measure;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -75,7 +75,8 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let limit = time_limit("--time-limit", self.time_limit)?;
-        self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file))?;
+        let inputs: Vec<&Path> = [&self.tests, &self.space].into_iter().flatten().map(PathBuf::as_path).collect();
+        self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file, &inputs))?;
         let (mut tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read(verbosity)?,

@@ -3,13 +3,57 @@
 use super::{GltfError, GltfFlaw};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::{Accessor, Document, buffer};
-use std::path::Path;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read};
+use std::path::{Component, Path, PathBuf};
+
+/// The greatest size of a model with its buffers, in MiB.
+pub(super) const MOST_MEBIBYTES: u64 = 256;
+
+/// Reads a file, and takes its size from the number of bytes that are left. Returns `None` if the file is larger. The
+/// file must be a regular file: other files may have no end.
+pub(super) fn read(path: &Path, left: &mut u64) -> io::Result<Option<Vec<u8>>> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is no regular file"));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(*left + 1).read_to_end(&mut bytes)?;
+    Ok(left.checked_sub(bytes.len() as u64).map(|rest| {
+        *left = rest;
+        bytes
+    }))
+}
+
+/// Returns the path of a file to which a model refers. It must be below the folder of the model, also behind links.
+fn beside(model: &Path, uri: &str) -> Result<PathBuf, GltfError> {
+    let broken = |problem| GltfError::Format { path: model.to_owned(), problem };
+    let outside = || broken(GltfFlaw::Outside { uri: uri.to_owned() });
+    let name = unescaped(uri);
+    if !Path::new(&name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return Err(outside());
+    }
+    let folder = match model.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let file = folder.join(name);
+    let real = |path: &Path| fs::canonicalize(path).map_err(|source| GltfError::Read { path: path.to_owned(), source });
+    let (file, folder) = (real(&file)?, real(folder)?);
+    if !file.starts_with(folder) {
+        return Err(outside());
+    }
+    if !file.is_file() {
+        return Err(broken(GltfFlaw::NoFile { uri: uri.to_owned() }));
+    }
+    Ok(file)
+}
 
 /// The buffers of a model.
 pub(super) struct Bytes(Vec<Vec<u8>>);
 
 impl Bytes {
-    pub fn of(document: &Document, mut blob: Option<Vec<u8>>, path: &Path) -> Result<Self, GltfError> {
+    /// Reads all buffers, which may have as many bytes in files as are left.
+    pub fn of(document: &Document, mut blob: Option<Vec<u8>>, path: &Path, left: &mut u64) -> Result<Self, GltfError> {
         let broken = |problem| GltfError::Format { path: path.to_owned(), problem };
         let mut read = |buffer: buffer::Buffer<'_>| match buffer.source() {
             buffer::Source::Bin => blob.take().ok_or_else(|| broken(GltfFlaw::NoBinary)),
@@ -19,8 +63,9 @@ impl Bytes {
                     text.and_then(base64).ok_or_else(|| broken(GltfFlaw::NoBase64))
                 }
                 None => {
-                    let file = path.with_file_name("").join(unescaped(uri));
-                    std::fs::read(&file).map_err(|source| GltfError::Read { path: file, source })
+                    let file = beside(path, uri)?;
+                    let bytes = self::read(&file, left).map_err(|source| GltfError::Read { path: file, source })?;
+                    bytes.ok_or_else(|| broken(GltfFlaw::TooLarge))
                 }
             },
         };

@@ -12,16 +12,21 @@
 mod bytes;
 
 use crate::mesh::{Mesh, Semantic, SurfaceKind, Vertex};
-use bytes::{Bytes, floats, indices};
+use bytes::{Bytes, MOST_MEBIBYTES, floats, indices};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Document, Gltf, Material, Node, Primitive};
 use nalgebra::{Matrix4, Point3, Vector3};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The greatest depth of nodes within nodes; in a faulty file they may form circles.
+/// The greatest depth of nodes within nodes.
 const DEPTH: usize = 64;
+
+/// The greatest number of corners and indices that the nodes of a model draw together: a million triangles with corners
+/// of their own. They take less than 1 GiB of memory.
+const MOST_CORNERS: usize = 6_000_000;
 
 /// The reason why a file cannot be used as a model of an object.
 #[derive(Debug, Error)]
@@ -104,7 +109,33 @@ pub enum GltfFlaw {
         /// The type of the numbers in the accessor.
         found: DataType,
     },
-    /// The glTF nodes are nested too deep or in a circle.
+    /// A node is the child of two nodes, or is listed twice.
+    #[error("its node {node} is the child of two nodes or listed twice, expected a tree")]
+    NoTree {
+        /// The index of the node in the glTF file.
+        node: usize,
+    },
+    /// The nodes of the model draw too many corners.
+    #[error(
+        "its nodes draw more than {MOST_CORNERS} corners and indices, which is the limit: reduce the triangles of the model"
+    )]
+    TooManyCorners,
+    /// The file, together with the files of its buffers, is too large.
+    #[error("it has more than {MOST_MEBIBYTES} MiB with its buffers, which is the limit: reduce the model")]
+    TooLarge,
+    /// A buffer is in a file that is not below the folder of the model.
+    #[error("a buffer is in `{uri}`, expected a file in the folder of the model or below this folder")]
+    Outside {
+        /// The reference to the file, as it is in the model.
+        uri: String,
+    },
+    /// A buffer is in something that is no regular file, for example a pipe or a device.
+    #[error("a buffer is in `{uri}`, which is no regular file")]
+    NoFile {
+        /// The reference to the file, as it is in the model.
+        uri: String,
+    },
+    /// The glTF nodes are nested too deep.
     #[error("its nodes lie more than {DEPTH} deep within each other")]
     TooDeep,
     /// A glTF primitive of the model is not a list of triangles.
@@ -135,24 +166,33 @@ pub enum GltfFlaw {
 struct Found {
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
+    /// True for each node that was found.
+    nodes: Vec<bool>,
+    /// The number of corners and indices that were read.
+    read: usize,
 }
 
 /// Reads a glTF file as a mesh of one semantic class. glTF has y up and z ahead; the mesh has z up and x ahead. Lengths
 /// stay as they are in the file: [`Stage::model`](crate::Stage::model) stretches the mesh to a body.
 ///
 /// # Errors
-/// A file cannot be read, is not glTF 2.0, has no triangles, or needs an extension.
+/// A file cannot be read, is not glTF 2.0, has no triangles, is beyond a limit, or needs an extension. Buffers are read
+/// only from regular files in the folder of the model.
 pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfError> {
     let path = path.as_ref();
-    let file = std::fs::read(path).map_err(|source| GltfError::Read { path: path.to_owned(), source })?;
     let broken = |problem| GltfError::Format { path: path.to_owned(), problem };
+    let mut left = MOST_MEBIBYTES << 20;
+    let file = bytes::read(path, &mut left).map_err(|source| GltfError::Read { path: path.to_owned(), source })?;
+    let file = file.ok_or_else(|| broken(GltfFlaw::TooLarge))?;
     let (document, blob) = parse(&file).map_err(broken)?;
-    let bytes = Bytes::of(&document, blob, path)?;
-    let mut found = Found::default();
+    let bytes = Bytes::of(&document, blob, path, &mut left)?;
+    let mut found = Found { nodes: vec![false; document.nodes().len()], ..Found::default() };
     let scene = document.default_scene().or_else(|| document.scenes().next());
+    let children: BTreeSet<usize> =
+        document.nodes().flat_map(|node| node.children()).map(|node| node.index()).collect();
     let nodes: Vec<Node<'_>> = match &scene {
         Some(scene) => scene.nodes().collect(),
-        None => document.nodes().collect(),
+        None => document.nodes().filter(|node| !children.contains(&node.index())).collect(),
     };
     for node in nodes {
         found.add(&node, &upright(), &bytes, semantic, DEPTH).map_err(broken)?;
@@ -209,6 +249,9 @@ impl Found {
         if depth == 0 {
             return Err(GltfFlaw::TooDeep);
         }
+        if std::mem::replace(&mut self.nodes[node.index()], true) {
+            return Err(GltfFlaw::NoTree { node: node.index() });
+        }
         let frame = frame * Matrix4::from(node.transform().matrix());
         for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
             self.add_primitive(&primitive, &frame, bytes, semantic)?;
@@ -227,6 +270,12 @@ impl Found {
             return Err(GltfFlaw::NoTriangleList { found: primitive.mode() });
         }
         let positions = primitive.get(&gltf::Semantic::Positions).ok_or(GltfFlaw::NoPositions)?;
+        // Several nodes may draw the same mesh.
+        let indices_count = primitive.indices().map_or(0, |accessor| accessor.count());
+        self.read = self.read.saturating_add(positions.count()).saturating_add(indices_count);
+        if self.read > MOST_CORNERS {
+            return Err(GltfFlaw::TooManyCorners);
+        }
         let positions: Vec<[f32; 3]> = floats(&positions, bytes)?;
         let count = positions.len();
         let of_each = |semantic| primitive.get(&semantic).map(|accessor| (semantic, accessor));

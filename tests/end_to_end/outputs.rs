@@ -1,0 +1,176 @@
+//! The files that commands write: nothing that is no regular file is replaced, and nothing of the user is lost.
+
+use crate::common::{cover, fuzz, refused, stdout, succeeds};
+use std::fs::{self, Permissions};
+use std::os::unix::fs::{FileTypeExt, MetadataExt, PermissionsExt, symlink};
+use std::path::Path;
+use std::process::Command;
+use std::thread;
+
+/// A folder with the campaign `camp` of two tests.
+fn campaign() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "camp", "-q"]));
+    dir
+}
+
+/// Replays a test, with its trace in a file.
+fn trace_to(dir: &Path, file: &str) {
+    succeeds(fuzz(dir, &["replay", "camp", "1", "--trace", file]));
+}
+
+/// The trace of the test, as it is in a usual file.
+fn trace(dir: &Path) -> String {
+    trace_to(dir, "usual.csv");
+    fs::read_to_string(dir.join("usual.csv")).unwrap()
+}
+
+#[test]
+fn a_device_stays_a_device_also_behind_a_link() {
+    let dir = campaign();
+    symlink("/dev/null", dir.path().join("link.csv")).unwrap();
+    for file in ["/dev/null", "link.csv"] {
+        trace_to(dir.path(), file);
+        assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device(), "{file}");
+    }
+    assert!(dir.path().join("link.csv").is_symlink());
+    let full = fuzz(dir.path(), &["replay", "camp", "1", "--trace", "/dev/full"]);
+    refused(&full, &["/dev/full", "No space left"]);
+}
+
+#[test]
+fn a_pipe_gets_what_a_file_would_hold() {
+    let dir = campaign();
+    let pipe = dir.path().join("pipe.csv");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo is there").success());
+    let reader = thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read_to_string(pipe).unwrap()
+    });
+    trace_to(dir.path(), "pipe.csv");
+    assert_eq!(reader.join().unwrap(), trace(dir.path()));
+    assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
+}
+
+#[test]
+fn the_standard_output_gets_the_file_and_the_result_also_if_it_is_a_file() {
+    let dir = campaign();
+    let replay = ["replay", "camp", "1", "--trace", "/dev/stdout", "--format", "json", "-q"];
+    let piped = stdout(&succeeds(fuzz(dir.path(), &replay)));
+    assert!(piped.starts_with(&trace(dir.path())) && piped.ends_with("}\n"), "{piped}");
+    let all = fs::File::create(dir.path().join("all.txt")).unwrap();
+    let program = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"))
+        .args(replay)
+        .current_dir(dir.path())
+        .stdout(all)
+        .status()
+        .unwrap();
+    assert!(program.success());
+    assert_eq!(fs::read_to_string(dir.path().join("all.txt")).unwrap(), piped);
+}
+
+#[test]
+fn a_link_stays_a_link_and_its_end_gets_the_file() {
+    let dir = campaign();
+    let path = |name: &str| dir.path().join(name);
+    fs::create_dir(path("elsewhere")).unwrap();
+    fs::write(path("elsewhere/old.csv"), "old").unwrap();
+    symlink("elsewhere/old.csv", path("to-old.csv")).unwrap();
+    symlink("to-new.csv", path("to-link.csv")).unwrap();
+    symlink("elsewhere/new.csv", path("to-new.csv")).unwrap();
+    for (link, end) in [("to-old.csv", "elsewhere/old.csv"), ("to-link.csv", "elsewhere/new.csv")] {
+        trace_to(dir.path(), link);
+        assert!(path(link).is_symlink());
+        assert!(!path(end).is_symlink());
+        assert_eq!(fs::read_to_string(path(end)).unwrap(), trace(dir.path()));
+    }
+    symlink("round.csv", path("round.csv")).unwrap();
+    refused(&fuzz(dir.path(), &["replay", "camp", "1", "--trace", "round.csv"]), &["round.csv"]);
+}
+
+#[test]
+fn files_that_end_in_part_are_somebody_elses() {
+    let dir = campaign();
+    let path = |name: &str| dir.path().join(name);
+    fs::write(path("mine.csv.part"), "mine").unwrap();
+    fs::write(path("victim"), "precious").unwrap();
+    symlink("victim", path("t.csv.part")).unwrap();
+    trace_to(dir.path(), "mine.csv");
+    trace_to(dir.path(), "t.csv");
+    assert_eq!(fs::read_to_string(path("mine.csv.part")).unwrap(), "mine");
+    assert_eq!(fs::read_to_string(path("victim")).unwrap(), "precious");
+    let left = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert_eq!(left.filter(|name| name.ends_with(".part")).count(), 2, "no temporary file is left");
+}
+
+#[test]
+fn the_mode_and_the_owner_of_a_file_stay() {
+    let dir = campaign();
+    let file = dir.path().join("secret.csv");
+    fs::write(&file, "old").unwrap();
+    fs::set_permissions(&file, Permissions::from_mode(0o600)).unwrap();
+    // Only the superuser can give a file away.
+    let given = Command::new("chown").arg("65534:65534").arg(&file).output().is_ok_and(|done| done.status.success());
+    let before = fs::metadata(&file).unwrap();
+    trace_to(dir.path(), "secret.csv");
+    let after = fs::metadata(&file).unwrap();
+    let facts = |there: &fs::Metadata| (there.mode(), there.uid(), there.gid());
+    assert_eq!(facts(&after), facts(&before));
+    assert!(!given || after.uid() == 65534);
+    assert_eq!(fs::read_to_string(&file).unwrap(), trace(dir.path()));
+}
+
+#[test]
+fn a_new_file_has_the_mode_of_other_new_files() {
+    let dir = campaign();
+    fs::write(dir.path().join("other"), "").unwrap();
+    trace_to(dir.path(), "new.csv");
+    let mode = |name: &str| fs::metadata(dir.path().join(name)).unwrap().mode();
+    assert_eq!(mode("new.csv"), mode("other"));
+}
+
+#[test]
+fn a_file_that_is_read_is_not_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name);
+    let points = "a,b\n0.1,0.2\n0.6,0.7\n";
+    fs::write(path("p.csv"), points).unwrap();
+    symlink("p.csv", path("link.csv")).unwrap();
+    fs::hard_link(path("p.csv"), path("hard.csv")).unwrap();
+    for (read, written) in
+        [("p.csv", "p.csv"), ("p.csv", "./p.csv"), ("p.csv", "link.csv"), ("link.csv", "p.csv"), ("p.csv", "hard.csv")]
+    {
+        let output = cover(dir.path(), &["estimate", read, "--certificate", written]);
+        refused(&output, &["--certificate", written, "this command reads"]);
+        assert_eq!(fs::read_to_string(path("p.csv")).unwrap(), points);
+    }
+}
+
+#[test]
+fn a_link_does_not_hide_a_file_of_a_campaign() {
+    let dir = campaign();
+    symlink("camp/trials.jsonl", dir.path().join("innocent.csv")).unwrap();
+    let before = fs::read(dir.path().join("camp/trials.jsonl")).unwrap();
+    refused(&fuzz(dir.path(), &["trace", "camp", "--csv", "innocent.csv"]), &["belongs to campaigns"]);
+    refused(&fuzz(dir.path(), &["replay", "camp", "1", "--trace", "innocent.csv"]), &["belongs to campaigns"]);
+    assert_eq!(fs::read(dir.path().join("camp/trials.jsonl")).unwrap(), before);
+}
+
+#[test]
+fn a_folder_that_was_removed_or_moved_is_not_called_safe() {
+    for change in ["rm -r camp", "mv camp moved", "mv camp moved; mkdir camp; : > camp/trials.jsonl"] {
+        let dir = tempfile::tempdir().unwrap();
+        let system = format!(
+            "while read -r line; do i=${{line#*:}}; i=${{i%%,*}}; if [ $i = 3 ]; then {change}; fi
+             echo \"{{\\\"index\\\":$i,\\\"robustness\\\":{{\\\"a\\\":1}}}}\"; done"
+        );
+        fs::write(dir.path().join("system.sh"), system).unwrap();
+        fs::write(dir.path().join("SPACE.toml"), "parameter = [{ name = \"x\", interval = [-1, 1] }]\n").unwrap();
+        let arguments = ["--system", "sh system.sh", "--space", "SPACE.toml", "--budget", "9", "--jobs", "1", "-q"];
+        let output = fuzz(dir.path(), &[&arguments[..], &["--out", "camp"]].concat());
+        refused(&output, &["removed or moved", "if it was removed, they are lost"]);
+        assert!(!crate::common::stderr(&output).contains("are safe"));
+        let begun = dir.path().join("camp/trials.jsonl");
+        assert!(fs::read_to_string(begun).unwrap_or_default().is_empty(), "nothing is written to another campaign");
+    }
+}
