@@ -66,7 +66,8 @@ impl Draft {
     /// The disk is full, or the name cannot be given.
     pub fn finish(self) -> Result<(), Error> {
         let Some((part, to)) = self.part else { return Ok(()) };
-        let sync = File::open(&part).and_then(|file| file.sync_all());
+        // A file that keeps its mode may be one that this user may write and not read.
+        let sync = File::options().write(true).open(&part).and_then(|file| file.sync_all());
         let named = sync.and_then(|()| part.persist(to).map_err(|error| error.error));
         named.map_err(Error::io("write", &self.to))
     }

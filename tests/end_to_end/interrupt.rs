@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::Duration;
 
@@ -162,12 +162,17 @@ fn no_signal_leaves_a_process_of_a_system_behind() {
     }
 }
 
+/// What a shell does with a line.
+fn shell(dir: &Path, line: &str) -> Output {
+    Command::new("sh").args(["-c", line]).current_dir(dir).output().expect("there is a shell")
+}
+
 #[test]
 fn a_program_that_is_to_ignore_the_end_of_the_terminal_ignores_it() {
     let dir = tempfile::tempdir().unwrap();
     let program = env!("CARGO_BIN_EXE_paracosm-fuzz");
     let line = format!("trap '' HUP; '{program}' --budget 400 --out camp -q & sleep 0.3; kill -HUP $!; wait $!");
-    let output = Command::new("sh").args(["-c", &line]).current_dir(dir.path()).output().unwrap();
+    let output = shell(dir.path(), &line);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
@@ -176,7 +181,7 @@ fn a_limit_on_the_size_of_files_is_an_error_that_names_the_file() {
     let dir = tempfile::tempdir().unwrap();
     let program = env!("CARGO_BIN_EXE_paracosm-fuzz");
     let line = format!("ulimit -f 8; '{program}' --budget 400 --out camp -q");
-    let output = Command::new("sh").args(["-c", &line]).current_dir(dir.path()).output().unwrap();
+    let output = shell(dir.path(), &line);
     refused(&output, &["camp/", "File too large"]);
 }
 
@@ -184,6 +189,6 @@ fn a_limit_on_the_size_of_files_is_an_error_that_names_the_file() {
 fn a_full_standard_output_is_named() {
     let dir = tempfile::tempdir().unwrap();
     let line = format!("'{}' list > /dev/full", env!("CARGO_BIN_EXE_paracosm-fuzz"));
-    let output = Command::new("sh").args(["-c", &line]).current_dir(dir.path()).output().unwrap();
+    let output = shell(dir.path(), &line);
     refused(&output, &["the standard output", "No space left"]);
 }

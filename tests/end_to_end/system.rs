@@ -394,12 +394,19 @@ fn an_interrupt_does_not_wait_for_a_system_that_hangs() {
     refused(&output, &["interrupted", "the first 3 trials are safe", "--resume"]);
 }
 
+/// An answer with a first signal and so many others, called s0, s1 and so on.
+fn signals(first: &str, count: usize) -> String {
+    let printed = r#"printf "{\"index\":%d,\"trace\":{\"FIRST\":[0,1]", i"#.replace("FIRST", first);
+    format!(
+        r#"awk -v i="$i" 'BEGIN {{ {printed}
+for (n = 0; n < {count}; n++) printf ",\"s%d\":[0,1]", n; print "}}}}" }}'"#
+    )
+}
+
 #[test]
 fn an_answer_with_very_many_signals_is_read_in_time() {
     let dir = tempfile::tempdir().unwrap();
-    let signals = r#"awk -v i="$i" 'BEGIN { printf "{\"index\":%d,\"trace\":{\"time\":[0,1]", i
-for (n = 0; n < 200000; n++) printf ",\"s%d\":[0,1]", n; print "}}" }'"#;
-    script(dir.path(), signals);
+    script(dir.path(), &signals("time", 200_000));
     succeeds(run(dir.path(), "many", &["--spec", "s199999 >= 0", "--budget", "1", "--timeout", "30"]));
     assert_eq!(trials(dir.path(), "many")[0]["verdict"], "pass");
 }
@@ -407,9 +414,7 @@ for (n = 0; n < 200000; n++) printf ",\"s%d\":[0,1]", n; print "}}" }'"#;
 #[test]
 fn a_message_about_very_many_signals_stays_short() {
     let dir = tempfile::tempdir().unwrap();
-    let signals = r#"awk -v i="$i" 'BEGIN { printf "{\"index\":%d,\"trace\":{\"s\":[0,1]", i
-for (n = 0; n < 1000; n++) printf ",\"s%d\":[0,1]", n; print "}}" }'"#;
-    script(dir.path(), signals);
+    script(dir.path(), &signals("s", 1000));
     run(dir.path(), "many", &["--spec", "s1 >= 0", "--budget", "1"]);
     let error = trials(dir.path(), "many")[0]["error"].as_str().unwrap().to_owned();
     assert!(error.contains("s18 and 981 more, expected `time` among them"), "{error}");

@@ -13,7 +13,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// The longest answer in MiB. The samples of an answer of this length take less than 1 GiB of memory.
+/// The longest answer in MiB.
 const MOST_MEBIBYTES: u64 = 64;
 
 /// The longest answer in bytes.

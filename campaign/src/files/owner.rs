@@ -31,14 +31,14 @@ mod system {
     /// Returns the standard output or the standard error of this process if the file is the same file. A file to which
     /// the shell has led the output must not be replaced, because the rest of the output would be lost.
     pub fn own_output(file: &Metadata) -> io::Result<Option<File>> {
-        let (mut output, mut errors) = (io::stdout().lock(), io::stderr().lock());
-        output.flush()?;
-        errors.flush()?;
-        for open in [output.as_fd(), errors.as_fd()] {
-            // The output may be closed.
-            let Ok(open) = open.try_clone_to_owned().map(File::from) else { continue };
+        let (output, errors) = (io::stdout(), io::stderr());
+        // Either may be closed.
+        for open in [output.as_fd(), errors.as_fd()].map(|open| open.try_clone_to_owned()).into_iter().flatten() {
+            let open = File::from(open);
             let there = open.metadata()?;
             if (there.dev(), there.ino()) == (file.dev(), file.ino()) {
+                // The output that this process has so far comes first.
+                io::stdout().flush()?;
                 return Ok(Some(open));
             }
         }

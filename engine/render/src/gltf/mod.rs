@@ -25,7 +25,7 @@ use thiserror::Error;
 const DEPTH: usize = 64;
 
 /// The greatest number of corners and indices that the nodes of a model draw together: a million triangles with corners
-/// of their own. They take less than 1 GiB of memory.
+/// of their own.
 const MOST_CORNERS: usize = 6_000_000;
 
 /// The reason why a file cannot be used as a model of an object.
