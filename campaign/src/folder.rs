@@ -141,7 +141,7 @@ impl Folder {
         keep_extended(path, study, extension)?;
         let mut folder = Self::open(path, log, Some(hash.clone()))?;
         let file = path.join(TRIALS);
-        let Read { trials, bytes, is_older } = read_trials(&file, &folder.log, &hash)?;
+        let Read { trials, bytes, is_older } = read_trials(&file, &folder.log, study.space(), &hash)?;
         // A log of an older version goes on as it began.
         folder.study = folder.study.filter(|_| !is_older);
         folder.log.set_len(bytes).map_err(Error::io("write", &file))?;

@@ -51,7 +51,7 @@ impl Log {
         let hash = hash_of_text(&text);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
         let log = path.join(TRIALS);
-        let read = read_trials(&log, File::open(&log).map_err(Error::io("read", &log))?, &hash)?;
+        let read = read_trials(&log, File::open(&log).map_err(Error::io("read", &log))?, study.space(), &hash)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
         Ok(Self::new(study, learned, extension, read.trials))
     }

@@ -3,6 +3,7 @@
 use crate::study_file::STUDY;
 use crate::trial::Line;
 use crate::{Error, Reason, Trial};
+use paracosm_space::{Space, SpaceError};
 use serde::de::Error as _;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
@@ -31,9 +32,13 @@ pub enum LogFlaw {
         /// The index that the trial should have, which matches the number of the line.
         expected: usize,
     },
+    /// The test of the trial does not belong to the space of the study.
+    #[error("`test`: {0}")]
+    Test(SpaceError),
     /// The trial belongs to another study than the file `campaign.json`.
     #[error(
-        "found a trial of the study {found}, but {STUDY} in the same folder is the study {expected}: two campaigns were mixed"
+        "found a trial of the study {found}, but {STUDY} in the same folder is the study {expected}: two \
+         campaigns were mixed, or {STUDY} was changed"
     )]
     OtherStudy {
         /// The hash of the study that the trial names.
@@ -55,9 +60,9 @@ pub(crate) struct Read {
     pub is_older: bool,
 }
 
-/// Reads the trials of a log line by line. A last line without its end is ignored. `study` is the hash of the study to
-/// which the trials have to belong.
-pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &str) -> Result<Read, Error> {
+/// Reads the trials of a log line by line. A last line without its end is ignored. The tests have to belong to the
+/// space, and the trials to the study with the given hash.
+pub(crate) fn read_trials(file: &Path, log: impl io::Read, space: &Space, study: &str) -> Result<Read, Error> {
     let mut log = BufReader::new(log);
     let mut found = Read::default();
     let mut line = Vec::new();
@@ -69,6 +74,10 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &str) -> Resul
         let line_read = parse(text, index, study).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
         found.is_older |= line_read.study().is_none();
         let trial = Trial::try_from(line_read).map_err(|flaw| LogFlaw::NoTrial(serde_json::Error::custom(flaw)));
+        let trial = trial.and_then(|trial| {
+            space.encode(&trial.test).map_err(LogFlaw::Test)?;
+            Ok(trial)
+        });
         trial.map_err(|flaw| Error::in_file(file, index + 1, flaw))?.append_to(&mut found.trials);
         found.bytes += line.len() as u64;
     }

@@ -28,6 +28,7 @@ pub mod record;
 pub mod traceability;
 mod trials;
 pub mod write_up;
+mod xml;
 
 pub use blame::BlameTable;
 pub use junit::{Junit, command_option, shell_word};

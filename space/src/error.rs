@@ -18,6 +18,16 @@ pub enum SpaceError {
     /// A parameter has no name. The number is its position among the parameters, from 1.
     #[error("parameter {0} has no name")]
     Nameless(usize),
+    /// The name of a parameter, or one of its values, has a control character.
+    #[error("{what} of parameter {index} has the control character {character:?}, expected printable text")]
+    Control {
+        /// The text with the control character: "the name" or "a value".
+        what: &'static str,
+        /// The position of the parameter among the parameters, from 1.
+        index: usize,
+        /// The control character.
+        character: char,
+    },
     /// A parameter is not valid, or a value is outside the domain of its parameter.
     #[error(transparent)]
     Parameter(#[from] ParameterError),

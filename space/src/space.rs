@@ -60,6 +60,9 @@ impl Space {
             if parameters[..index].iter().any(|other| other.name == parameter.name) {
                 return Err(SpaceError::Twice { name: parameter.name.clone() });
             }
+            if let Some((what, character)) = control_character(parameter) {
+                return Err(SpaceError::Control { what, index: index + 1, character });
+            }
             parameter.validate()?;
         }
         let space = Self { parameters, constraints: Vec::new() };
@@ -252,6 +255,21 @@ impl Space {
         }
         Ok(point)
     }
+}
+
+/// Returns the first control character in the name or in the values of a parameter. Tables, pictures and reports of a
+/// campaign could not show the character.
+fn control_character(parameter: &Parameter) -> Option<(&'static str, char)> {
+    let found = |what, text: &str| text.chars().find(|c| c.is_control()).map(|character| (what, character));
+    let values = match &parameter.domain {
+        Domain::Choice(values) => values.as_slice(),
+        Domain::Interval { .. } => &[],
+    };
+    let words = values.iter().filter_map(|value| match value {
+        Value::Word(word) => Some(word),
+        _ => None,
+    });
+    found("the name", &parameter.name).or_else(|| words.into_iter().find_map(|word| found("a value", word)))
 }
 
 impl TryFrom<Declaration> for Space {

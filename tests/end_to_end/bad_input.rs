@@ -1,6 +1,6 @@
 //! Bad input: refused with exit status 2 and a message that says what is wrong where, and nothing is written.
 
-use crate::common::{cover, fuzz, refused, succeeds};
+use crate::common::{cover, fuzz, refused, succeeds, without_study};
 use std::fs;
 
 #[test]
@@ -163,5 +163,53 @@ fn times_that_are_none_and_files_that_are_no_text_are_refused_with_what_was_expe
     for name in ["latin1.pict", "latin1.toml"] {
         fs::write(dir.path().join(name), b"A: 1, 2\nB: caf\xe9, tea\n").unwrap();
         refused(&generate(&[name]), &[&format!("{name}, line 2: found bytes that are not UTF-8, expected")]);
+    }
+}
+
+#[test]
+fn control_characters_in_names_and_values_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for (space, says) in [
+        ("parameter = [{ name = \"a\\u0007b\", interval = [0, 1] }]\n", "the name of parameter 1"),
+        ("parameter = [{ name = \"a\", choice = [\"x\", \"y\\u001b[31m\"] }]\n", "a value of parameter 1"),
+    ] {
+        fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+        let generate = cover(dir.path(), &["generate", "--space", "SPACE.toml", "--budget", "2"]);
+        refused(&generate, &["SPACE.toml", says, "control character"]);
+    }
+}
+
+#[test]
+fn values_out_of_range_in_a_log_are_named_with_file_and_line() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "5", "--out", "out", "-q"]));
+    let log = dir.path().join("out/trials.jsonl");
+    let text = fs::read_to_string(&log).unwrap();
+    let speed = text.lines().nth(2).unwrap().split("\"speed\":").nth(1).unwrap().split(',').next().unwrap().to_owned();
+    fs::write(&log, text.replace(&format!("\"speed\":{speed}"), "\"speed\":1e9")).unwrap();
+    for command in [&["replay", "out", "0"] as &[&str], &["map", "out"], &["--budget", "5", "--out", "out", "--resume"]]
+    {
+        refused(&fuzz(dir.path(), command), &["out/trials.jsonl, line 3", "speed", "1000000000"]);
+    }
+    refused(&cover(dir.path(), &["estimate", "out"]), &["out/trials.jsonl, line 3"]);
+}
+
+#[test]
+fn ticks_and_durations_that_the_scenario_does_not_have_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "out", "-q"]));
+    let file = dir.path().join("out/campaign.json");
+    let whole = fs::read_to_string(&file).unwrap();
+    let log = dir.path().join("out/trials.jsonl");
+    let trials = fs::read_to_string(&log).unwrap();
+    for (entry, other) in [("\"dt\": ", "1e-12"), ("\"duration\": ", "-5.0")] {
+        let (before, after) = whole.split_once(entry).unwrap();
+        let (_, after) = after.split_once(',').unwrap();
+        fs::write(&file, format!("{before}{entry}{other},{after}")).unwrap();
+        fs::write(&log, &trials).unwrap();
+        refused(&fuzz(dir.path(), &["replay", "out", "0"]), &["campaign.json was changed"]);
+        // A log of an older version does not name its study.
+        fs::write(&log, without_study(&trials)).unwrap();
+        refused(&fuzz(dir.path(), &["replay", "out", "0"]), &["`dt`", "`duration`", "as in the scenario"]);
     }
 }

@@ -245,8 +245,9 @@ impl Study {
     /// Looks for the scenario of the study in a catalogue, and returns the study with the scenario's program. If the
     /// catalogue does not have the scenario, the first test reports the error.
     pub fn with_program_of(mut self, catalogue: &Catalogue) -> Self {
+        let is_of_this_software = self.is_of_this_software();
         if let Subject::Scenario(simulation) = &mut self.subject {
-            simulation.look_for_program(catalogue, &self.space);
+            simulation.look_for_program(catalogue, &self.space, is_of_this_software);
         }
         self
     }

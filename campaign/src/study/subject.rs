@@ -70,6 +70,17 @@ pub struct NoScenario {
     pub command: String,
 }
 
+/// The error that a file states other ticks or another duration than the scenario has.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("the file has `dt` {} s and `duration` {} s, expected {} s and {} s as in the scenario", there[0], there[1], here[0], here[1])]
+pub struct OtherTimes {
+    /// The length of a tick and the duration of the scenario, in seconds.
+    pub here: [f64; 2],
+    /// The length of a tick and the duration in the file, in seconds.
+    pub there: [f64; 2],
+}
+
+impl Reason for OtherTimes {}
 impl Reason for MissingScenario {}
 impl Reason for NoScenario {}
 
@@ -171,15 +182,23 @@ impl Simulation {
         }
     }
 
-    /// Looks for the program of a study that was read from a file. Parameters that were added to the program since then
-    /// are fixed at their nominal values, which changes nothing.
-    pub(super) fn look_for_program(&mut self, catalogue: &Catalogue, open: &Space) {
+    /// Looks for the program of a study that was read from a file. If this version of the software wrote the file, the
+    /// program must have the ticks and the duration of the file: otherwise somebody changed the file. Parameters that
+    /// were added to the program since then are fixed at their nominal values, which changes nothing.
+    pub(super) fn look_for_program(&mut self, catalogue: &Catalogue, open: &Space, is_of_this_software: bool) {
         self.program = match catalogue.find(&self.scenario) {
             Ok(program) => Source::Here(program),
             Err(error) => Source::Missing(Arc::new(error)),
         };
         // If the scenario cannot be declared, the first test reports the reason.
         let declared = self.program().ok().and_then(|program| program.declare().ok());
+        if let Some(Declaration { dt, duration, .. }) = declared
+            && is_of_this_software
+            && (dt, duration) != (self.dt, self.duration)
+        {
+            let other = OtherTimes { here: [dt, duration], there: [self.dt, self.duration] };
+            self.program = Source::Missing(Arc::new(other.into()));
+        }
         for declared in declared.into_iter().flat_map(|declaration| declaration.parameters) {
             let name = &declared.parameter.name;
             if !declared.open && self.fixed.get(name).is_none() && open.parameter(name).is_err() {

@@ -1,6 +1,7 @@
 //! Writes a picture as the text of an SVG file.
 
 use super::drawing::{Anchor, Colour, Contour, Drawing, Paint, PathSegment, PictureItem, Pixel};
+use crate::xml::xml_text;
 use std::fmt::Write;
 
 /// The font that pictures are made for. A viewer without this font takes another.
@@ -18,7 +19,7 @@ impl Drawing {
         ));
         svg.marks(&self.marks);
         svg.line(format_args!("</svg>"));
-        svg.text
+        xml_text(svg.text)
     }
 }
 

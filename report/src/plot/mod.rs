@@ -24,6 +24,7 @@ mod symbol;
 mod tint;
 mod wrapped;
 
+use crate::xml::xml_text;
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
 pub use animation::{Colours, Reel};
@@ -156,7 +157,7 @@ impl Picture {
         let area = SVGBackend::with_string(&mut text, self.extent()).into_drawing_area();
         self.draw(&area, 1)?;
         drop(area);
-        Ok(text)
+        Ok(xml_text(text))
     }
 
     /// Returns the picture as the contents of a PNG file.
