@@ -1,5 +1,6 @@
 //! Checks the lists, seeds and folders that a user gives to a comparison or a bench.
 
+use paracosm_campaign::files::create_folder;
 use paracosm_campaign::{Error, Reason};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -119,5 +120,5 @@ pub fn make_folder(path: &Path) -> Result<(), Error> {
     if path.exists() && !path.is_dir() {
         return Err(PlaceFlaw::File { path: path.to_owned() }.into());
     }
-    fs::create_dir_all(path).map_err(Error::io("create", path))
+    create_folder(path)
 }

@@ -7,6 +7,7 @@
 use paracosm_campaign::{Error, Log};
 use paracosm_coverage::theory::rows::RandomRows;
 use paracosm_generators::{DiscreteFamily, GeneratorError, Request, Strategy};
+use paracosm_space::plural;
 use serde::Serialize;
 
 /// The guaranteed probability with which random rows of discrete values have all valid combinations of k values.
@@ -65,7 +66,7 @@ impl Promise {
             None => "nothing".to_owned(),
         };
         match rows < rows_for_delta {
-            true => format!("{promise} (delta {delta} asks for {rows_for_delta} rows)"),
+            true => format!("{promise} (delta {delta} asks for {})", plural(*rows_for_delta as usize, "row")),
             false => promise,
         }
     }

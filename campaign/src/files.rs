@@ -183,6 +183,17 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// Makes a folder and the folders above it, unless they exist. A link to a folder that does not exist yet is followed.
+///
+/// # Errors
+/// The folder cannot be made, or the path is that of a file.
+pub fn create_folder(path: &Path) -> Result<(), Error> {
+    if path.is_dir() {
+        return Ok(());
+    }
+    end_of_links(path).and_then(fs::create_dir_all).map_err(Error::io("create", path))
+}
+
 /// Returns the path to which a chain of links leads. Nothing exists there.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();

@@ -6,7 +6,7 @@
 //! anew. A process that is killed may leave a line without its end; when the campaign is resumed, this line is dropped
 //! and its test runs again.
 
-use crate::files::write_whole;
+use crate::files::{create_folder, write_whole};
 use crate::json::differing_key;
 use crate::lock::Lock;
 use crate::scales::Learned;
@@ -114,7 +114,7 @@ impl Folder {
         if path.exists() && !path.is_dir() {
             return Err(FolderFlaw::File { path: path.to_owned() }.into());
         }
-        fs::create_dir_all(path).map_err(Error::io("create", path))?;
+        create_folder(path)?;
         let log = Lock::of(&path.join(TRIALS))?;
         if let Some(name) = present(path, &[STUDY]) {
             return Err(FolderFlaw::Occupied { path: path.to_owned(), name }.into());

@@ -5,8 +5,9 @@ use crate::scales::{Learned, Scales};
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::test_set::TestSet;
 use crate::trials_file::{TRIALS, read_trials};
-use crate::{Catalogue, Error, Extension, Reason, Study, Trial, Trust};
-use paracosm_space::{Point, Space};
+use crate::{Catalogue, Error, Extension, Reason, SpaceFile, Study, Trial, Trust};
+use paracosm_space::Point;
+use paracosm_space::pict::Aliases;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -114,9 +115,12 @@ impl Log {
 ///
 /// # Errors
 /// The file cannot be read, or does not hold tests of the space; or a space is given for a folder.
-pub fn read_tests(path: &Path, space: Option<Space>) -> Result<TestSet, Error> {
+pub fn read_tests(path: &Path, space: Option<SpaceFile>) -> Result<TestSet, Error> {
     match (path.is_dir(), space) {
-        (false, space) => TestSet::read(path, space),
+        (false, Some(SpaceFile { space, demand, aliases, .. })) => {
+            Ok(TestSet { demand, ..TestSet::read(path, Some(space), &aliases)? })
+        }
+        (false, None) => TestSet::read(path, None, &Aliases::default()),
         (true, Some(_)) => Err(HasSpace { path: path.to_owned() }.into()),
         (true, None) => Log::read(path, &Catalogue::default())?.test_set(),
     }

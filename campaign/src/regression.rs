@@ -4,7 +4,7 @@
 //! keeping. A regression file is made from a failing test, and says that the test fails. When the failure is repaired,
 //! change `expect` to `"pass"`; from then on the file checks that the failure stays repaired.
 
-use crate::files::{is_new, write_whole};
+use crate::files::{create_folder, is_new, write_whole};
 use crate::study_file::StudyFile;
 use crate::{Campaign, Catalogue, Error, Folder, Reason, Study, Trial, Trust};
 use paracosm_oracles::Verdict;
@@ -120,7 +120,7 @@ impl Regression {
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         Self::check_path(path)?;
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
+            create_folder(folder)?;
         }
         let mut text = serde_json::to_string_pretty(self).expect("a regression test is always JSON");
         text.push('\n');

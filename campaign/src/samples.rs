@@ -1,7 +1,8 @@
 //! The errors in a list of samples that should be a trace, whether a system answered with it or it stands in a file.
 
 use crate::Reason;
-use paracosm_space::plural;
+use paracosm_space::{WordFlaw, plural, word_flaw};
+use std::collections::HashSet;
 use thiserror::Error;
 
 /// The reason why a list of samples is not a valid trace. A trace has times in seconds, evenly spaced from 0 on, and a
@@ -22,6 +23,14 @@ pub enum TraceFlaw {
     Twice {
         /// The name that two signals share.
         signal: String,
+    },
+    /// Tables and pictures cannot show the name of a signal.
+    #[error("the name of signal {number} {flaw}")]
+    Name {
+        /// The position of the signal among the signals, from 1.
+        number: usize,
+        /// The reason why the name cannot be shown.
+        flaw: WordFlaw,
     },
     /// The trace has too few samples to determine the sample period.
     #[error("found {}, expected at least 2", plural(*samples, "sample"))]
@@ -91,6 +100,22 @@ pub enum TraceFlaw {
 }
 
 impl Reason for TraceFlaw {}
+
+impl TraceFlaw {
+    /// Checks the names of the signals of a trace: each occurs once, and tables and pictures can show it.
+    pub(crate) fn check_names<'n>(signals: impl Iterator<Item = &'n str>) -> Result<(), Self> {
+        let mut seen = HashSet::from(["time"]);
+        for (index, signal) in signals.enumerate() {
+            if !seen.insert(signal) {
+                return Err(Self::Twice { signal: signal.to_owned() });
+            }
+            if let Some(flaw) = word_flaw(signal) {
+                return Err(Self::Name { number: index + 1, flaw });
+            }
+        }
+        Ok(())
+    }
+}
 
 /// The greatest number of names in a message.
 const MOST_NAMES: usize = 20;

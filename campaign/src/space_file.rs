@@ -2,7 +2,7 @@
 
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
-use paracosm_space::pict::{Model, PictError};
+use paracosm_space::pict::{Aliases, Model, PictError};
 use paracosm_space::{Position, Space, SpaceError};
 use std::ffi::OsStr;
 use std::fs;
@@ -20,6 +20,8 @@ pub struct SpaceFile {
     /// The combinations of values that a PICT model requires in addition to all combinations of values of any k
     /// parameters.
     pub demand: Demand,
+    /// The other names that a PICT model gives to values.
+    pub aliases: Aliases,
     /// Notes about the interpretation of the file, each in one sentence.
     pub notes: Vec<String>,
 }
@@ -62,9 +64,10 @@ impl SpaceFile {
         if is_model(path) {
             let model = Model::from_pict(&text)
                 .map_err(|error| Error::in_file(path, error.line, SpaceFileFlaw::Pict(error)))?;
-            check(path, &model.space, &model.statements)?;
-            let notes = model.notes.iter().map(|note| format!("{}: {note}", path.display())).collect();
-            return Ok(Self { space: model.space, demand: model.demand, notes });
+            let never = check(path, &model.space, &model.statements)?;
+            let notes =
+                model.notes.into_iter().chain(never).map(|note| format!("{}: {note}", path.display())).collect();
+            return Ok(Self { space: model.space, demand: model.demand, aliases: model.aliases, notes });
         }
         let space = Space::from_toml(&text).map_err(|error| {
             let line = error.at().map(|Position { line, .. }| line);
@@ -72,21 +75,52 @@ impl SpaceFile {
         })?;
         let texts = space.constraints().iter().map(|constraint| constraint.text().to_owned());
         let written: Vec<(usize, String)> = Space::constraint_lines(&text).into_iter().zip(texts).collect();
-        check(path, &space, &written)?;
-        Ok(Self { space, demand: Demand::default(), notes: Vec::new() })
+        let notes = check(path, &space, &written)?;
+        let notes = notes.into_iter().map(|note| format!("{}: {note}", path.display())).collect();
+        Ok(Self { notes, ..Self::from(space) })
     }
 }
 
-/// Checks that some test satisfies all constraints. `written` holds the line and the text of the first constraints.
-fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<(), Error> {
+impl From<Space> for SpaceFile {
+    /// Makes the contents of a file that describes only this space.
+    fn from(space: Space) -> Self {
+        Self { space, demand: Demand::default(), aliases: Aliases::default(), notes: Vec::new() }
+    }
+}
+
+/// The most values that a note lists.
+const MOST_LISTED: usize = 10;
+
+/// Checks that some test satisfies all constraints, and returns a note on each parameter with values that no test has.
+/// `written` holds the line and the text of the first constraints.
+fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<Vec<String>, Error> {
     let located = |(index, text): (usize, String)| match written.get(index) {
         Some((line, statement)) => (index, format!("{}:{line}: {statement}", path.display())),
         None => (index, text),
     };
-    space.rules().map(drop).map_err(|mut error| {
+    let rules = space.rules().map_err(|mut error| {
         if let SpaceError::Conflict { constraints, .. } = &mut error {
             *constraints = std::mem::take(constraints).into_iter().map(located).collect();
         }
         Error::in_file(path, None, SpaceFileFlaw::Space(error))
-    })
+    })?;
+    let mut notes = Vec::new();
+    for group in 0..rules.groups() {
+        for (&member, supported) in rules.members(group).iter().zip(rules.supported(group, |_| None)) {
+            let coordinate = space.discrete().nth(member).expect("rules are about discrete parameters");
+            let levels = coordinate.parameter.levels().unwrap_or_default();
+            let never = levels.iter().zip(supported).filter(|(_, supported)| !supported);
+            let never: Vec<String> = never.map(|(level, _)| format!("`{level}`")).collect();
+            if !never.is_empty() {
+                let (first, others) = never.split_at(never.len().min(MOST_LISTED));
+                let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+                let name = coordinate.name();
+                notes.push(format!(
+                    "the constraints exclude {}{more} of parameter `{name}` from all tests",
+                    first.join(", ")
+                ));
+            }
+        }
+    }
+    Ok(notes)
 }

@@ -2,8 +2,10 @@
 
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
+use paracosm_space::pict::Aliases;
 use paracosm_space::plural;
 use paracosm_space::{Coordinate, Parameter, ParameterError, Point, Space, SpaceError, Value, Values, nearest};
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -145,13 +147,14 @@ impl TestSet {
 
     /// Reads a set of tests from a CSV file.
     ///
-    /// Without a space, all columns are continuous coordinates in `[0,1]`. With a space, columns that are not
+    /// The columns are separated by commas; in the files of PICT, by tabs. Values may have their aliases, and the sign
+    /// `~` of a negative value. Without a space, all columns are continuous coordinates in `[0,1]`. With a space, columns that are not
     /// parameters of the space are ignored, and so are tests of a campaign with the verdict `error` or `invalid`.
     ///
     /// # Errors
     /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.
-    pub fn read(path: &Path, space: Option<Space>) -> Result<Self, Error> {
-        let mut file = TestsFile::open(path, space)?;
+    pub fn read(path: &Path, space: Option<Space>, aliases: &Aliases) -> Result<Self, Error> {
+        let mut file = TestsFile::open(path, space, aliases)?;
         let mut points = Vec::new();
         while let Some((line, record)) = file.next(points.len())? {
             points.push(file.test(line, &record)?.1);
@@ -164,22 +167,22 @@ impl TestSet {
     ///
     /// # Errors
     /// The same errors as [`TestSet::read`].
-    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<(usize, PartialRow)>, Error> {
-        let mut file = TestsFile::open(path, Some(space.clone()))?;
+    pub fn read_partial(path: &Path, space: &Space, aliases: &Aliases) -> Result<Vec<(usize, PartialRow)>, Error> {
+        let mut file = TestsFile::open(path, Some(space.clone()), aliases)?;
         let mut rows = Vec::new();
         while let Some((line, record)) = file.next(rows.len())? {
-            let level = |(coordinate, column): (Coordinate, &usize)| {
+            let level = |(position, (coordinate, column)): (usize, (Coordinate, &usize))| {
                 let text = &record[*column];
                 if is_open(text, coordinate.parameter) {
                     return Ok(None);
                 }
                 // A cell of a signal is a coordinate, and takes the same values as a constant parameter of this choice.
                 let constant = Parameter { signal: None, ..coordinate.parameter.clone() };
-                let value = value(text, &constant);
+                let value = file.value(text, position, &constant);
                 constant.check(&value).map_err(|error| file.wrong(line, CellFlaw::Parameter(error), None))?;
                 Ok(constant.level(&value))
             };
-            let levels = space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?;
+            let levels = space.discrete().zip(&file.columns).enumerate().map(level).collect::<Result<_, Error>>()?;
             rows.push((line.unwrap_or_default(), levels));
         }
         Ok(rows)
@@ -196,14 +199,6 @@ fn is_open(text: &str, parameter: &Parameter) -> bool {
     text.trim().is_empty() && !takes_it()
 }
 
-/// Returns the value of a cell for a parameter. It is the level with exactly this text, with or without its spaces; if
-/// there is none, it is the value that the text has by itself.
-fn value(text: &str, parameter: &Parameter) -> Value {
-    let levels = parameter.levels().unwrap_or_default();
-    let written = |text: &str| levels.iter().find(|level| level.to_string() == text);
-    written(text).or_else(|| written(text.trim())).cloned().unwrap_or_else(|| Value::parse(text))
-}
-
 /// Reads tests from a CSV file as values of the parameters of a space. If a column has the name of a fixed parameter
 /// (which is not part of the space), the values in the column must be the fixed value.
 ///
@@ -213,7 +208,8 @@ pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Val
     if path.is_dir() {
         return Err(IsFolder { path: path.to_owned() }.into());
     }
-    let mut file = TestsFile::open(path, Some(space.clone()))?;
+    let aliases = Aliases::default();
+    let mut file = TestsFile::open(path, Some(space.clone()), &aliases)?;
     let fixed: Vec<(usize, &str, &Value)> = file.columns_of(fixed);
     let mut tests = Vec::new();
     while let Some((line, record)) = file.next(tests.len())? {
@@ -232,9 +228,12 @@ pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Val
 /// A CSV file of tests whose header has been read.
 struct TestsFile<'p> {
     path: &'p Path,
+    aliases: &'p Aliases,
     reader: csv::Reader<BufReader<File>>,
     header: csv::StringRecord,
     space: Space,
+    /// The levels of each discrete parameter by their texts, by the name of the parameter.
+    texts: HashMap<String, HashMap<String, usize>>,
     /// The index of the column of each coordinate.
     columns: Vec<usize>,
     /// The index of the column of a campaign's verdicts.
@@ -244,12 +243,21 @@ struct TestsFile<'p> {
 }
 
 impl<'p> TestsFile<'p> {
-    fn open(path: &'p Path, space: Option<Space>) -> Result<Self, Error> {
+    fn open(path: &'p Path, space: Option<Space>, aliases: &'p Aliases) -> Result<Self, Error> {
         let mut file = BufReader::new(File::open(path).map_err(Error::io("read", path))?);
-        if file.fill_buf().map_err(Error::io("read", path))?.is_empty() {
+        let begin = file.fill_buf().map_err(Error::io("read", path))?;
+        if begin.is_empty() {
             return Err(Error::in_file(path, None, HeaderFlaw::Empty));
         }
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).from_reader(file);
+        // PICT separates columns by tabs, and has no quotes.
+        let first = begin.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let has_tabs = first.contains(&b'\t') && !first.contains(&b',');
+        let mut builder = csv::ReaderBuilder::new();
+        builder.trim(csv::Trim::Headers);
+        if has_tabs {
+            builder.delimiter(b'\t').quoting(false);
+        }
+        let mut reader = builder.from_reader(file);
         let header = reader.headers().map_err(|error| Error::in_csv(path, error))?.clone();
         if header.iter().all(|name| name.parse::<f64>().is_ok()) {
             return Err(Error::in_file(path, 1, HeaderFlaw::Numbers));
@@ -263,7 +271,12 @@ impl<'p> TestsFile<'p> {
         };
         let columns = columns(path, &space, &header)?;
         let verdict = header.iter().position(|name| name == "verdict").filter(|column| !columns.contains(column));
-        Ok(Self { path, reader, header, space, columns, verdict, is_made_up })
+        let texts = |parameter: &Parameter| {
+            let levels = parameter.levels()?.iter().enumerate().rev();
+            Some((parameter.name.clone(), levels.map(|(level, value)| (value.to_string(), level)).collect()))
+        };
+        let texts = space.parameters().iter().filter_map(texts).collect();
+        Ok(Self { path, aliases, texts, reader, header, space, columns, verdict, is_made_up })
     }
 
     /// Returns the next record with its line; `known` is the number of tests that were read before. Skips tests of a
@@ -285,10 +298,26 @@ impl<'p> TestsFile<'p> {
         Ok(Some((line, record)))
     }
 
+    /// Returns the value of a cell for a parameter. It is the level with exactly this text, with or without its spaces,
+    /// with or without the sign `~` of negative values, or the level with this alias. If there is none, it is the value
+    /// that the text has by itself. `discrete` is the position of the parameter among the discrete parameters.
+    fn value(&self, text: &str, discrete: usize, parameter: &Parameter) -> Value {
+        let levels = parameter.levels().unwrap_or_default();
+        let texts = self.texts.get(&parameter.name);
+        let written = |text: &str| texts.and_then(|texts| texts.get(text)).map(|level| &levels[*level]);
+        let text = text.trim_end_matches('\r');
+        let plain = text.trim().strip_prefix('~').map(str::trim);
+        let alias = |text: &str| self.aliases.level(discrete, text).and_then(|level| levels.get(level));
+        let found = written(text).or_else(|| written(text.trim())).or_else(|| plain.and_then(written));
+        let found = found.or_else(|| alias(plain.unwrap_or(text)));
+        found.cloned().unwrap_or_else(|| Value::parse(text))
+    }
+
     /// Returns the test in a record.
     fn test(&self, line: Option<usize>, record: &csv::StringRecord) -> Result<(Values, Point), Error> {
         let mut test = Values::default();
         let mut columns = self.columns.iter();
+        let mut discrete = 0;
         for parameter in self.space.parameters() {
             let mut values = Vec::new();
             for column in columns.by_ref().take(parameter.coordinates()) {
@@ -296,7 +325,8 @@ impl<'p> TestsFile<'p> {
                     let is_mixed = self.space.dims() > 0 && self.space.discrete().next().is_some();
                     return Err(self.wrong(line, CellFlaw::Open { is_mixed }, Some(*column)));
                 }
-                let value = value(&record[*column], parameter);
+                let value = self.value(&record[*column], discrete, parameter);
+                discrete += usize::from(parameter.levels().is_some());
                 if parameter.levels().is_none() && value.number().is_none() {
                     return Err(self.wrong(line, CellFlaw::NoNumber { found: value }, Some(*column)));
                 }

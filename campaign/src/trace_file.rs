@@ -83,10 +83,7 @@ impl Table {
         if signals.is_empty() {
             return Err(TraceFlaw::NoSignal);
         }
-        let is_twice = |(i, name): &(usize, &String)| signals[..*i].contains(name) || *name == "time";
-        if let Some((_, signal)) = signals.iter().enumerate().find(is_twice) {
-            return Err(TraceFlaw::Twice { signal: signal.clone() });
-        }
+        TraceFlaw::check_names(signals.iter().map(String::as_str))?;
         Ok(Self { time, signals, last: 0.0, first: None, trace: None })
     }
 

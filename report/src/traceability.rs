@@ -1,5 +1,6 @@
 //! Writes a flat table of requirements by tests.
 
+use crate::write_up::as_text;
 use paracosm_analysis::Traceability;
 
 /// Returns the traceability matrix of requirements and tests as CSV. Each row is a requirement. The first columns hold
@@ -16,12 +17,12 @@ pub fn csv(traceability: &Traceability) -> Vec<u8> {
         let worst = traced.worst();
         let indices: Vec<String> = traced.violated_in.iter().map(ToString::to_string).collect();
         let mut row = vec![
-            traced.id.clone(),
-            traced.text.clone(),
-            traced.source.clone().unwrap_or_default(),
-            traced.severity.clone().unwrap_or_default(),
-            traced.formula.clone(),
-            traced.unit.clone(),
+            as_text(&traced.id),
+            as_text(&traced.text),
+            as_text(traced.source.as_deref().unwrap_or_default()),
+            as_text(traced.severity.as_deref().unwrap_or_default()),
+            as_text(&traced.formula),
+            as_text(&traced.unit),
             traceability.tests.to_string(),
             traced.passed.to_string(),
             traced.failed.to_string(),

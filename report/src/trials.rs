@@ -1,7 +1,9 @@
 //! Writes the trials of a campaign as one flat table.
 
+use crate::write_up::as_text;
 use paracosm_campaign::{Artefact, Error, Log, Metric, Trial};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
+use std::hash::Hash;
 
 /// The table `trials.csv` of the trials of a campaign. Its columns are index, parameters, verdict, robustness, metrics,
 /// ticks, hash of the trace, and error.
@@ -41,19 +43,14 @@ fn csv(log: &Log) -> Vec<u8> {
         row.extend(metrics.iter().map(|name| measured.get(name).map_or(String::new(), ToString::to_string)));
         row.push(trial.ticks.to_string());
         row.push(trial.trace_hash.clone().unwrap_or_default());
-        row.push(trial.error().unwrap_or_default().to_owned());
+        row.push(as_text(trial.error().unwrap_or_default()));
         write(row);
     }
     csv.into_inner().expect("memory does not fail to flush")
 }
 
 /// Returns the names without repetitions, in the order of their first occurrence.
-fn each_once<N: PartialEq>(names: impl Iterator<Item = N>) -> Vec<N> {
-    let mut once = Vec::new();
-    for name in names {
-        if !once.contains(&name) {
-            once.push(name);
-        }
-    }
-    once
+fn each_once<N: Clone + Eq + Hash>(names: impl Iterator<Item = N>) -> Vec<N> {
+    let mut seen = HashSet::new();
+    names.filter(|name| seen.insert(name.clone())).collect()
 }

@@ -3,7 +3,7 @@
 use crate::constraint::ConstraintError;
 use crate::names::did_you_mean;
 use crate::rules::Conflict;
-use crate::{ParameterError, Position};
+use crate::{ParameterError, Position, WordFlaw};
 use thiserror::Error;
 
 /// The reason why a space cannot be built, or why a test does not belong to a space.
@@ -18,15 +18,15 @@ pub enum SpaceError {
     /// A parameter has no name. The number is its position among the parameters, from 1.
     #[error("parameter {0} has no name")]
     Nameless(usize),
-    /// The name of a parameter, or one of its values, has a control character.
-    #[error("{what} of parameter {index} has the control character {character:?}, expected printable text")]
-    Control {
-        /// The text with the control character: "the name" or "a value".
+    /// Tables and pictures cannot show the name of a parameter, or one of its values.
+    #[error("{what} of parameter {index} {flaw}")]
+    Word {
+        /// The word with the flaw: "the name" or "a value".
         what: &'static str,
         /// The position of the parameter among the parameters, from 1.
         index: usize,
-        /// The control character.
-        character: char,
+        /// The reason why the word cannot be shown.
+        flaw: WordFlaw,
     },
     /// A parameter is not valid, or a value is outside the domain of its parameter.
     #[error(transparent)]

@@ -47,6 +47,7 @@ pub mod rules;
 mod shape;
 mod space;
 mod value;
+mod word;
 
 pub use distribution::Distribution;
 pub use domain::Domain;
@@ -59,3 +60,4 @@ pub use record::Record;
 pub use shape::{Shape, ShapeError};
 pub use space::{Point, Space};
 pub use value::{Value, Values};
+pub use word::{WordFlaw, word_flaw};

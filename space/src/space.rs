@@ -12,9 +12,10 @@ use crate::constraint::Constraint;
 use crate::domain::{at, coordinate};
 use crate::names::nearest;
 use crate::rules::{Clause, Conflict, Rules, RulesError};
-use crate::{Coordinate, Domain, Parameter, SpaceError, Value, Values};
+use crate::{Coordinate, Domain, Parameter, SpaceError, Value, Values, WordFlaw, word_flaw};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
 
 /// The coordinates of a test, in the order of the space's parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -53,18 +54,20 @@ impl Space {
     /// # Errors
     /// Two parameters share a name, or a parameter has no name, or a parameter is not valid.
     pub fn new(parameters: Vec<Parameter>) -> Result<Self, SpaceError> {
+        let mut names = HashSet::new();
         for (index, parameter) in parameters.iter().enumerate() {
             if parameter.name.trim().is_empty() {
                 return Err(SpaceError::Nameless(index + 1));
             }
-            if parameters[..index].iter().any(|other| other.name == parameter.name) {
+            if !names.insert(parameter.name.as_str()) {
                 return Err(SpaceError::Twice { name: parameter.name.clone() });
             }
-            if let Some((what, character)) = control_character(parameter) {
-                return Err(SpaceError::Control { what, index: index + 1, character });
+            if let Some((what, flaw)) = flaw_of_words(parameter) {
+                return Err(SpaceError::Word { what, index: index + 1, flaw });
             }
             parameter.validate()?;
         }
+        drop(names);
         let space = Self { parameters, constraints: Vec::new() };
         // A table could not tell such a parameter apart from the coordinate of a signal that has the same name.
         let signals = space.coordinates().filter(|coordinate| coordinate.parameter.signal.is_some());
@@ -257,19 +260,18 @@ impl Space {
     }
 }
 
-/// Returns the first control character in the name or in the values of a parameter. Tables, pictures and reports of a
-/// campaign could not show the character.
-fn control_character(parameter: &Parameter) -> Option<(&'static str, char)> {
-    let found = |what, text: &str| text.chars().find(|c| c.is_control()).map(|character| (what, character));
+/// Returns the first word among the name and the values of a parameter that tables and pictures cannot show.
+fn flaw_of_words(parameter: &Parameter) -> Option<(&'static str, WordFlaw)> {
     let values = match &parameter.domain {
         Domain::Choice(values) => values.as_slice(),
         Domain::Interval { .. } => &[],
     };
     let words = values.iter().filter_map(|value| match value {
-        Value::Word(word) => Some(word),
+        Value::Word(word) => Some(("a value", word)),
         _ => None,
     });
-    found("the name", &parameter.name).or_else(|| words.into_iter().find_map(|word| found("a value", word)))
+    let mut words = [("the name", &parameter.name)].into_iter().chain(words);
+    words.find_map(|(what, word)| word_flaw(word).map(|flaw| (what, flaw)))
 }
 
 impl TryFrom<Declaration> for Space {

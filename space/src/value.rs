@@ -76,12 +76,30 @@ impl Value {
         }
     }
 
+    /// Returns a key that two values share exactly if they mean the same; a list has the key of its text.
+    pub(crate) fn meaning(&self) -> Meaning<'_> {
+        match (self.number(), self) {
+            // Both zeros are the same number.
+            (Some(number), _) => Meaning::Number((number + 0.0).to_bits()),
+            (None, Value::Word(word)) => Meaning::Word(word),
+            (None, value) => Meaning::List(value.to_string()),
+        }
+    }
+
     /// Returns the number as an integer, or `None` if the integer would not be exactly the same number.
     fn whole(number: f64) -> Option<i64> {
         // Beyond 2^53 neighbouring integers share a float; -0 would lose its sign.
         let whole = number.trunc() == number && number.abs() < 9e15 && !(number == 0.0 && number.is_sign_negative());
         whole.then_some(number as i64)
     }
+}
+
+/// A key of a value for sets: values with the same key mean the same.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) enum Meaning<'v> {
+    Number(u64),
+    Word(&'v str),
+    List(String),
 }
 
 impl fmt::Display for Value {

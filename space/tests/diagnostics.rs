@@ -156,12 +156,12 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     check(
         "A: 1\nIFF [A] = 1 THEN [A] = 2;",
         (2, 26),
-        "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
+        "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, [ or (",
     );
     check(
         "A: 1\nIFF [A] in {1, 2};",
         (2, 19),
-        "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
+        "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, [ or (",
     );
     check(" : 1, 2", (1, 2), "found no name before `:`, expected the name of a parameter");
     check("A:  \nB: 1", (1, 3), "found no values, expected the values of parameter `A`, with commas between them");
@@ -177,7 +177,6 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     let check = |rest: &str, at: (usize, usize), expected: &str| {
         check(&format!("Weather: clear, fog\nLanes: 2, 4\nFront lanes: 2, 6\n{rest}"), (at.0 + 3, at.1), expected);
     };
-    check("{Weather, Lane} @ 2", (1, 11), "no parameter is called `Lane` (did you mean `Lanes`?)");
     check(
         "{Weather, Lanes} @ 3",
         (1, 20),
@@ -189,7 +188,6 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         "found nothing, expected an order from 1 to 2, the number of parameters in the sub-model",
     );
     check("{Weather, Lanes} 2", (1, 18), "found `2`, expected `@` and the order of the sub-model");
-    check("{Weather, weather}", (1, 11), "the sub-model names `weather` twice");
     check("{Weather,}", (1, 10), "found no name, expected a parameter of the sub-model");
     check("{Weather, Lanes", (1, 16), "found no `}`, expected `}` after the names of a sub-model");
     check(
@@ -208,11 +206,6 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         "found a sub-model after a constraint; parameters come first, then sub-models, then constraints",
     );
 
-    check(
-        "IF [Wether] = \"fog\" THEN [Lanes] = 2;",
-        (1, 4),
-        "no parameter is called `Wether` (did you mean `Weather`?)",
-    );
     check("IF [Weather] = \"fog\"\n  [Lanes] = 2;", (2, 3), "found `[Lanes]`, expected `AND`, `OR` or `THEN`");
     check(
         "IF [Weather] = \"fog\" THAN [Lanes] = 2;",
@@ -257,11 +250,9 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         (1, 9),
         "`Lanes` takes numbers and `Weather` takes words; numbers and words cannot be compared",
     );
-    check("[Lanes] = [Front lane];", (1, 11), "no parameter is called `Front lane` (did you mean `Front lanes`?)");
     check("([Lanes] = 2;", (1, 13), "found `;`, expected `AND`, `OR` or `)`");
     check("([Lanes] = 2", (1, 1), "the `(` here has no closing `)`");
-    check("IsNegative(Lane);", (1, 12), "no parameter is called `Lane` (did you mean `Lanes`?)");
-    check("IsNegative Lanes;", (1, 12), "found `Lanes`, expected `(`");
+    check("IF IsNegative Lanes;", (1, 15), "found `Lanes`, expected `(`");
     check(
         "[Lanes] = 2;\nB: a/b",
         (2, 1),
@@ -269,14 +260,14 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     );
     check("[Lanes] 2;\n^", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
     check("[Lanes] IN {2, ^};", (1, 16), "found `^`, which has no meaning in a constraint");
-    check("IsNegative(^);", (1, 12), "found `^`, which has no meaning in a constraint");
-    check("IsNegative(Lanes;", (1, 17), "found `;`, expected `)`");
+    check("IF IsNegative(^);", (1, 15), "found `^`, which has no meaning in a constraint");
+    check("IF IsNegative(Lanes;", (1, 20), "found `;`, expected `)`");
     check("[Weather] = \"fog;", (1, 13), "the word that begins here has no closing `\"`");
     check("[Weather = \"fog\";", (1, 1), "the name that begins here has no closing `]`");
     check("[Lanes] = 2; # two", (1, 14), "found `#`, which begins a comment only at the start of a line");
     check("[Lanes] = 2 ^ 3;", (1, 13), "found `^`, which has no meaning in a constraint");
     let deep = format!("{}[Lanes] = 2{};", "(".repeat(1000), ")".repeat(1000));
     check(&deep, (1, 49), "the constraint has more than 48 levels of nesting; divide it into several constraints");
-    let deep = format!("{}[Lanes] = 2;", "NOT ".repeat(1000));
-    check(&deep, (1, 193), "the constraint has more than 48 levels of nesting; divide it into several constraints");
+    let deep = format!("IF {}[Lanes] = 2;", "NOT ".repeat(1000));
+    check(&deep, (1, 196), "the constraint has more than 48 levels of nesting; divide it into several constraints");
 }

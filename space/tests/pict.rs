@@ -1,8 +1,11 @@
 //! Model files: what they hold, against an evaluation of their constraints by hand.
 
+mod predicates;
+
 use paracosm_space::constraint::Constraint;
 use paracosm_space::pict::Model;
 use paracosm_space::{Point, Space, Value};
+use predicates::{predicate, text_of};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Model {
@@ -165,109 +168,6 @@ fn no_test_has_two_negative_values() {
     assert_eq!(all.notes[0], "line 3, column 28: parameter `B` never has the value `q`");
 }
 
-/// A comparison without regard to case, as PICT documents it, and what joins them.
-#[derive(Debug, Clone)]
-enum Predicate {
-    Value(usize, &'static str, usize),
-    Parameter(usize, &'static str, usize),
-    In(usize, Vec<usize>, bool),
-    Like(usize, String, bool),
-    Not(Box<Predicate>),
-    And(Box<Predicate>, Box<Predicate>),
-    Or(Box<Predicate>, Box<Predicate>),
-}
-
-const WORDS: [&str; 5] = ["Low", "low", "mid_1", "HIGH", "hill 2"];
-const NUMBERS: [&str; 5] = ["-3", "0", "2.5", "10", "1000"];
-
-/// Parameters 0 and 1 take words, 2 and 3 numbers.
-fn text_of(parameter: usize, level: usize) -> &'static str {
-    if parameter < 2 { WORDS[level] } else { NUMBERS[level] }
-}
-
-fn related<T: PartialOrd>(left: T, sign: &str, right: T) -> bool {
-    match sign {
-        "=" => left == right,
-        "<>" => left != right,
-        "<" => left < right,
-        "<=" => left <= right,
-        ">" => left > right,
-        _ => left >= right,
-    }
-}
-
-fn compared(parameter: usize, left: &str, sign: &str, right: &str) -> bool {
-    if parameter < 2 {
-        related(left.to_lowercase(), sign, right.to_lowercase())
-    } else {
-        related(left.parse::<f64>().unwrap(), sign, right.parse().unwrap())
-    }
-}
-
-fn is_like(pattern: &[u8], text: &[u8]) -> bool {
-    match pattern.split_first() {
-        None => text.is_empty(),
-        Some((b'*', rest)) => (0..=text.len()).any(|taken| is_like(rest, &text[taken..])),
-        Some((b'?', rest)) => !text.is_empty() && is_like(rest, &text[1..]),
-        Some((sign, rest)) => text.first().is_some_and(|t| t.eq_ignore_ascii_case(sign)) && is_like(rest, &text[1..]),
-    }
-}
-
-impl Predicate {
-    fn holds(&self, row: &[&str]) -> bool {
-        match self {
-            Predicate::Value(p, sign, level) => compared(*p, row[*p], sign, text_of(*p, *level)),
-            Predicate::Parameter(p, sign, q) => compared(*p, row[*p], sign, row[*q]),
-            Predicate::In(p, levels, denied) => {
-                levels.iter().any(|level| compared(*p, row[*p], "=", text_of(*p, *level))) != *denied
-            }
-            Predicate::Like(p, pattern, denied) => is_like(pattern.as_bytes(), row[*p].as_bytes()) != *denied,
-            Predicate::Not(part) => !part.holds(row),
-            Predicate::And(a, b) => a.holds(row) && b.holds(row),
-            Predicate::Or(a, b) => a.holds(row) || b.holds(row),
-        }
-    }
-
-    fn write(&self) -> String {
-        let value = |p: usize, level: usize| {
-            if p < 2 { format!("\"{}\"", text_of(p, level).to_uppercase()) } else { text_of(p, level).to_owned() }
-        };
-        let not = |denied: bool| if denied { "not " } else { "" };
-        match self {
-            Predicate::Value(p, sign, level) => format!("[p{p}] {sign} {}", value(*p, *level)),
-            Predicate::Parameter(p, sign, q) => format!("[P{p}]{sign}[p{q}]"),
-            Predicate::In(p, levels, denied) => {
-                let listed: Vec<_> = levels.iter().map(|level| value(*p, *level)).collect();
-                format!("[P{p}] {}In {{{}}}", not(*denied), listed.join(" ,"))
-            }
-            Predicate::Like(p, pattern, denied) => format!("[P{p}] {}like \"{pattern}\"", not(*denied)),
-            Predicate::Not(part) => format!("NOT ({})", part.write()),
-            Predicate::And(a, b) => format!("({} and {})", a.write(), b.write()),
-            Predicate::Or(a, b) => format!("({}\n OR {})", a.write(), b.write()),
-        }
-    }
-}
-
-fn predicate() -> impl Strategy<Value = Predicate> {
-    let sign = || prop::sample::select(vec!["=", "<>", "<", "<=", ">", ">="]);
-    let leaf = prop_oneof![
-        (0..4usize, sign(), 0..5usize).prop_map(|(p, sign, level)| Predicate::Value(p, sign, level)),
-        (0..4usize, sign(), 0..2usize).prop_map(|(p, sign, q)| Predicate::Parameter(p, sign, p / 2 * 2 + q)),
-        (0..4usize, prop::collection::vec(0..5usize, 1..4), any::<bool>())
-            .prop_map(|(p, levels, denied)| Predicate::In(p, levels, denied)),
-        (0..2usize, "[lowh*?id_ 12]{0,5}", any::<bool>())
-            .prop_map(|(p, pattern, denied)| Predicate::Like(p, pattern, denied)),
-    ];
-    leaf.prop_recursive(3, 12, 2, |inner| {
-        let two = || (inner.clone(), inner.clone()).prop_map(|(a, b)| (Box::new(a), Box::new(b)));
-        prop_oneof![
-            inner.clone().prop_map(|part| Predicate::Not(Box::new(part))),
-            two().prop_map(|(a, b)| Predicate::And(a, b)),
-            two().prop_map(|(a, b)| Predicate::Or(a, b)),
-        ]
-    })
-}
-
 proptest! {
     #[test]
     fn constraints_mean_what_their_comparisons_mean(
@@ -358,4 +258,79 @@ fn statements_are_kept_with_the_lines_where_they_begin() {
     let statements = [(4, "IF [A] = 2 THEN [B] = 2;"), (6, "[B] < 9;"), (7, "( [A] < 9);")];
     assert_eq!(model.statements, statements.map(|(line, statement)| (line, statement.to_owned())));
     assert_eq!(model.space.constraints().len(), 4);
+}
+
+#[test]
+fn words_are_ordered_by_their_upper_case_letters_as_in_pict() {
+    // `_` stands after the upper-case letters and before the lower-case letters.
+    let model = read("A: a_b, aB, ac\nB: a_b, aB, ac\nIF [A] < \"aB\" THEN [B] = \"ac\";");
+    assert_eq!(tests(&model).iter().filter(|(_, allowed)| *allowed).count(), 9);
+}
+
+#[test]
+fn a_constraint_or_a_sub_model_on_an_unknown_parameter_is_ignored_with_a_note() {
+    let model = read(
+        "A: 1, 2\nB: x, y\n{A, Bee} @ 2\n\
+         IF [Aa] = 1 AND ([B] = \"x\" OR [C] IN {1, 2}) THEN [B] = \"y\";\n\
+         IF [B] = \"x\" THEN [A] = [D];\nIF IsNegative(E) THEN [A] = 1;\n[A] = 1;",
+    );
+    assert_eq!(constraints(&model), ["A == 1"]);
+    assert_eq!(model.statements.len(), 1);
+    assert_eq!(model.demand.groups, []);
+    assert_eq!(
+        model.notes,
+        [
+            "line 3, column 5: no parameter is called `Bee`, so this sub-model is ignored",
+            "line 4, column 4: no parameter is called `Aa` (did you mean `A`?), so this constraint is ignored",
+            "line 5, column 25: no parameter is called `D`, so this constraint is ignored",
+            "line 6, column 15: no parameter is called `E`, so this constraint is ignored",
+        ]
+    );
+}
+
+#[test]
+fn a_sub_model_may_name_a_parameter_twice() {
+    let model = read("A: 1, 2\nB: x, y\n{B, A, b} @ 2");
+    assert_eq!(model.demand.groups, [(vec![0, 1], 2)]);
+    assert_eq!(model.notes, ["line 3, column 8: the sub-model names `b` twice, which changes nothing"]);
+}
+
+#[test]
+fn statements_that_pict_refuses_are_refused() {
+    let parameters = "A: a, b\nB: a, b\n";
+    for (statement, says) in [
+        (
+            "[A] = [a];",
+            "line 3, column 5: parameter `A` is compared with itself, expected another parameter or a value",
+        ),
+        ("[A] = \"a\\a\";", "line 3, column 7: found `\\a`, expected `\\\\`, `\\\"` or `\\]`"),
+        ("IsPositive();", "line 3, column 14: found no `:`"),
+        ("NOT [A] = \"a\";", "line 3, column 15: found no `:`"),
+    ] {
+        let refused = Model::from_pict(&format!("{parameters}{statement}\n")).unwrap_err().to_string();
+        assert!(refused.starts_with(says), "{refused}");
+    }
+    read(&format!("{parameters}[A] = \"a\\\"b\" OR [B] = \"a\\\\\";\nNOT [A] = \"x\";"));
+}
+
+#[test]
+fn aliases_of_values_are_known() {
+    let model = read("A: ~x | Long name|L, y\nB: z");
+    assert_eq!(model.space.levels(), [2, 1]);
+    assert_eq!(["long NAME", "L", " l "].map(|alias| model.aliases.level(0, alias)), [Some(0); 3]);
+    assert_eq!((model.aliases.level(0, "x"), model.aliases.level(1, "L")), (None, None));
+}
+
+#[test]
+fn models_with_many_values_are_read_in_time_that_grows_with_their_length() {
+    let words = |n: usize| (0..n).map(|i| format!("w{i}")).collect::<Vec<_>>().join(", ");
+    let model = read(&format!("A: {0}\nB: 1, 2\nIF [A] IN {{{1}}} THEN [B] = 1;\n", words(200_000), {
+        (0..50_000).map(|i| format!("\"W{}\"", 3 * i)).collect::<Vec<_>>().join(", ")
+    }));
+    assert_eq!(model.space.levels(), [200_000, 2]);
+    let doubled: String = (1..40).map(|i| format!("P{i}: <P{}>, <P{}>, x{i}\n", i - 1, i - 1)).collect();
+    assert_eq!(read(&format!("P0: a, b\n{doubled}")).space.levels()[39], 41);
+    let many: String = (0..11).map(|i| format!("Q{i}: <A>\n")).collect();
+    let refused = Model::from_pict(&format!("A: {}\n{many}", words(100_000))).unwrap_err().to_string();
+    assert!(refused.contains("more than 1000000 values, which is the limit"), "{refused}");
 }

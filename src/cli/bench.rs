@@ -10,6 +10,7 @@ use crate::space::{did_you_mean, nearest};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::bench::{Bench, ReferenceMap, Row, Rows, Target, USUAL};
+use paracosm_campaign::files::create_folder;
 use paracosm_campaign::{Error, Study};
 use paracosm_report::shell_word;
 use serde_json::json;
@@ -186,7 +187,7 @@ impl Options {
             return Ok(maps);
         }
         let folder = self.reference.clone().unwrap_or_else(|| self.out.join("maps"));
-        std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
+        create_folder(&folder)?;
         for target in &bench.targets {
             let Some(study) = target.as_study() else { continue };
             let path = folder.join(format!("{}.json", target.file_name()));

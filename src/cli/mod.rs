@@ -37,9 +37,11 @@ use clap::Args;
 use interrupt::on_interrupt;
 use paracosm_campaign::executor::WORKER;
 use paracosm_campaign::{Error, Reason, SpaceFile};
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
+use std::path::Path;
 use std::process::ExitCode;
 use thiserror::Error;
 
@@ -55,17 +57,35 @@ struct Verbosity {
 }
 
 impl Verbosity {
-    /// Prints the notes of a file.
-    fn noted(self, file: SpaceFile) -> SpaceFile {
-        file.notes.iter().for_each(|note| self.note(note));
-        file
-    }
-
     /// Prints a note, which is no result.
     fn note(self, message: impl Display) {
         if !self.quiet {
             complain(&message);
         }
+    }
+}
+
+/// The option that refuses files of spaces with notes.
+#[derive(Debug, Clone, Copy, Args)]
+struct Strict {
+    /// Refuse a file of a space for which notes would be printed, such as a PICT model with an unknown parameter in a
+    /// constraint
+    #[arg(long, requires = "space")]
+    strict: bool,
+}
+
+impl Strict {
+    /// Reads the file of a space, and prints its notes.
+    ///
+    /// # Errors
+    /// The file cannot be read or is not valid; or it has notes, and the user asked for none.
+    fn read(self, path: &Path, verbosity: Verbosity) -> Result<SpaceFile, Error> {
+        let file = SpaceFile::read(path)?;
+        if self.strict && !file.notes.is_empty() {
+            return Err(usage(format!("--strict refuses the file\n{}", file.notes.join("\n"))));
+        }
+        file.notes.iter().for_each(|note| verbosity.note(note));
+        Ok(file)
     }
 }
 
@@ -120,13 +140,24 @@ fn exit(result: Result<Status, Failure>) -> ExitCode {
 
 /// Prints a message to standard error. A closed standard error is no error.
 fn complain(message: &impl Display) {
-    let _ = writeln!(io::stderr(), "{message}");
+    let _ = writeln!(io::stderr(), "{}", printable(&message.to_string()));
+}
+
+/// Returns a text with its control characters escaped, except ends of lines and tabs. A file or a system of somebody else
+/// could otherwise write to any place of the terminal.
+fn printable(text: &str) -> Cow<'_, str> {
+    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(is_harmful) {
+        return Cow::Borrowed(text);
+    }
+    let escape = |c: char| if is_harmful(c) { c.escape_default().to_string() } else { c.to_string() };
+    Cow::Owned(text.chars().map(escape).collect())
 }
 
 /// Prints a result.
 fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(printable(text).as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(format!("cannot write to the standard output: {error}").into())
         }

@@ -5,6 +5,7 @@ use super::output::{Format, Table, digits, json, plural, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions, trust};
 use crate::engine::sensor::Cameras;
+use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::{Error, Expectation, Log, Metric, Study, Subject, Trial, Worker, write_trace};
@@ -121,19 +122,7 @@ impl Options {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted.into());
         }
-        if let Some(trace) = &trace {
-            let default = || dir.join(format!("trace-{index}.csv"));
-            let path = self.trace.clone().unwrap_or_else(default);
-            write_trace(&path, trace)?;
-            verbosity.note(format_args!("trace of {} written to {}", plural(trial.ticks, "tick"), path.display()));
-        } else if let Some(path) = &self.trace {
-            verbosity.note(format_args!("the test has no trace to write to {}", path.display()));
-        }
-        if let Some(target) = &target {
-            let caption =
-                format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);
-            verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
-        }
+        // Nothing is written if the command fails.
         if !trial.repeats(logged) {
             return Err(difference(&worker, logged, &trial).into());
         }
@@ -145,6 +134,12 @@ impl Options {
             };
             clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
+        if let Some(target) = &target {
+            let caption =
+                format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);
+            verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
+        }
+        self.write_trace(dir, &trial, trace.as_ref(), verbosity)?;
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(study, &trial),
             Format::Json => json(&trial),
@@ -154,6 +149,24 @@ impl Options {
 }
 
 impl Options {
+    /// Writes the trace of the test. Nobody asked for the file in the folder of the campaign, so a note is enough if this
+    /// file cannot be written.
+    fn write_trace(&self, dir: &Path, trial: &Trial, trace: Option<&Trace>, verbosity: Verbosity) -> Result<(), Error> {
+        let default = || dir.join(format!("trace-{}.csv", trial.index));
+        let path = self.trace.clone().unwrap_or_else(default);
+        let ticks = plural(trial.ticks, "tick");
+        match (trace.map(|trace| write_trace(&path, trace)), &self.trace) {
+            (Some(Ok(())), _) => verbosity.note(format_args!("trace of {ticks} written to {}", path.display())),
+            (Some(Err(error)), Some(_)) => return Err(error),
+            (Some(Err(error)), None) => verbosity.note(format_args!("no trace: {error}; --trace names another file")),
+            (None, Some(path)) => {
+                verbosity.note(format_args!("the test has no trace to write to {}", path.display()));
+            }
+            (None, None) => {}
+        }
+        Ok(())
+    }
+
     /// Returns the camera of --through, or the first camera.
     fn through(&self, mut cameras: Cameras) -> Result<Cameras, Error> {
         let names = || cameras.all.keys().map(String::as_str);

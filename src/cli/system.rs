@@ -1,7 +1,7 @@
 //! The options that put a system of the user in the place of a scenario.
 
-use super::Verbosity;
 use super::usage;
+use super::{Strict, Verbosity};
 use crate::space::demand::Demand;
 use clap::Args;
 use paracosm_campaign::{BlackBox, Error, SpaceFile, Study, StudyBuilder, is_model};
@@ -17,6 +17,8 @@ pub(super) struct System {
     /// The file with the parameters of the system, SPACE.toml or a PICT model
     #[arg(long, value_name = "SPACE.toml", requires = "system")]
     space: Option<PathBuf>,
+    #[command(flatten)]
+    strict: Strict,
     /// The time limit for an answer of the system or of a driver in its own process; a driver that the program starts
     /// has ten times as long until it listens [default: 60]
     #[arg(long, value_name = "SECONDS")]
@@ -43,7 +45,7 @@ impl System {
     pub fn study(&self, verbosity: Verbosity) -> Result<Option<StudyBuilder>, Error> {
         let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };
         let system = BlackBox::new(command, self.timeout)?;
-        let SpaceFile { space, demand, .. } = verbosity.noted(SpaceFile::read(path)?);
+        let SpaceFile { space, demand, .. } = self.strict.read(path, verbosity)?;
         if demand != Demand::default() {
             let message = "the model has sub-models or negative values (`~`), which campaigns do not support; \
                            `paracosm-cover generate` makes such tests";

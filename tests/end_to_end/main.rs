@@ -31,6 +31,7 @@ mod networks;
 #[cfg(unix)]
 mod outputs;
 mod pedestrian_study;
+mod pict;
 mod pictures;
 mod plan;
 mod python;

@@ -174,3 +174,62 @@ fn a_folder_that_was_removed_or_moved_is_not_called_safe() {
         assert!(fs::read_to_string(begun).unwrap_or_default().is_empty(), "nothing is written to another campaign");
     }
 }
+
+#[test]
+fn a_replay_that_differs_from_the_log_leaves_nothing_behind() {
+    let dir = campaign();
+    let log = dir.path().join("camp/trials.jsonl");
+    let text = fs::read_to_string(&log).unwrap();
+    let hash = text.split("\"trace_hash\":\"").nth(1).unwrap().split('"').next().unwrap();
+    fs::write(&log, text.replace(hash, &"0".repeat(hash.len()))).unwrap();
+    let before = fs::read_dir(dir.path().join("camp")).unwrap().count();
+    let replay = ["replay", "camp", "0", "--draw", "run.svg", "--trace", "run.csv"];
+    refused(&fuzz(dir.path(), &replay), &["test 0 differs from the log: trace_hash"]);
+    refused(&fuzz(dir.path(), &["replay", "camp", "0"]), &["differs from the log"]);
+    assert!(!dir.path().join("run.svg").exists() && !dir.path().join("run.csv").exists());
+    assert_eq!(fs::read_dir(dir.path().join("camp")).unwrap().count(), before);
+}
+
+#[test]
+fn a_replay_whose_usual_trace_cannot_be_written_says_so_and_succeeds() {
+    let dir = campaign();
+    fs::create_dir(dir.path().join("camp/trace-1.csv")).unwrap();
+    let replay = succeeds(fuzz(dir.path(), &["replay", "camp", "1"]));
+    let told = String::from_utf8(replay.stderr).unwrap();
+    assert!(told.contains("no trace: ") && told.contains("--trace names another file"), "{told}");
+    refused(&fuzz(dir.path(), &["replay", "camp", "1", "--trace", "camp/trace-1.csv"]), &["camp/trace-1.csv"]);
+}
+
+#[test]
+fn a_link_to_a_folder_that_does_not_exist_yet_is_followed() {
+    let dir = campaign();
+    fs::create_dir(dir.path().join("there")).unwrap();
+    symlink("there/new", dir.path().join("link")).unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "1", "--out", "link", "-q"]));
+    assert!(dir.path().join("there/new/trials.jsonl").exists() && dir.path().join("link").is_symlink());
+    symlink("loop", dir.path().join("loop")).unwrap();
+    refused(&fuzz(dir.path(), &["--budget", "1", "--out", "loop", "-q"]), &["loop", "links without an end"]);
+}
+
+#[test]
+fn campaigns_over_huge_intervals_have_their_maps() {
+    let dir = tempfile::tempdir().unwrap();
+    let system = r#"python3 -c "
+import json, sys
+for line in sys.stdin:
+    test = json.loads(line)
+    print(json.dumps({'index': test['index'], 'robustness': {'small': 0.5 - test['test']['b']}}), flush=True)
+""#;
+    for (lo, hi) in
+        [("10.0", "1e18"), ("0", "1e22"), ("-1e308", "1.7e308"), ("0", "5e-324"), ("1e300", "1.0000001e300")]
+    {
+        let space = format!(
+            "[[parameter]]\nname = \"a\"\ninterval = [{lo}, {hi}]\n[[parameter]]\nname = \"b\"\ninterval = [0, 1]\n"
+        );
+        fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+        let out = format!("out{hi}");
+        let run = ["--system", system, "--space", "SPACE.toml", "--budget", "20", "--out", &out, "-q"];
+        succeeds(fuzz(dir.path(), &run));
+        assert!(dir.path().join(&out).join("failure-map.svg").exists(), "{lo} to {hi}");
+    }
+}

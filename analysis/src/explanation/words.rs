@@ -2,7 +2,7 @@
 
 use super::table::Condition;
 use super::{Explanation, FOLDS, MOST_LEAVES, Rule};
-use paracosm_space::{Coordinate, Space, Value};
+use paracosm_space::{Coordinate, Space, Value, plural};
 
 /// The coordinates behind the columns of a tree, which give the columns their names.
 pub(super) struct Names<'a> {
@@ -87,7 +87,7 @@ fn percent(share: f64) -> String {
 pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
     let line = |(i, Rule { conditions, tests, failures }): (usize, &Rule)| {
         let opening = if i == 0 { "fails in" } else { "and in" };
-        format!("{opening} {failures} of {tests} tests where {}", conditions.join(" and "))
+        format!("{opening} {failures} of {} where {}", plural(*tests, "test"), conditions.join(" and "))
     };
     explanation.rules.iter().enumerate().map(line).collect()
 }
@@ -96,7 +96,7 @@ pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
 pub(super) fn trust(explanation: &Explanation) -> String {
     let Explanation { tests, failures, cross_validated, .. } = explanation;
     if explanation.rules.is_empty() {
-        let all = format!("{failures} of {tests} tests fail");
+        let all = format!("{failures} of {} fail", plural(*tests, "test"));
         return format!("none: no tree of at most {MOST_LEAVES} leaves finds failing tests better than chance; {all}");
     }
     format!(

@@ -3,7 +3,7 @@
 use crate::json::Number;
 use crate::samples::TraceFlaw;
 use paracosm_oracles::Trace;
-use paracosm_space::Record;
+use paracosm_space::{Record, WordFlaw, word_flaw};
 use serde::de::Visitor;
 use serde::{Deserialize, Deserializer};
 use serde_json::error::Category;
@@ -79,6 +79,12 @@ pub enum AnswerFlaw {
         /// The id of the requirement whose robustness is not a number.
         requirement: String,
     },
+    /// Tables and reports cannot show the id of a requirement.
+    #[error("the id of a requirement {flaw}")]
+    Id {
+        /// The reason why the id cannot be shown.
+        flaw: WordFlaw,
+    },
     /// The answer contains an empty list of robustness values.
     #[error("`robustness` is empty, expected the robustness of at least one requirement")]
     NoRobustness,
@@ -152,6 +158,7 @@ fn read_robustness(robustness: &Record<Number>) -> Result<Vec<(String, f64)>, An
     let worth = |(id, number): (&str, &Number)| {
         let number = number.0.filter(|number| !number.is_nan());
         let number = number.ok_or_else(|| AnswerFlaw::Robustness { requirement: id.to_owned() })?;
+        word_flaw(id).map_or(Ok(()), |flaw| Err(AnswerFlaw::Id { flaw }))?;
         Ok((id.to_owned(), number))
     };
     let all: Vec<_> = robustness.iter().map(worth).collect::<Result<_, AnswerFlaw>>()?;
@@ -176,6 +183,7 @@ fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, TraceFlaw> {
     if names.is_empty() {
         return Err(TraceFlaw::NoSignal);
     }
+    TraceFlaw::check_names(names.iter().copied())?;
     let mut trace = Trace::new(dt, names.into_iter().map(str::to_owned).collect());
     trace.reserve(time.len());
     for tick in 0..time.len() {
@@ -305,6 +313,8 @@ mod tests {
         refuses(r#"[1,2]"#, "expected an answer as JSON");
         refuses(r#"{"index":3,"robustness":{}}"#, "`robustness` is empty");
         refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is not a number");
+        refuses(r#"{"index":3,"robustness":{"a\u001b":1}}"#, "the id of a requirement has the control character");
+        refuses(r#"{"index":3,"trace":{"time":[0,1],"=f(x)":[0,1]}}"#, "the name of signal 1 is a formula");
         refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "found `a` twice, expected one value per name");
     }
 

@@ -5,6 +5,7 @@ pub mod latex;
 use crate::plot::Picture;
 use paracosm_campaign::Error;
 use paracosm_campaign::files::write_whole;
+use paracosm_space::{WordFlaw, word_flaw};
 use std::path::Path;
 
 /// Formats a number with three significant digits.
@@ -27,6 +28,12 @@ pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Result<(), Error> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().for_each(|row| csv.write_record(row).expect("rows of one length fit into memory"));
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
+}
+
+/// Formats a text for a cell of a table. A text that a spreadsheet would compute as a formula gets a `'` in front, which
+/// makes it a text for spreadsheets.
+pub fn as_text(text: &str) -> String {
+    if word_flaw(text) == Some(WordFlaw::Formula) { format!("'{text}") } else { text.to_owned() }
 }
 
 /// Formats a value for a table; a missing value gives an empty field.

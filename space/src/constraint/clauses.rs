@@ -120,7 +120,7 @@ fn irredundant(clauses: Vec<Clause>) -> Vec<Clause> {
             Some((i, literal)) => {
                 let other = kept.remove(i);
                 let levels = &mut clause.literals[literal].levels;
-                levels.retain(|level| other.literals[literal].levels.contains(level));
+                levels.retain(|level| other.literals[literal].levels.binary_search(level).is_ok());
                 if levels.is_empty() {
                     clause.literals.remove(literal);
                 }

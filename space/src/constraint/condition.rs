@@ -4,8 +4,10 @@ use super::expression::{Expression, Operand, Relation};
 use super::parse::Places;
 use super::{ConstraintError, ConstraintFlaw};
 use crate::names::nearest;
+use crate::value::Meaning;
 use crate::{Parameter, Value};
 use std::cmp::Ordering;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// A statement about the levels of a row.
@@ -132,13 +134,14 @@ impl<'a> Resolver<'a> {
             Expression::In { parameter, values } => {
                 let places = self.next_places();
                 let side = self.side(parameter).map_err(at(places.left))?;
-                for (value, place) in values.iter().zip(&places.right) {
+                let levels: HashSet<Meaning> = side.levels.iter().map(Value::meaning).collect();
+                let is_level = |value: &Value| levels.contains(&value.meaning());
+                if let Some((value, place)) = values.iter().zip(&places.right).find(|(value, _)| !is_level(value)) {
                     side.level(value).map_err(at(*place))?;
                 }
-                Ok(Condition::among(
-                    side.position,
-                    side.levels.iter().map(|level| values.iter().any(|value| value.means(level)) == holds),
-                ))
+                let values: HashSet<Meaning> = values.iter().map(Value::meaning).collect();
+                let is_listed = |level: &Value| values.contains(&level.meaning());
+                Ok(Condition::among(side.position, side.levels.iter().map(|level| is_listed(level) == holds)))
             }
             Expression::Not(part) => self.condition(part, !holds),
             Expression::And(parts) => self.parts(holds, parts, holds),
@@ -259,7 +262,11 @@ impl Side<'_> {
         values.dedup_by(|a, b| order(a, b).is_eq());
         let rank = |value: &Value| values.partition_point(|known| order(known, value).is_lt());
         let ranks = [self, other].map(|side| side.levels.iter().map(rank).collect::<Arc<[usize]>>());
-        if !relation.orders() && !ranks[0].iter().any(|rank| ranks[1].contains(rank)) {
+        let common = |ranks: &[Arc<[usize]>; 2]| {
+            let known: HashSet<&usize> = ranks[1].iter().collect();
+            ranks[0].iter().any(|rank| known.contains(rank))
+        };
+        if !relation.orders() && !common(&ranks) {
             return Err(ConstraintFlaw::NothingInCommon { parameters: [self, other].map(|side| side.name.to_owned()) });
         }
         let relation = if holds { relation } else { relation.negated() };

@@ -58,11 +58,11 @@ pub enum PictFlaw {
     /// The line of a parameter has no colon.
     #[error(
         "found no `:`, expected a `:` between the name of a parameter and its values{}",
-        if *.bracket { ", or a constraint that begins with IF, NOT, [ or (" } else { "" }
+        if *.constraint { ", or a constraint that begins with IF, [ or (" } else { "" }
     )]
     NoColon {
-        /// `true` if the line contains the bracket `[`, as constraints do.
-        bracket: bool,
+        /// `true` if the line looks like a constraint.
+        constraint: bool,
     },
     /// A parameter has no name.
     #[error("found no name before `:`, expected the name of a parameter")]
@@ -120,11 +120,29 @@ pub enum PictFlaw {
     /// The name of a parameter is missing in a sub-model (a group of parameters).
     #[error("found no name, expected a parameter of the sub-model")]
     NamelessInSubModel,
-    /// A sub-model, which is a group of parameters, names a parameter twice.
-    #[error("the sub-model names `{name}` twice")]
-    TwiceInSubModel {
-        /// The name of the parameter as the sub-model writes it the second time.
+    /// The parameters of the model have too many values.
+    #[error("the parameters have more than {most} values, which is the limit; divide the model into several models")]
+    TooManyValues {
+        /// The greatest number of values of all parameters together.
+        most: usize,
+    },
+    /// Two parameters with too many values are compared.
+    #[error("the two parameters have more than {most} pairs of values, which is the limit for a comparison")]
+    TooManyPairs {
+        /// The greatest number of pairs of values.
+        most: usize,
+    },
+    /// A parameter is compared with itself.
+    #[error("parameter `{name}` is compared with itself, expected another parameter or a value")]
+    ComparedToItself {
+        /// The name of the parameter.
         name: String,
+    },
+    /// A backslash stands before a character that needs none.
+    #[error("found `\\{sign}`, expected `\\\\`, `\\\"` or `\\]`")]
+    Escape {
+        /// The character after the backslash.
+        sign: char,
     },
     /// Text other than an order, such as `@ 3`, follows a sub-model (a group of parameters).
     #[error("found `{found}`, expected `@` and the order of the sub-model")]

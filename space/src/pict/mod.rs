@@ -31,7 +31,8 @@
 //!   their texts differ: `1.1` and `1.10` are two levels and keep their texts. To constraints they are the same
 //!   number.
 //! - Constraints ignore the case of parameter names, words of the language and values. A word keeps the case in which
-//!   it is declared. `<`, `<=`, `>` and `>=` order words by their lower-case letters.
+//!   it is declared. `<`, `<=`, `>` and `>=` order words by their upper-case letters. A constraint or a
+//!   sub-model that names an unknown parameter is ignored, and a note says so.
 //! - `IF .. THEN .. ELSE`, `AND`, `OR`, `NOT`, `IN {..}`, `LIKE` with `*` and `?`, `IsNegative(P)` and `IsPositive(P)`
 //!   become constraints in the language of [`constraint`](crate::constraint). Words that differ only in case are
 //!   listed one by one. Without a name, `IsNegative()` means some parameter and `IsPositive()` means all parameters.
@@ -39,29 +40,39 @@
 //!   [`demand`](crate::demand) lists the negative values: combinations of other values count only in tests without
 //!   negative values.
 //! - `{A, B, C} @ 3` asks for all combinations of any three of these parameters, beside the demand on all parameters.
-//!   PICT also keeps the number of different rows of a sub-model small; PARACOSM does not.
+//!   All parameters together keep the strength k. In PICT each row of a sub-model counts as one value: `@ 1` asks for
+//!   less than all pairs, each row of a sub-model meets each value outside of it, and the number of different rows of a
+//!   sub-model stays small. PARACOSM does neither of these three.
 //! - `<P>` stands for the values of a parameter above. If no parameter has this name or a similar one, `<P>` is a
 //!   value, and a note says so. If a line has no colon, the name ends at the first comma, as in old models.
 //!
 //! Weights, and aliases other than the first, do not change which combinations have to be covered. They are ignored,
-//! and a note says so. These parts are refused: result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
+//! and a note says so. [`Aliases`] knows the other aliases, which stand in tests of PICT. These parts are refused: result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
 //! parameter with negative values only, and everything unknown. The separators of values and of aliases and the
 //! negative sign are those that PICT uses by default.
 
+mod aliases;
 mod flaw;
 mod parameters;
 mod statements;
+mod sub_models;
 mod terms;
 mod tokens;
 
 use crate::constraint::Expression;
 use crate::demand::Demand;
 use crate::{Domain, Parameter, Position, Space, SpaceError};
-use parameters::{Declared, Parameters, sub_model};
+use parameters::{Declared, Parameters};
 use statements::Statement;
 use std::ops::Range;
+use sub_models::sub_model;
 
+pub use aliases::Aliases;
 pub use flaw::{PictError, PictFlaw, Section};
+
+/// The most values of all parameters of a model together. Values of parameters that other parameters refer to count each
+/// time.
+const MOST_VALUES: usize = 1_000_000;
 
 /// The content of a model file of PICT.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +86,8 @@ pub struct Model {
     /// first constraints of the space come from these constraints, in the same order. The other constraints are about
     /// negative values.
     pub statements: Vec<(usize, String)>,
+    /// The other names of values.
+    pub aliases: Aliases,
     /// Notes for people about parts of the file whose meaning may differ from the author's expectation.
     pub notes: Vec<String>,
 }
@@ -140,10 +153,11 @@ fn read(text: &str) -> Result<Model, Fault> {
             Line::Parameter => parameters.read(line.trim_end(), offset)?,
             Line::SubModel => {
                 sub_models = true;
-                let (set, order) = sub_model(line.trim_end(), offset, &parameters.declared)?;
-                match order {
-                    Some(order) => groups.push((set, order)),
-                    None => parameters.notes.push(format!(
+                let found = sub_model(text, line.trim_end(), offset, &parameters.declared, &mut parameters.notes)?;
+                match found {
+                    None => {}
+                    Some((set, Some(order))) => groups.push((set, order)),
+                    Some((_, None)) => parameters.notes.push(format!(
                         "line {}: the sub-model has no order, so it asks for no further combinations",
                         Position::of(text, offset).line
                     )),
@@ -176,26 +190,29 @@ fn read(text: &str) -> Result<Model, Fault> {
     let statements =
         read.into_iter().map(|Statement { span, .. }| (Position::of(text, span.start).line, in_a_line(span)));
     let demand = Demand { groups, negatives: negatives(&declared) };
-    Ok(Model { space, statements: statements.collect(), demand, notes })
+    Ok(Model { space, statements: statements.collect(), demand, aliases: Aliases::of(&declared), notes })
 }
 
 /// Finds the kind of a line by its beginning. A colon before the first bracket makes the line a parameter, unless the
 /// line begins with `#`, `{` or `[`.
 fn kind(line: &str) -> Line {
     let line = line.trim();
-    let begins = |word: &str| {
-        let head = line.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
-        head && !line[word.len()..].starts_with(|sign: char| sign.is_alphanumeric() || sign == '_')
-    };
     let plain = &line[..line.find('[').unwrap_or(line.len())];
     match line.chars().next() {
         None | Some('#') => Line::Nothing,
         Some('{') => Line::SubModel,
         Some('[') => Line::Statement,
-        Some('(') if !plain.contains(':') => Line::Statement,
-        Some(_) if !plain.contains(':') && statements::OPENING.into_iter().any(begins) => Line::Statement,
+        Some('(') if !plain.contains(':') && line.contains('[') => Line::Statement,
+        Some(_) if !plain.contains(':') && begins_with(line, "IF") => Line::Statement,
         Some(_) => Line::Parameter,
     }
+}
+
+/// Returns `true` if a line begins with the word, in upper or lower case.
+fn begins_with(line: &str, word: &str) -> bool {
+    let line = line.trim_start();
+    let head = line.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
+    head && !line[word.len()..].starts_with(|sign: char| sign.is_alphanumeric() || sign == '_')
 }
 
 fn indent(line: &str) -> usize {

@@ -1,11 +1,12 @@
 //! Reads the constraints of a model: `IF .. THEN .. ELSE ..;` and statements without a condition.
 
-use super::parameters::{Declared, find};
+use super::parameters::{Declarations, Declared};
 use super::terms;
 use super::tokens::{Token, tokens};
 use super::{Fault, PictFlaw, Section, fail};
 use crate::constraint::{Expression, Relation};
 use crate::names::{did_you_mean, nearest};
+use crate::plural;
 use crate::{Position, Value};
 use std::fmt;
 use std::ops::Range;
@@ -13,8 +14,14 @@ use std::ops::Range;
 /// The greatest depth to which parentheses and `NOT` may be nested.
 const DEEPEST: usize = 48;
 
-/// The words that begin a constraint.
+/// The words that begin a constraint. As in PICT, only `IF` begins the first constraint of a model.
 pub(super) const OPENING: [&str; 4] = ["IF", "NOT", "IsNegative", "IsPositive"];
+
+/// The most pairs of values in a comparison of two parameters.
+const MOST_PAIRS: usize = 10_000_000;
+
+/// The most notes on values that no parameter takes.
+const MOST_NOTES: usize = 20;
 
 const RELATIONS: [(&str, Relation); 6] = [
     ("=", Relation::Equal),
@@ -51,16 +58,30 @@ impl fmt::Display for Wanted {
 pub(super) fn read(
     text: &str,
     start: usize,
-    declared: &[Declared],
+    declared: &Declarations,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Statement>, Fault> {
-    let mut reader = Reader { text, tokens: tokens(text, start), next: 0, depth: 0, declared, notes };
+    let tokens = tokens(text, start);
+    let mut reader = Reader { text, tokens, next: 0, depth: 0, declared, notes, unknown: None, never: 0 };
     let mut statements = Vec::new();
     while *reader.peek() != Token::End {
         let begin = reader.offset();
         let expression = reader.statement()?;
-        // The last sign was a semicolon.
-        statements.push(Statement { span: begin..reader.tokens[reader.next - 1].1 + 1, expression });
+        match reader.unknown.take() {
+            // The last sign was a semicolon.
+            None => statements.push(Statement { span: begin..reader.tokens[reader.next - 1].1 + 1, expression }),
+            Some((at, unknown)) => {
+                let Position { line, column } = Position::of(text, at);
+                reader.notes.push(format!("line {line}, column {column}: {unknown}, so this constraint is ignored"));
+            }
+        }
+    }
+    if let Some(more @ 1..) = reader.never.checked_sub(MOST_NOTES) {
+        reader.notes.push(format!(
+            "{} that {} parameter never has",
+            plural(more, "further value"),
+            if more == 1 { "its" } else { "their" }
+        ));
     }
     Ok(statements)
 }
@@ -70,8 +91,12 @@ struct Reader<'a> {
     tokens: Vec<(Token, usize)>,
     next: usize,
     depth: usize,
-    declared: &'a [Declared],
+    declared: &'a Declarations,
     notes: &'a mut Vec<String>,
+    /// The first name in the current constraint that no parameter has, with its place.
+    unknown: Option<(usize, PictFlaw)>,
+    /// The number of values that no parameter takes.
+    never: usize,
 }
 
 impl<'a> Reader<'a> {
@@ -207,14 +232,14 @@ impl<'a> Reader<'a> {
             Token::Word(word) => return fail(self.offset(), PictFlaw::NoBrackets { word }),
             _ => return self.expected(&[A("a parameter in brackets"), Exactly("NOT"), Exactly("(")]),
         };
-        let parameter = self.parameter(&name)?;
+        let Some(parameter) = self.parameter(&name) else { return Ok(self.skip()) };
         self.take();
         let operator = self.offset();
         let denied = self.takes_word("NOT");
         let term = if self.takes_word("IN") {
             self.list(parameter)?
         } else if self.peek().is("LIKE") {
-            if parameter.numeric() {
+            if parameter.numeric {
                 return fail(operator, PictFlaw::PatternOfNumbers { name: parameter.name.clone() });
             }
             self.take();
@@ -229,10 +254,32 @@ impl<'a> Reader<'a> {
         Ok(if denied { Expression::Not(Box::new(term)) } else { term })
     }
 
-    /// Finds the parameter of this name. The name is the next token.
-    fn parameter(&self, name: &str) -> Result<&'a Declared, Fault> {
-        let declared = self.declared;
-        find(declared, name).map(|i| &declared[i]).or_else(|flaw| fail(self.offset(), flaw))
+    /// Finds the parameter of this name. The name is the next token. If no parameter has the name, the constraint says
+    /// nothing about the model, and `None` is returned.
+    fn parameter(&mut self, name: &str) -> Option<&'a Declared> {
+        let at = self.offset();
+        let found = self.declared.find(name);
+        found.map(|i| &self.declared[i]).map_err(|flaw| self.unknown.get_or_insert((at, flaw))).ok()
+    }
+
+    /// Skips the rest of a comparison with an unknown parameter. The expression takes its place in a constraint that
+    /// is ignored.
+    fn skip(&mut self) -> Expression {
+        self.take();
+        let mut depth = 0;
+        loop {
+            let ends = ["AND", "OR", "THEN", "ELSE"].iter().any(|word| self.peek().is(word));
+            match self.peek() {
+                Token::End | Token::Broken(_) | Token::Sign(";") => break,
+                Token::Sign(")") if depth == 0 => break,
+                _ if ends && depth == 0 => break,
+                Token::Sign("(") => depth += 1,
+                Token::Sign(")") => depth -= 1,
+                _ => {}
+            }
+            self.take();
+        }
+        Expression::And(Vec::new())
     }
 
     /// Reads the arguments of `IsNegative` or `IsPositive`.
@@ -253,8 +300,13 @@ impl<'a> Reader<'a> {
         let name = self.text[from..to].trim();
         let name = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
         if !name.is_empty() {
-            let i = find(self.declared, name).or_else(|flaw| fail(from, flaw))?;
-            return Ok(terms::of_sign(&self.declared[i], negative));
+            return Ok(match self.declared.find(name) {
+                Ok(i) => terms::of_sign(&self.declared[i], negative),
+                Err(flaw) => {
+                    self.unknown.get_or_insert((from, flaw));
+                    Expression::And(Vec::new())
+                }
+            });
         }
         let with_negatives = self.declared.iter().filter(|parameter| parameter.has_negatives());
         let mut each: Vec<_> = with_negatives.map(|parameter| terms::of_sign(parameter, negative)).collect();
@@ -267,7 +319,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn relation(&mut self, parameter: &Declared) -> Result<Expression, Fault> {
+    fn relation(&mut self, parameter: &'a Declared) -> Result<Expression, Fault> {
         let relation = RELATIONS.iter().find(|(sign, _)| *self.peek() == Token::Sign(sign));
         let Some((_, relation)) = relation.copied() else {
             let relations = RELATIONS.iter().map(|(sign, _)| Exactly(sign)).chain([Exactly("IN"), Exactly("LIKE")]);
@@ -276,9 +328,15 @@ impl<'a> Reader<'a> {
         let place = self.offset();
         self.take();
         if let Token::Name(name) = self.peek().clone() {
-            let other = self.parameter(&name)?;
-            if parameter.numeric() != other.numeric() {
-                let (numbers, words) = if parameter.numeric() { (parameter, other) } else { (other, parameter) };
+            let Some(other) = self.parameter(&name) else { return Ok(self.skip()) };
+            if std::ptr::eq(parameter, other) {
+                return fail(place, PictFlaw::ComparedToItself { name: parameter.name.clone() });
+            }
+            if parameter.values.len().saturating_mul(other.values.len()) > MOST_PAIRS {
+                return fail(place, PictFlaw::TooManyPairs { most: MOST_PAIRS });
+            }
+            if parameter.numeric != other.numeric {
+                let (numbers, words) = if parameter.numeric { (parameter, other) } else { (other, parameter) };
                 let flaw = PictFlaw::NotCompared { numbers: numbers.name.clone(), words: words.name.clone() };
                 return fail(place, flaw);
             }
@@ -296,18 +354,18 @@ impl<'a> Reader<'a> {
     fn value(&mut self, parameter: &Declared) -> Result<(Value, usize), Fault> {
         let (name, at) = (parameter.name.clone(), self.offset());
         let flaw = match self.peek().clone() {
-            Token::Number(number) if parameter.numeric() => {
+            Token::Number(number) if parameter.numeric => {
                 self.take();
                 return Ok((Value::Number(number), at));
             }
-            Token::Text(word) if !parameter.numeric() => {
+            Token::Text(word) if !parameter.numeric => {
                 self.take();
                 return Ok((Value::Word(word), at));
             }
             Token::Number(number) => PictFlaw::NumberForWords { name, number },
             Token::Text(word) => PictFlaw::WordForNumbers { name, word },
             Token::Word(word) => PictFlaw::NoQuotes { word },
-            _ if parameter.numeric() => return self.expected(&[A("a number"), A("a parameter in brackets")]),
+            _ if parameter.numeric => return self.expected(&[A("a number"), A("a parameter in brackets")]),
             _ => return self.expected(&[A("a word in quotes"), A("a parameter in brackets")]),
         };
         fail(at, flaw)
@@ -334,7 +392,11 @@ impl<'a> Reader<'a> {
 
     /// Adds a note if the parameter never takes the value.
     fn note_unknown(&mut self, parameter: &Declared, value: &Value, at: usize) {
-        if parameter.values.iter().any(|listed| listed.is(value)) {
+        if parameter.takes(value) {
+            return;
+        }
+        self.never += 1;
+        if self.never > MOST_NOTES {
             return;
         }
         let words = parameter.values.iter().map(|listed| listed.text.as_str());

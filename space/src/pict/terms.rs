@@ -4,9 +4,10 @@
 //! becomes the list of the levels at which it holds. A comparison between two parameters is written level by level if
 //! the constraint language would give it another meaning.
 
-use super::parameters::Declared;
+use super::parameters::{Declared, Seen, folded};
 use crate::Value;
 use crate::constraint::{Expression, Operand, Relation};
+use std::collections::HashSet;
 
 /// Says that the parameter takes a negative value, or that it takes a value that is not negative.
 pub(super) fn of_sign(parameter: &Declared, negative: bool) -> Expression {
@@ -15,8 +16,8 @@ pub(super) fn of_sign(parameter: &Declared, negative: bool) -> Expression {
 
 /// Says that the word of the parameter matches the pattern. `*` stands for any characters and `?` for one character.
 pub(super) fn like(parameter: &Declared, pattern: &str) -> Expression {
-    let pattern = lower(pattern);
-    let matching = parameter.values.iter().map(|listed| matches(&pattern, &lower(&listed.text)));
+    let pattern = upper(pattern);
+    let matching = parameter.values.iter().map(|listed| matches(&pattern, &upper(&listed.text)));
     membership(parameter, matching.collect())
 }
 
@@ -30,20 +31,19 @@ pub(super) fn with_value(parameter: &Declared, relation: Relation, value: Value)
 
 /// Says that the parameter takes one of the values.
 pub(super) fn among(parameter: &Declared, values: &[Value]) -> Expression {
-    let listed = parameter.values.iter().map(|listed| values.iter().any(|value| listed.is(value)));
-    membership(parameter, listed.collect())
+    let values: HashSet<Seen> = values.iter().map(Seen::of).collect();
+    membership(parameter, parameter.values.iter().map(|listed| values.contains(&parameter.seen(listed))).collect())
 }
 
 /// Says that two parameters have this relation. Both have numbers or both have words.
 pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declared) -> Expression {
     let as_written =
         || Expression::Compare { parameter: left.name.clone(), relation, with: Operand::Parameter(right.name.clone()) };
-    let common = left.values.iter().any(|a| right.values.iter().any(|b| a.value.means(&b.value)));
-    if left.numeric() && (relation.orders() || common) {
+    let common = left.shares_a_value(right);
+    if left.numeric && (relation.orders() || common) {
         return as_written();
     }
-    let key =
-        |parameter: &Declared| parameter.values.iter().map(|listed| listed.text.to_lowercase()).collect::<Vec<_>>();
+    let key = |parameter: &Declared| parameter.values.iter().map(|listed| folded(&listed.text)).collect::<Vec<_>>();
     let (keys, partners) = (key(left), key(right));
     let related = |i: usize, j: usize| relation.holds(&keys[i], &partners[j]);
     let literal = |i: usize, j: usize| relation.holds(&(left.values[i].value == right.values[j].value), &true);
@@ -76,14 +76,13 @@ pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declar
 fn membership(parameter: &Declared, marked: Vec<bool>) -> Expression {
     let those = |mark: bool| {
         let levels = parameter.values.iter().zip(&marked).filter(|(_, marked)| **marked == mark);
-        let mut values: Vec<Value> = Vec::new();
-        for (listed, _) in levels {
-            // Constraints treat equal numbers as one value.
-            if !values.iter().any(|value| value.means(&listed.value)) {
-                values.push(listed.value.clone());
-            }
-        }
-        values
+        // Constraints treat equal numbers as one value.
+        let mut seen = HashSet::new();
+        let mut is_new = |value: &Value| match value.number() {
+            Some(_) => seen.insert(Seen::of(value)),
+            None => true,
+        };
+        levels.map(|(listed, _)| &listed.value).filter(|value| is_new(value)).cloned().collect::<Vec<Value>>()
     };
     let (inside, outside) = (those(true), those(false));
     let compare = |relation, value: &Value| Expression::Compare {
@@ -100,8 +99,8 @@ fn membership(parameter: &Declared, marked: Vec<bool>) -> Expression {
     }
 }
 
-fn lower(text: &str) -> Vec<char> {
-    text.to_lowercase().chars().collect()
+fn upper(text: &str) -> Vec<char> {
+    folded(text).chars().collect()
 }
 
 /// Returns `true` if the whole text matches the pattern. A star takes as few characters as possible. If the rest does

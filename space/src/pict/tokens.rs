@@ -84,6 +84,7 @@ fn token(rest: &str) -> (Token, usize) {
     if sign == '[' || sign == '"' {
         let close = if sign == '[' { ']' } else { '"' };
         return match enclosed(rest, close) {
+            Some((_, length)) if let Some(sign) = wrong_escape(&rest[..length]) => broken(PictFlaw::Escape { sign }),
             Some((name, length)) if sign == '[' => (Token::Name(name), length),
             Some((word, length)) => (Token::Text(word), length),
             None => broken(PictFlaw::Open { close }),
@@ -105,6 +106,18 @@ fn token(rest: &str) -> (Token, usize) {
         Some(sign) => (Token::Sign(sign), sign.len()),
         None => broken(PictFlaw::UnknownSign { sign }),
     }
+}
+
+/// Returns the first character after a backslash that needs no backslash. PICT refuses such texts.
+fn wrong_escape(text: &str) -> Option<char> {
+    let mut characters = text.chars();
+    while characters.any(|c| c == '\\') {
+        let escaped = characters.next()?;
+        if !matches!(escaped, '\\' | '"' | ']') {
+            return Some(escaped);
+        }
+    }
+    None
 }
 
 /// Returns the text of the number at the start, and its value if the text is a finite number.

@@ -4,14 +4,14 @@ use super::{certificate, open_loop, strength, time_limit};
 use crate::cli::draw::is_ours_to_write;
 use crate::cli::output::{Format, Table, json, plural, short_bracket};
 use crate::cli::usage;
-use crate::cli::{Failure, Verbosity, print};
+use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::coverage::Bracket;
 use crate::generators::Request;
 use crate::space::{Parameter, Space};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::Coverage;
-use paracosm_campaign::{Error, SpaceFile, TestSet, read_tests};
+use paracosm_campaign::{Error, TestSet, read_tests};
 use paracosm_coverage::Measure;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -37,6 +37,8 @@ pub(super) struct Options {
     /// The space of the tests in a CSV; without a space the columns are in [0,1]
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "strategy")]
     space: Option<PathBuf>,
+    #[command(flatten)]
+    strict: Strict,
     /// The number of parameters that are combined; if fewer are discrete, k-wise combines all discrete parameters
     /// [default: 2]
     #[arg(long, value_name = "K")]
@@ -121,10 +123,8 @@ impl Options {
 
     fn read(&self, verbosity: Verbosity) -> Result<(TestSet, String), Error> {
         let path = self.tests.clone().unwrap_or_else(|| "paracosm-out".into());
-        let space = self.space.as_deref().map(SpaceFile::read).transpose()?.map(|file| verbosity.noted(file));
-        let (space, demand) = space.map(|file| (file.space, file.demand)).unzip();
-        let tests = TestSet { demand: demand.unwrap_or_default(), ..read_tests(&path, space)? };
-        Ok((tests, path.display().to_string()))
+        let space = self.space.as_deref().map(|path| self.strict.read(path, verbosity)).transpose()?;
+        Ok((read_tests(&path, space)?, path.display().to_string()))
     }
 
     fn generated(&self, name: &str) -> Result<TestSet, Error> {

@@ -7,7 +7,7 @@ use crate::cli::interrupt::Interruptible;
 use crate::cli::output::plural;
 use crate::cli::sampling::Sampling;
 use crate::cli::usage;
-use crate::cli::{Failure, Verbosity, complain};
+use crate::cli::{Failure, Strict, Verbosity, complain};
 use crate::coverage::Deadline;
 use crate::generators::{DiscreteFamily, Generator, Purpose, Request, Strategy};
 use crate::space::demand::Demand;
@@ -16,6 +16,7 @@ use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::Promise;
 use paracosm_campaign::{Error, SpaceFile, TestSet};
+use std::collections::HashSet;
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -39,6 +40,8 @@ pub(super) struct Options {
     /// The space of the tests
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "dims", group = "of")]
     space: Option<PathBuf>,
+    #[command(flatten)]
+    strict: Strict,
     /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
@@ -67,21 +70,22 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let (space, mut demand) = match (&self.space, self.dims) {
-            (Some(path), _) => {
-                let SpaceFile { space, demand, .. } = verbosity.noted(SpaceFile::read(path)?);
-                (Some(space), demand)
-            }
+        let file = match (&self.space, self.dims) {
+            (Some(path), _) => Some(self.strict.read(path, verbosity)?),
             (None, Some(dims)) => {
                 TestSet::check_size(1, dims)?;
-                (Some(Space::unit_cube(dims)), Demand::default())
+                Some(SpaceFile::from(Space::unit_cube(dims)))
             }
-            (None, None) => (None, Demand::default()),
+            (None, None) => None,
+        };
+        let (space, mut demand, aliases) = match file {
+            Some(SpaceFile { space, demand, aliases, .. }) => (Some(space), demand, aliases),
+            None => Default::default(),
         };
         let (space, existing, existing_rows) = match (space, &self.extend) {
             // Rows of a covering array may be begun and left for us to complete.
             (Some(space), Some(path)) if space.dims() == 0 => {
-                let rows = TestSet::read_partial(path, &space)?;
+                let rows = TestSet::read_partial(path, &space, &aliases)?;
                 let complete = rows.iter().filter_map(|(_, row)| row.iter().copied().collect());
                 let existing: Vec<Point> =
                     complete.map(|discrete| Point { continuous: Vec::new(), discrete }).collect();
@@ -89,7 +93,7 @@ impl Options {
                 (space, existing, rows.into_iter().map(named).collect())
             }
             (space, Some(path)) => {
-                let TestSet { space, points, .. } = TestSet::read(path, space)?;
+                let TestSet { space, points, .. } = TestSet::read(path, space, &aliases)?;
                 let row = |(number, test): (usize, &Point)| {
                     (format!("test {}", number + 1), test.discrete.iter().copied().map(Some).collect())
                 };
@@ -148,7 +152,7 @@ impl Options {
         let has_rows = !space.levels().is_empty() && strategy.has_rows(&request);
         let is_noted = has_rows && (self.budget.is_some() || space.dims() > 0) && most <= MOST_UNASKED;
         let mut points = existing.clone();
-        let written = write(generator, &space, most, verbosity, |tests| {
+        let written = write(generator, &space, &demand, most, verbosity, |tests| {
             if self.sampling.epsilon.is_some() || is_random || is_noted {
                 points.extend(tests);
             }
@@ -216,10 +220,11 @@ const UNASKED_LIMIT: Duration = Duration::from_secs(2);
 /// The most tests that are kept and measured without `--epsilon`.
 const MOST_UNASKED: usize = 100_000;
 
-/// Writes at most `most` tests, each as soon as it is made.
+/// Writes at most `most` tests, each as soon as it is made. Negative values have their sign `~`, as in models of PICT.
 fn write(
     mut generator: Box<dyn Generator>,
     space: &Space,
+    demand: &Demand,
     most: usize,
     verbosity: Verbosity,
     mut keep: impl FnMut(Vec<Point>),
@@ -229,6 +234,7 @@ fn write(
     let bar = bar.with_style(ProgressStyle::with_template(template).expect("the template is one"));
     let mut csv = csv::Writer::from_writer(io::stdout().lock());
     csv.write_record(space.coordinates().map(|coordinate| coordinate.name())).map_err(plain)?;
+    let negatives: HashSet<(usize, usize)> = demand.negatives.iter().copied().collect();
     let mut written = 0;
     while written < most {
         let tests = generator.ask(BATCH.min(most - written));
@@ -238,7 +244,14 @@ fn write(
         for test in &tests {
             let values = space.decode(test);
             let values = values.iter().flat_map(|(_, value)| value.scalars());
-            csv.write_record(values.map(ToString::to_string)).map_err(plain)?;
+            // Only spaces without continuous parameters have negative values, so positions among all are positions among
+            // the discrete parameters.
+            let written = values.enumerate().map(|(position, value)| {
+                let is_negative =
+                    test.discrete.get(position).is_some_and(|level| negatives.contains(&(position, *level)));
+                if is_negative { format!("~{value}") } else { value.to_string() }
+            });
+            csv.write_record(written).map_err(plain)?;
         }
         written += tests.len();
         bar.inc(tests.len() as u64);

@@ -1,10 +1,9 @@
 //! `paracosm-cover plan`: shows how many tests each guarantee needs.
 
 use super::{strength, time_limit};
-use crate::cli::output::{Format, Table, json};
-use crate::cli::{Failure, Verbosity, print};
+use crate::cli::output::{Format, Table, json, plural};
+use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::space::Space;
-use crate::space::demand::Demand;
 use clap::{ArgGroup, Args};
 use paracosm_analysis::{Guarantee, Need, Plan};
 use paracosm_campaign::{SpaceFile, TestSet};
@@ -25,6 +24,8 @@ pub(super) struct Options {
     /// The space of the tests
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", group = "of")]
     space: Option<PathBuf>,
+    #[command(flatten)]
+    strict: Strict,
     /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
@@ -51,10 +52,10 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let SpaceFile { space, mut demand, .. } = match (&self.space, self.dims.unwrap_or(0)) {
-            (Some(path), _) => verbosity.noted(SpaceFile::read(path)?),
+            (Some(path), _) => self.strict.read(path, verbosity)?,
             (None, dims) => {
                 TestSet::check_size(1, dims)?;
-                SpaceFile { space: Space::unit_cube(dims), demand: Demand::default(), notes: Vec::new() }
+                SpaceFile::from(Space::unit_cube(dims))
             }
         };
         demand.groups.extend(strength::groups(&self.strength, &space)?);
@@ -86,7 +87,10 @@ fn table(plan: &Plan, groups: &str, dims: usize) -> String {
         needs(&mut table, rows);
     }
     if let Some(points) = points {
-        table.heading(&format!("points in {dims} dimensions with a dispersion of at most {epsilon}, delta {delta}"));
+        table.heading(&format!(
+            "points in {} with a dispersion of at most {epsilon}, delta {delta}",
+            plural(dims, "dimension")
+        ));
         needs(&mut table, points);
     }
     if let Some(tests) = tests {
