@@ -52,7 +52,7 @@ mod trust;
 mod worker;
 
 pub use artefact::{Artefact, JsonArtefact};
-pub use black_box::BlackBox;
+pub use black_box::{Answer, BlackBox};
 pub use campaign::{Campaign, Finish};
 pub use catalogue::{Catalogue, Reader};
 pub use error::{BadFile, Error, Failure, Reason};

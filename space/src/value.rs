@@ -63,7 +63,8 @@ impl Value {
     pub fn written(text: &str) -> Self {
         let text = text.trim();
         match Self::parse(text) {
-            Value::Number(number) if number.to_string() != text => Value::Written(text.into()),
+            // Formats that have only one zero would lose the sign of `-0`.
+            Value::Number(number) if number.to_string() != text || text == "-0" => Value::Written(text.into()),
             value => value,
         }
     }

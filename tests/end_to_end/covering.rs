@@ -66,7 +66,10 @@ fn a_model_of_pict_is_read_wherever_a_space_is() {
     let plan = stdout(&succeeds(cover(dir.path(), &["plan", "--space", "MODEL.pict", "--format", "table"])));
     assert!(plan.contains("any rows") && plan.contains("needed by any set"), "{plan}");
     fs::write(dir.path().join("WRONG.pict"), MODEL.replace("[Size] <=", "[Sise] <=")).unwrap();
-    refused(&cover(dir.path(), &["generate", "--space", "WRONG.pict"]), &["WRONG.pict, line 6", "column 26", "`Size`"]);
+    refused(
+        &cover(dir.path(), &["generate", "--space", "WRONG.pict", "--strict"]),
+        &["WRONG.pict: line 6, column 26", "`Size`"],
+    );
 }
 
 #[test]
