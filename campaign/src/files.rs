@@ -7,6 +7,7 @@
 mod owner;
 
 use crate::{Error, Reason};
+use std::ffi::OsStr;
 use std::fs::{self, File, Metadata};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -18,6 +19,9 @@ const MOST_LINKS: usize = 40;
 
 /// The end of temporary names.
 const SUFFIX: &str = ".part";
+
+/// The number of random characters in temporary names.
+const RANDOM: usize = 6;
 
 /// The error that a file exists already and must not be replaced.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -166,7 +170,7 @@ fn instead_of(to: &Path, there: &Metadata) -> io::Result<(File, Option<Part>)> {
 fn beside(to: &Path) -> io::Result<(File, Part)> {
     let prefix = prefix(to)?;
     let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(SUFFIX);
+    builder.prefix(&prefix).suffix(SUFFIX).rand_bytes(RANDOM);
     let (file, part) = builder.make_in(folder_of(to), |path| File::create_new(path))?.into_parts();
     Ok((file, (part, to.to_owned())))
 }
@@ -176,6 +180,20 @@ fn prefix(to: &Path) -> io::Result<String> {
     let name = to.file_name().ok_or(ErrorKind::InvalidFilename)?.to_string_lossy();
     // A temporary name may be no longer than a file name may be.
     Ok(format!(".{}.", name.chars().take(50).collect::<String>()))
+}
+
+/// Removes the temporary files that a killed process has left in a folder, if they stand for files that `is_ours` names.
+/// Nobody else may be writing these files. A file that cannot be removed stays.
+pub(crate) fn remove_leftovers(folder: &Path, is_ours: impl Fn(&OsStr) -> bool) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let name = name.to_str().and_then(|name| name.strip_prefix('.')?.strip_suffix(SUFFIX)?.rsplit_once('.'));
+        let Some((name, random)) = name else { continue };
+        if random.len() == RANDOM && random.chars().all(|c| c.is_ascii_alphanumeric()) && is_ours(OsStr::new(name)) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// Returns the folder of a file.

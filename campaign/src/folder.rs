@@ -6,7 +6,7 @@
 //! anew. A process that is killed may leave a line without its end; when the campaign is resumed, this line is dropped
 //! and its test runs again.
 
-use crate::files::{create_folder, write_whole};
+use crate::files::{create_folder, remove_leftovers, write_whole};
 use crate::json::differing_key;
 use crate::lock::Lock;
 use crate::scales::Learned;
@@ -150,6 +150,8 @@ impl Folder {
     }
 
     fn open(path: &Path, lock: Lock, study: Option<String>) -> Result<Self, Error> {
+        // Processes that were killed leave their temporary files.
+        remove_leftovers(path, Self::owns);
         let log = lock.kept();
         let handle = log.try_clone().and_then(Handle::from_file).map_err(Error::io("open", &path.join(TRIALS)))?;
         Ok(Self { path: path.to_owned(), log, handle, study })

@@ -63,8 +63,7 @@ impl Value {
     pub fn written(text: &str) -> Self {
         let text = text.trim();
         match Self::parse(text) {
-            // Formats that have only one zero would lose the sign of `-0`.
-            Value::Number(number) if number.to_string() != text || text == "-0" => Value::Written(text.into()),
+            Value::Number(number) if number.to_string() != text => Value::Written(text.into()),
             value => value,
         }
     }
@@ -88,7 +87,7 @@ impl Value {
     }
 
     /// Returns the number as an integer, or `None` if the integer would not be exactly the same number.
-    fn whole(number: f64) -> Option<i64> {
+    pub(crate) fn whole(number: f64) -> Option<i64> {
         // Beyond 2^53 neighbouring integers share a float; -0 would lose its sign.
         let whole = number.trunc() == number && number.abs() < 9e15 && !(number == 0.0 && number.is_sign_negative());
         whole.then_some(number as i64)

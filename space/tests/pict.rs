@@ -141,6 +141,8 @@ fn levels_that_are_the_same_number_are_two_levels_of_which_constraints_see_the_n
         test.set("W", w.parse::<f64>().unwrap());
         assert_eq!(model.space.encode(&test).as_ref(), Ok(&point), "a number is the only level that it can be");
     }
+    let huge = read("V: 40000000000000000, 4e16, -0, 0, x").space;
+    assert_eq!(Space::from_toml(&huge.to_toml()), Ok(huge), "huge numbers and both zeros are read as they are written");
     let one = read("V: 1.0, 1.00");
     let mut test = paracosm_space::Values::default();
     test.set("V", 1.0);

@@ -22,6 +22,7 @@ mod guilty;
 #[cfg(unix)]
 mod interrupt;
 mod k_epsilon;
+mod kills;
 mod library;
 mod likelihood;
 mod maps;

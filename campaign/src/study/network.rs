@@ -51,6 +51,12 @@ pub enum NetworkFlaw {
         /// The hash of the file when the campaign was run.
         expected: String,
     },
+    /// The file of the network is a folder, a device or a pipe.
+    #[error("{file} is no regular file, expected the file of a network")]
+    NoFile {
+        /// The path of the network's file.
+        file: String,
+    },
     /// No network that comes with the software was trained for the scenario.
     #[error(
         "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {}; a network of your \
@@ -139,6 +145,15 @@ fn cloned_for(scenario: &str) -> Result<paracosm_neural::Cloned, Error> {
 #[cfg(feature = "neural")]
 fn contents(driver: &str, file: &str) -> Result<std::borrow::Cow<'static, [u8]>, Error> {
     if driver != CLONED {
+        let there = std::fs::metadata(file).map_err(Error::io("read", file.as_ref()))?;
+        if !there.is_file() {
+            return Err(NetworkFlaw::NoFile { file: file.to_owned() }.into());
+        }
+        // A file that is too large is refused before it is read.
+        if there.len() > (paracosm_neural::MOST_MEBIBYTES as u64) << 20 {
+            let error = paracosm_neural::ModelError::from(paracosm_neural::Limit::Size);
+            return Err(Error::in_file(file.as_ref(), None, error));
+        }
         return Ok(std::fs::read(file).map_err(Error::io("read", file.as_ref()))?.into());
     }
     let network = paracosm_neural::CLONED.iter().find(|network| network.name == file);

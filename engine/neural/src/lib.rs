@@ -37,6 +37,8 @@ mod export;
 #[cfg(feature = "train")]
 pub mod learn;
 #[cfg(feature = "onnx")]
+mod limits;
+#[cfg(feature = "onnx")]
 mod model;
 #[cfg(feature = "train")]
 mod network;
@@ -45,6 +47,8 @@ mod pilot;
 
 #[cfg(feature = "onnx")]
 pub use cloned::{CLONED, Cloned};
+#[cfg(feature = "onnx")]
+pub use limits::{Limit, MOST_MEBIBYTES};
 #[cfg(feature = "onnx")]
 pub use model::{AnswerError, Model, ModelError};
 #[cfg(feature = "onnx")]

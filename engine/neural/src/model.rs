@@ -1,5 +1,6 @@
 //! Reads a network from an ONNX file and runs it in this process.
 
+use crate::limits::{Limit, MOST_MEBIBYTES, check, check_tensors};
 use paracosm_engine::sensor::Image;
 use std::io::Cursor;
 use std::sync::Arc;
@@ -22,6 +23,9 @@ pub enum ModelError {
         /// The error of the ONNX reader.
         source: TractError,
     },
+    /// The network is beyond a limit.
+    #[error(transparent)]
+    Limit(#[from] Limit),
     /// The inputs or outputs of the network are not the inputs and outputs of a driver.
     #[error("{what} is {found}, expected {expected}")]
     Shape {
@@ -76,7 +80,12 @@ impl Model {
     /// The contents are no ONNX file, or the network has other inputs and outputs than a driver needs.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
         let unreadable = |source: TractError| ModelError::Unreadable { source };
-        let mut model = tract_onnx::onnx().model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
+        if contents.len() > MOST_MEBIBYTES << 20 {
+            return Err(Limit::Size.into());
+        }
+        let file = tract_onnx::onnx().proto_model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
+        check(&file)?;
+        let mut model = tract_onnx::onnx().model_for_proto_model(&file).map_err(unreadable)?;
         let inputs = model.inputs.len();
         if !(1..=2).contains(&inputs) {
             let found = format!("{inputs} tensors");
@@ -96,7 +105,10 @@ impl Model {
             model.set_input_fact(1, float(&[1, 1])).map_err(unreadable)?;
         }
         model.set_input_fact(0, float(&[1, 3, height, width])).map_err(unreadable)?;
+        let model = model.into_typed().map_err(unreadable)?;
+        check_tensors(&model)?;
         let model = model.into_optimized().map_err(unreadable)?;
+        check_tensors(&model)?;
         let answers = model.outputs.len();
         let answer = model.output_fact(0).map_err(unreadable)?;
         if answers != 1 || answer.datum_type != DatumType::F32 || answer.shape.as_concrete() != Some(&[1, 2]) {
