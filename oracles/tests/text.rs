@@ -150,6 +150,21 @@ fn nesting_has_a_limit_rather_than_the_stack() {
 }
 
 #[test]
+fn a_formula_as_deep_as_is_read_is_read_again_as_it_is_written() {
+    for text in [
+        vec!["a"; 199].join(" -> "),
+        vec!["(a -> b)"; 198].join(" -> "),
+        vec!["x"; 198].join(" - (") + &")".repeat(197) + " < 1",
+        "always (a -> ".repeat(99) + "b" + &")".repeat(99),
+        "not (".repeat(190) + "a" + &")".repeat(190),
+        "abs(".repeat(190) + "x" + &")".repeat(190) + " != 1",
+    ] {
+        let formula = text.parse::<Formula>().unwrap_or_else(|error| panic!("{error}: {text}"));
+        assert_eq!(formula.to_string().parse().as_ref(), Ok(&formula), "{text}");
+    }
+}
+
+#[test]
 fn formulas_are_built_as_they_are_said() {
     let near = (signal("gap") - signal("margin") * 2.0).below(5.0);
     let formula = near.implies(signal("speed").below(0.1).eventually(0.0..=5.0)).always(..);

@@ -34,6 +34,10 @@ use token::Token;
 /// The greatest depth of a formula: deeper than people write, and less deep than the stack allows.
 const DEEPEST: usize = 200;
 
+/// The greatest number of values that are parsed one inside the other. A formula is written with parentheses around
+/// each part, and has to be read again: each level of the formula then takes two.
+const MOST_OPEN: usize = 2 * DEEPEST + 1;
+
 const WORDS: [&str; 17] = [
     "not",
     "and",
@@ -165,7 +169,7 @@ impl Parser<'_> {
     /// Parses a value whose operators bind at least as strongly as `least`.
     fn value(&mut self, least: u8, expected: &str) -> Result<Value, ParseError> {
         self.open += 1;
-        if self.open > DEEPEST {
+        if self.open > MOST_OPEN {
             return Err(self.too_deep());
         }
         let mut left = self.operand(expected)?;
