@@ -182,8 +182,8 @@ fn prefix(to: &Path) -> io::Result<String> {
     Ok(format!(".{}.", name.chars().take(50).collect::<String>()))
 }
 
-/// Removes the temporary files that a killed process has left in a folder, if they stand for files that `is_ours` names.
-/// Nobody else may be writing these files. A file that cannot be removed stays.
+/// Removes the temporary files that a killed process has left in a folder, if they stand for files that `is_ours`
+/// names. The caller ensures that no other process writes these files. A file that cannot be removed stays.
 pub(crate) fn remove_leftovers(folder: &Path, is_ours: impl Fn(&OsStr) -> bool) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
@@ -204,7 +204,7 @@ fn folder_of(path: &Path) -> &Path {
 /// Makes a folder and the folders above it, unless they exist. A link to a folder that does not exist yet is followed.
 ///
 /// # Errors
-/// The folder cannot be made, or the path is that of a file.
+/// The folder cannot be made, or the path leads to a file.
 pub fn create_folder(path: &Path) -> Result<(), Error> {
     if path.is_dir() {
         return Ok(());

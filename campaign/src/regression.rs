@@ -138,8 +138,8 @@ impl Regression {
         Ok(is_new(path, "a regression file")?)
     }
 
-    /// Returns the regression test with the trust of the user in the command that its study names. Without trust, a test
-    /// that was read from a file cannot be run if it needs the command.
+    /// Returns the regression test with the trust of the user in the command that its study names. Without trust, a
+    /// test that was read from a file cannot be run if it needs the command.
     pub fn trusting(mut self, trust: &Trust) -> Self {
         self.study.study = self.study.study.trusting(trust);
         self

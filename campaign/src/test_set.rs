@@ -147,9 +147,10 @@ impl TestSet {
 
     /// Reads a set of tests from a CSV file.
     ///
-    /// The columns are separated by commas; in the files of PICT, by tabs. Values may have their aliases, and the sign
-    /// `~` of a negative value. Without a space, all columns are continuous coordinates in `[0,1]`. With a space, columns that are not
-    /// parameters of the space are ignored, and so are tests of a campaign with the verdict `error` or `invalid`.
+    /// Commas separate the columns, or tabs as in files of PICT. A cell may hold an alias of a value, and the sign `~`
+    /// of a negative value. Without a space, all columns are continuous coordinates in `[0,1]`. With a space, columns
+    /// that are not parameters of the space are ignored, and so are tests of a campaign with the verdict `error` or
+    /// `invalid`.
     ///
     /// # Errors
     /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.
@@ -232,7 +233,7 @@ struct TestsFile<'p> {
     reader: csv::Reader<BufReader<File>>,
     header: csv::StringRecord,
     space: Space,
-    /// The levels of each discrete parameter by their texts, by the name of the parameter.
+    /// For each discrete parameter by its name, the positions of its levels by their texts.
     texts: HashMap<String, HashMap<String, usize>>,
     /// The index of the column of each coordinate.
     columns: Vec<usize>,

@@ -1,7 +1,8 @@
-//! Every parser of files and answers that somebody else may have written.
+//! The parsers of files and answers that somebody else may have written, except networks
+//! (`engine/neural/src/limits.rs`).
 //!
-//! `cargo fuzz` and the tests of the workspace (`tests/parsers`) share this table. Each parser may refuse its input with
-//! an error. It may not panic, hang, or take more than 2 GiB of memory.
+//! `cargo fuzz` and the tests of the workspace (`tests/parsers`) share this table. Each parser may refuse its input
+//! with an error. A parser must not panic, hang, or take more than 2 GiB of memory.
 
 use paracosm::campaign::{Answer, Log, Regression, SpaceFile, StudyFile, TestSet, Trust, read_tests, read_trace};
 use paracosm::oracles::Formula;
@@ -13,11 +14,11 @@ use std::fmt::Display;
 use std::fs;
 use std::path::Path;
 
-/// A parser, by the name of its folder of seeds.
+/// A parser and its name.
 pub struct Parser {
     /// The name of the parser and of the folder with its seeds.
     pub name: &'static str,
-    /// Reads an input. The result is only looked at, as a message or as a value that is used.
+    /// Reads an input. Formats an error as a message, and uses a value.
     pub read: fn(&[u8]),
 }
 
@@ -47,7 +48,6 @@ fn look<T, E: Display>(result: Result<T, E>, using: impl FnOnce(T)) {
     }
 }
 
-/// Calls a parser with a file that holds the input.
 fn in_file(name: &str, data: &[u8], read: impl FnOnce(&Path)) {
     let folder = tempfile::tempdir().expect("there is room for a file");
     let path = folder.path().join(name);
@@ -78,8 +78,7 @@ fn formula(data: &[u8]) {
     look(text.parse::<Distribution>(), |_| ());
 }
 
-/// The space to which the tests belong.
-const SPACE: &str = "\
+const SPACE_OF_TESTS: &str = "\
 [[parameter]]
 name = \"speed\"
 interval = [0.5, 10.0]
@@ -89,7 +88,7 @@ choice = [\"clear\", \"fog\", 3]
 ";
 
 fn tests(path: &Path) {
-    let space = || SpaceFile::from(Space::from_toml(SPACE).expect("the space is valid"));
+    let space = || SpaceFile::from(Space::from_toml(SPACE_OF_TESTS).expect("the space is valid"));
     look(read_tests(path, Some(space())), use_tests);
     look(TestSet::read_partial(path, &space().space, &space().aliases), |_| ());
 }

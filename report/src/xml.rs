@@ -1,7 +1,7 @@
 //! Text for SVG files, which may have only the characters of XML.
 
-/// Returns a text with the replacement character U+FFFD in place of characters that XML does not have (Extensible Markup
-/// Language 1.0, section 2.2). A reader would refuse a file with such a character.
+/// Returns a text with the replacement character U+FFFD in place of characters that XML does not have (Extensible
+/// Markup Language 1.0, section 2.2). A reader would refuse a file with such a character.
 pub(crate) fn xml_text(text: String) -> String {
     let is_xml = |c: char| matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..);
     if text.chars().all(is_xml) {

@@ -13,9 +13,9 @@ pub enum WordFlaw {
     Formula,
 }
 
-/// Returns the reason why a word cannot stand in tables, pictures and reports; `None` if it can. Formulas of spreadsheets
-/// begin with `=`, `+`, `-` or `@`. A formula that does more than add up cells calls a function, names another program
-/// or another sheet: with `(`, `|` or `!`. So `-O2` and `>= 5` are words like others.
+/// Returns the reason why a word cannot stand in tables, pictures and reports; `None` if it can. Formulas of
+/// spreadsheets begin with `=`, `+`, `-` or `@`. A formula that does more than add up cells calls a function, names
+/// another program or another sheet: with `(`, `|` or `!`. So `-O2` and `@home` are ordinary words.
 pub fn word_flaw(word: &str) -> Option<WordFlaw> {
     if let Some(character) = word.chars().find(|character| character.is_control() && *character != '\t') {
         return Some(WordFlaw::Control(character));

@@ -167,7 +167,11 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     check("A:  \nB: 1", (1, 3), "found no values, expected the values of parameter `A`, with commas between them");
     check("A: 1\nB: ~x, ~2", (2, 4), "every value of parameter `B` is negative (`~`), expected a value without `~`");
     check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
-    check("A @ 2: 1", (1, 3), "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`");
+    check(
+        "A @ 2: 1",
+        (1, 3),
+        "the order of a parameter is not supported, expected the order of a sub-model: `{A, B, C} @ 3`",
+    );
     check("OS: 1\n os: 2", (2, 2), "parameter `OS` is declared twice; case makes no difference");
     check("V: 1.1, ~1.10", (1, 9), "`1.10` is listed with and without `~`");
     check("Speed: 1, 2\nW: 3, <Spede>", (2, 7), "no parameter is called `Spede` (did you mean `Speed`?)");

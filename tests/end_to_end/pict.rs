@@ -10,7 +10,7 @@ fn model(dir: &Path, text: &str) {
 
 const MODEL: &str = "A: ~-1, 0, 1\nB: red | rot | rouge, green\nC: x, y\n";
 
-/// The tests that PICT 3.7.4 makes of [`MODEL`], with the options `/o:2`.
+/// The tests that PICT 3.7.4 makes of [`MODEL`], with the option `/o:2`.
 const OF_PICT: &str = "A\tB\tC\n1\tgreen\ty\n0\trot\ty\n0\tgreen\tx\n1\trouge\tx\n~-1\tred\tx\n~-1\tgreen\ty\n";
 
 #[test]
@@ -55,14 +55,17 @@ fn notes_of_a_model_are_printed_and_with_strict_they_are_errors() {
         refused(&cover(dir.path(), &[command, "--space", "m.pict", "--strict"]), &notes);
     }
     model(dir.path(), MODEL);
-    refused(&cover(dir.path(), &["generate", "--space", "m.pict", "--strict"]), &["only the first alias"]);
+    refused(
+        &cover(dir.path(), &["generate", "--space", "m.pict", "--strict"]),
+        &["tests are made with the first name"],
+    );
     model(dir.path(), "A: 1, 2\nB: x, y\n");
     succeeds(cover(dir.path(), &["generate", "--space", "m.pict", "--strict"]));
     refused(&cover(dir.path(), &["generate", "--space", "m.pict", "--k", "3"]), &["3", "2"]);
 }
 
 #[test]
-fn choices_with_many_values_are_planned_and_made() {
+fn tests_over_choices_with_many_values_are_planned_and_generated() {
     let dir = tempfile::tempdir().unwrap();
     let values: Vec<String> = (0..300_000).map(|i| i.to_string()).collect();
     model(dir.path(), &format!("A: {}\nB: 1, 2\n", values.join(", ")));

@@ -1,8 +1,8 @@
-//! Parsers against inputs that nobody wrote on purpose: seeds of every format with random mutations.
+//! Tests that parsers withstand damaged files: seeds of every format with random mutations.
 //!
-//! The parsers and the seeds are those of `cargo fuzz`. A parser may refuse an input with an error. It may not panic,
-//! take more than 20 s or more than 2 GiB. `PARACOSM_CASES` sets the number of inputs of each parser; the gate runs a
-//! few hundred.
+//! `cargo fuzz` uses the same parsers and seeds. A parser may refuse an input with an error. A parser must not panic,
+//! take more than 20 s, or take more than 2 GiB. `PARACOSM_CASES` sets the number of inputs of each parser; the gate
+//! runs a few hundred.
 
 #![cfg(feature = "camera")]
 
@@ -52,7 +52,6 @@ const WORDS: [&str; 24] = [
     "\u{1b}[2J",
 ];
 
-/// Changes an input in one place.
 fn mutate(input: &mut Vec<u8>, seeds: &[Vec<u8>], rng: &mut Pcg64) {
     let at = rng.random_range(0..=input.len());
     let end = (at + rng.random_range(0..16)).min(input.len());
@@ -72,7 +71,6 @@ fn mutate(input: &mut Vec<u8>, seeds: &[Vec<u8>], rng: &mut Pcg64) {
             drop(input.splice(at..end, other[from..to].iter().copied()));
         }
         6 => input.truncate(at),
-        // A number becomes another number.
         _ => {
             let digit = (at..input.len()).find(|i| input[*i].is_ascii_digit());
             let Some(from) = digit else { return };

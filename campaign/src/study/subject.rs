@@ -54,7 +54,7 @@ enum Source {
 
 /// The error that the scenario of a study is not available.
 #[derive(Debug, Error)]
-#[error("the campaign was run on the scenario `{scenario}`, which is not available here{}", why(.source))]
+#[error("the campaign was run on the scenario `{scenario}`, which cannot be used here{}", why(.source))]
 pub struct MissingScenario {
     /// The name of the missing scenario.
     pub scenario: String,
@@ -70,7 +70,7 @@ pub struct NoScenario {
     pub command: String,
 }
 
-/// The error that a file states other ticks or another duration than the scenario has.
+/// The error that a file states another length of a tick or another duration than the scenario has.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("the file has `dt` {} s and `duration` {} s, expected {} s and {} s as in the scenario", there[0], there[1], here[0], here[1])]
 pub struct OtherTimes {

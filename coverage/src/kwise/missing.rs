@@ -4,7 +4,7 @@ use super::{MISSING_LISTED, advance};
 use paracosm_space::rules::{Companions, Rules};
 use std::collections::HashSet;
 
-/// A combination: parameters with their levels.
+/// Pairs of a parameter and its level.
 type Combination = Vec<(usize, usize)>;
 
 /// Lists the first [`MISSING_LISTED`] valid combinations of `k` of the parameters `members` that no valid test
@@ -36,8 +36,8 @@ pub(super) fn first_missing(rules: &Rules, members: &[usize], k: usize, tests: &
     }
 }
 
-/// Lists the first `most` missing combinations of the parameters in `set` with each of the parameters `lasts`, which come
-/// after them. The lists of later parameters may be shorter if the first list is full.
+/// Lists the first `most` missing combinations of the parameters in `set` with each of the parameters `lasts`, which
+/// come after them. The lists of later parameters may be shorter if the first list is full.
 fn of_heads(
     companions: &mut Companions,
     rules: &Rules,

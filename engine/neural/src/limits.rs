@@ -28,7 +28,7 @@ const OPERATIONS: [&str; 57] = [
     "Slice", "Softmax", "Softplus", "Sqrt", "Squeeze", "Sub", "Tanh", "Transpose",
 ];
 
-/// Operations that need more than their inputs' sizes to know the size of their result.
+/// Operations with padding: the sizes of the inputs do not bound the size of the result.
 const WITH_PADDING: [&str; 3] = ["AveragePool", "Conv", "MaxPool"];
 
 /// The limit that a network exceeds.
@@ -38,19 +38,19 @@ pub enum Limit {
     #[error("the file has more than {MOST_MEBIBYTES} MiB, which is the limit: reduce the network")]
     Size,
     /// The network has too many operations.
-    #[error("it has {found} operations, expected at most {MOST_OPERATIONS}: reduce the network")]
+    #[error("the network has {found} operations, expected at most {MOST_OPERATIONS}: reduce the network")]
     Operations {
         /// The number of operations in the network.
         found: usize,
     },
     /// The network has an operation that is not run.
-    #[error("it has the operation `{name}`, which is not run; the operations are {}", OPERATIONS.join(", "))]
+    #[error("the network has the operation `{name}`, which is not run; the operations are {}", OPERATIONS.join(", "))]
     Operation {
         /// The name of the operation in ONNX.
         name: String,
     },
     /// The tensors of the network are too large.
-    #[error("its tensors have more than {MOST_NUMBERS} numbers, which is the limit: reduce the network")]
+    #[error("the tensors of the network have more than {MOST_NUMBERS} numbers, which is the limit: reduce the network")]
     Tensors,
 }
 
@@ -75,8 +75,8 @@ fn is_known(node: &NodeProto) -> bool {
     matches!(node.domain.as_str(), "" | "ai.onnx") && OPERATIONS.contains(&node.op_type.as_str()) && !has_graph
 }
 
-/// Checks that the constants of a network, and what operations make of constants alone, fit in memory. The result of an
-/// operation on constants has at most the product of the sizes of its inputs, or their sum.
+/// Checks that the constants of a network, and the results of operations on constants alone, fit in memory. The result
+/// of an operation on constants has at most the product of the sizes of its inputs, or their sum.
 fn check_constants(graph: &GraphProto) -> Result<(), Limit> {
     let numbers = |dimensions: &[i64]| {
         let dimensions = dimensions.iter().map(|size| usize::try_from(*size).unwrap_or(usize::MAX));
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(check(&with(vec![node("Loop", &["c"], "y")])), Err(Limit::Operation { name: name() }));
         let many = vec![node("Relu", &["image"], "y"); MOST_OPERATIONS + 1];
         assert_eq!(check(&with(many)), Err(Limit::Operations { found: MOST_OPERATIONS + 1 }));
-        // Each of these doubles the constant before it, or multiplies it with itself.
+        // Each operation doubles the constant before it.
         let doubles = (0..40).map(|i| {
             let before = if i == 0 { "c".to_owned() } else { format!("d{}", i - 1) };
             node("Concat", &[&before, &before], &format!("d{i}"))
@@ -173,7 +173,7 @@ mod tests {
         for _ in 0..cases {
             let mut contents = smallest.to_vec();
             for _ in 0..rng.random_range(1..8) {
-                // Weights take most of the file; what says how they are used stands at both ends.
+                // Weights take most of the file. The description of the operations stands at both ends.
                 let near = rng.random_range(0..contents.len().min(4000));
                 let at = if rng.random() { near } else { contents.len() - 1 - near };
                 match rng.random_range(0..3) {

@@ -76,8 +76,8 @@ pub struct Model {
 impl Model {
     /// Reads a network from the contents of an ONNX file.
     ///
-    /// # Errors
-    /// The contents are no ONNX file, or the network has other inputs and outputs than a driver needs.
+    /// # Errors The contents are no ONNX file, or the network is beyond a limit, or the network has other inputs and
+    /// outputs than a driver needs.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
         let unreadable = |source: TractError| ModelError::Unreadable { source };
         if contents.len() > MOST_MEBIBYTES << 20 {

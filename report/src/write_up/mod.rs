@@ -30,8 +30,8 @@ pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Result<(), Error> {
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
 }
 
-/// Formats a text for a cell of a table. A text that a spreadsheet would compute as a formula gets a `'` in front, which
-/// makes it a text for spreadsheets.
+/// Formats a text for a cell of a table. A text that a spreadsheet would compute as a formula gets a `'` in front,
+/// which makes it a text for spreadsheets.
 pub fn as_text(text: &str) -> String {
     if word_flaw(text) == Some(WordFlaw::Formula) { format!("'{text}") } else { text.to_owned() }
 }

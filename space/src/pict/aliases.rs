@@ -1,10 +1,10 @@
-//! The other names of values, with which PICT writes its tests.
+//! Other names of values, which tests of PICT may contain.
 
 use super::parameters::{Declared, folded};
 use std::collections::HashMap;
 
 /// The aliases in a model: in the line `A: x | y, z` the value `x` also has the name `y`. PICT writes each name of a
-/// value in turn. So tests of PICT may contain aliases, which mean the value.
+/// value in turn. So a test of PICT may contain an alias instead of the value.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Aliases(HashMap<(usize, String), usize>);
 

@@ -74,7 +74,7 @@ pub enum PictFlaw {
         name: String,
     },
     /// An order such as `@ 2` follows the name of a parameter, which is not supported.
-    #[error("an order of a parameter is not supported; give the order of a sub-model: `{{A, B}} @ 3`")]
+    #[error("the order of a parameter is not supported, expected the order of a sub-model: `{{A, B, C}} @ 3`")]
     OrderOfParameter,
     /// Two parameters have the same name.
     #[error("parameter `{name}` is declared twice; case makes no difference")]
@@ -127,7 +127,9 @@ pub enum PictFlaw {
         most: usize,
     },
     /// Two parameters with too many values are compared.
-    #[error("the two parameters have more than {most} pairs of values, which is the limit for a comparison")]
+    #[error(
+        "the two parameters have more than {most} pairs of values, which is the limit; compare the parameters with values"
+    )]
     TooManyPairs {
         /// The greatest number of pairs of values.
         most: usize,

@@ -42,12 +42,13 @@
 //! - `{A, B, C} @ 3` asks for all combinations of any three of these parameters, beside the demand on all parameters.
 //!   All parameters together keep the strength k. In PICT each row of a sub-model counts as one value: `@ 1` asks for
 //!   less than all pairs, each row of a sub-model meets each value outside of it, and the number of different rows of a
-//!   sub-model stays small. PARACOSM does neither of these three.
+//!   sub-model stays small. PARACOSM does none of these three.
 //! - `<P>` stands for the values of a parameter above. If no parameter has this name or a similar one, `<P>` is a
 //!   value, and a note says so. If a line has no colon, the name ends at the first comma, as in old models.
 //!
-//! Weights, and aliases other than the first, do not change which combinations have to be covered. They are ignored,
-//! and a note says so. [`Aliases`] knows the other aliases, which stand in tests of PICT. These parts are refused: result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
+//! Weights and aliases do not change the combinations that tests have to cover. Notes name both. PARACOSM ignores
+//! weights. It makes tests with the first name of a value; [`Aliases`] holds the other names, which tests of PICT may
+//! contain. These parts are refused: result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
 //! parameter with negative values only, and everything unknown. The separators of values and of aliases and the
 //! negative sign are those that PICT uses by default.
 
@@ -70,8 +71,8 @@ use sub_models::sub_model;
 pub use aliases::Aliases;
 pub use flaw::{PictError, PictFlaw, Section};
 
-/// The most values of all parameters of a model together. Values of parameters that other parameters refer to count each
-/// time.
+/// The most values of all parameters of a model together. Values of parameters that other parameters refer to count
+/// each time.
 const MOST_VALUES: usize = 1_000_000;
 
 /// The content of a model file of PICT.
@@ -86,7 +87,7 @@ pub struct Model {
     /// first constraints of the space come from these constraints, in the same order. The other constraints are about
     /// negative values.
     pub statements: Vec<(usize, String)>,
-    /// The other names of values.
+    /// The aliases of values, which tests of PICT may contain.
     pub aliases: Aliases,
     /// Notes for people about parts of the file whose meaning may differ from the author's expectation.
     pub notes: Vec<String>,

@@ -28,12 +28,11 @@ pub(super) enum Seen {
 }
 
 impl Seen {
-    /// Returns the word as constraints see it.
     pub fn word(word: &str) -> Self {
         Self::Word(folded(word))
     }
 
-    /// Returns the value as constraints see it. Without a number the text counts.
+    /// Returns the value as constraints see it. If the value is no number, its text counts.
     pub fn of(value: &Value) -> Self {
         match value.number() {
             // Both zeros are the same number.
@@ -93,7 +92,6 @@ impl Declarations {
 pub(super) struct Listed {
     /// The text of the value, without its sign, aliases and weight.
     pub text: String,
-    /// The other names of the value.
     pub aliases: Vec<String>,
     pub value: Value,
     pub negative: bool,
@@ -111,9 +109,9 @@ impl Listed {
 }
 
 impl Declared {
-    /// Makes a parameter, after the texts of all its values are known. If all values are numbers, each value is a number
-    /// that keeps its text, so that constraints see numbers. Otherwise constraints see texts, and a number that is
-    /// written in an unusual way becomes a word.
+    /// Makes a parameter, after the texts of all its values are known. If all values are numbers, each value is a
+    /// number that keeps its text, so that constraints see numbers. Otherwise constraints see texts, and a number that
+    /// is written in an unusual way becomes a word.
     fn new(name: String, mut values: Vec<Listed>) -> Self {
         let numeric = values.iter().all(|listed| listed.value.number().is_some());
         for listed in &mut values {
@@ -151,7 +149,7 @@ impl Declared {
 #[derive(Default)]
 struct Values {
     listed: Vec<Listed>,
-    /// The position of each text among the values.
+    /// The texts of the values.
     texts: HashSet<String>,
     /// The sign of each value, which is the same in all notations of a number.
     signs: HashMap<Seen, bool>,
@@ -160,6 +158,8 @@ struct Values {
 }
 
 impl Values {
+    /// Adds a value. If the line has the text already, the value counts as listed again.
+    ///
     /// # Errors
     /// The value also stands in the line with the other sign.
     fn add(&mut self, listed: Listed) -> Result<(), PictFlaw> {
@@ -304,7 +304,7 @@ impl Parameters {
         }
         for (what, found) in [
             ("without `:` the name of a parameter ends at the first comma", &self.without_colon),
-            ("only the first alias of a value is used", &self.aliased),
+            ("tests are made with the first name of a value only", &self.aliased),
             ("weights are ignored", &self.weighted),
         ] {
             if !found.is_empty() {

@@ -77,11 +77,8 @@ pub(super) fn read(
         }
     }
     if let Some(more @ 1..) = reader.never.checked_sub(MOST_NOTES) {
-        reader.notes.push(format!(
-            "{} that {} parameter never has",
-            plural(more, "further value"),
-            if more == 1 { "its" } else { "their" }
-        ));
+        let values = plural(more, "further value");
+        reader.notes.push(format!("the constraints name {values} that the parameter in the comparison never has"));
     }
     Ok(statements)
 }
@@ -262,8 +259,8 @@ impl<'a> Reader<'a> {
         found.map(|i| &self.declared[i]).map_err(|flaw| self.unknown.get_or_insert((at, flaw))).ok()
     }
 
-    /// Skips the rest of a comparison with an unknown parameter. The expression takes its place in a constraint that
-    /// is ignored.
+    /// Skips the rest of a comparison with an unknown parameter. The returned expression replaces the comparison. The
+    /// constraint is ignored anyway.
     fn skip(&mut self) -> Expression {
         self.take();
         let mut depth = 0;

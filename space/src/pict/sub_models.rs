@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 /// The positions of the parameters of a sub-model in ascending order, and its order if it has one.
 type SubModel = (Vec<usize>, Option<usize>);
 
-/// Reads a line like `{A, B, C} @ 3`. A sub-model with an unknown parameter is ignored, as in PICT: then the result is `None`.
+/// Reads a line like `{A, B, C} @ 3`. A sub-model with an unknown parameter is ignored, as in PICT: then the result is
+/// `None`.
 pub(super) fn sub_model(
     text: &str,
     line: &str,

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-/// A comparison without regard to case, as PICT documents it, and what joins them.
+/// Comparisons that ignore case, as PICT documents them, and their combinations.
 #[derive(Debug, Clone)]
 pub enum Predicate {
     Value(usize, &'static str, usize),

@@ -244,8 +244,8 @@ fn write(
         for test in &tests {
             let values = space.decode(test);
             let values = values.iter().flat_map(|(_, value)| value.scalars());
-            // Only spaces without continuous parameters have negative values, so positions among all are positions among
-            // the discrete parameters.
+            // Only spaces without continuous parameters have negative values, so positions among all are positions
+            // among the discrete parameters.
             let written = values.enumerate().map(|(position, value)| {
                 let is_negative =
                     test.discrete.get(position).is_some_and(|level| negatives.contains(&(position, *level)));
