@@ -182,6 +182,24 @@ fn prefix(to: &Path) -> io::Result<String> {
     Ok(format!(".{}.", name.chars().take(50).collect::<String>()))
 }
 
+/// The error that a file of a campaign is a link, which leads to a place that the user has not named.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{} is a link, and nothing is written through links in the folder of a campaign: remove the link", path.display())]
+pub struct IsLink {
+    /// The path of the link.
+    pub path: PathBuf,
+}
+
+impl Reason for IsLink {}
+
+/// Checks that a file that the program names itself is no link. The folder may be that of a stranger.
+///
+/// # Errors
+/// The file is a link.
+pub fn is_no_link(path: &Path) -> Result<(), IsLink> {
+    if path.is_symlink() { Err(IsLink { path: path.to_owned() }) } else { Ok(()) }
+}
+
 /// Removes the temporary files that a killed process has left in a folder, if they stand for files that `is_ours`
 /// names. The caller ensures that no other process writes these files. A file that cannot be removed stays.
 pub(crate) fn remove_leftovers(folder: &Path, is_ours: impl Fn(&OsStr) -> bool) {

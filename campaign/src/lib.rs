@@ -84,7 +84,7 @@ pub mod reasons {
     pub use crate::drivers::{DriverAway, NoDriver};
     pub use crate::error::CsvFlaw;
     pub use crate::extension::OtherTests;
-    pub use crate::files::Exists;
+    pub use crate::files::{Exists, IsLink};
     pub use crate::folder::{FolderFlaw, NotYours};
     pub use crate::lock::InUse;
     pub use crate::log::HasSpace;
@@ -94,7 +94,8 @@ pub mod reasons {
     pub use crate::space_file::SpaceFileFlaw;
     pub use crate::study::{
         AppearanceFlaw, DriverFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario, OddFlaw,
-        ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted, WithoutCameras,
+        ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted, UntrustedAddress,
+        WithoutCameras,
     };
     pub use crate::study_file::FormatFlaw;
     pub use crate::test_set::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};

@@ -3,6 +3,7 @@
 //! The log is locked before anything is written. So of two campaigns that are started at once in one folder, one is
 //! refused and has written nothing.
 
+use crate::files::is_no_link;
 use crate::{Error, Reason};
 use std::fs::{self, File, Metadata, TryLockError};
 use std::path::{Path, PathBuf};
@@ -33,6 +34,7 @@ impl Lock {
     /// # Errors
     /// Another process holds the lock, or the log cannot be written.
     pub fn of(path: &Path) -> Result<Self, Error> {
+        is_no_link(path)?;
         let mut options = File::options();
         options.read(true).write(true);
         let is_new = !path.exists();

@@ -70,15 +70,16 @@ impl Scales {
     /// Returns the smallest scaled robustness of all requirements in a trial, clipped to [-10, 10]. A single search
     /// minimises this number. `None` if the trial has no result or decided no requirement.
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
-        trial.requirements().filter_map(|id| self.clipped(trial, id)).min_by(f64::total_cmp)
+        let known = |(id, robustness): (&str, f64)| self.normalised(id, robustness).clamp(-MOST, MOST);
+        trial.decided().filter(|_| trial.covers()).map(known).min_by(f64::total_cmp)
     }
 
     /// Returns the requirement with the smallest scaled robustness in a trial, together with this robustness. The trial
     /// comes nearest to violating this requirement, or violates it most. `None` if the trial has no result or decided
     /// no requirement.
     pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
-        let worth = |id: &'t str| Some((id, self.normalised(id, trial.robustness(id)?)));
-        trial.requirements().filter(|_| trial.covers()).filter_map(worth).min_by(|a, b| a.1.total_cmp(&b.1))
+        let worth = |(id, robustness): (&'t str, f64)| (id, self.normalised(id, robustness));
+        trial.decided().filter(|_| trial.covers()).map(worth).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 

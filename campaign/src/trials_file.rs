@@ -35,6 +35,11 @@ pub enum LogFlaw {
     /// The test of the trial does not belong to the space of the study.
     #[error("`test`: {0}")]
     Test(SpaceError),
+    /// Some lines name their study, and others do not.
+    #[error(
+        "the lines before name their study and this line does not, or the other way round: two campaigns were mixed"
+    )]
+    Mixed,
     /// The trial belongs to another study than the file `campaign.json`.
     #[error(
         "found a trial of the study {found}, but {STUDY} in the same folder is the study {expected}: two \
@@ -72,7 +77,11 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, space: &Space, study:
         let Some(text) = line.strip_suffix(b"\n") else { break };
         let index = found.trials.len();
         let line_read = parse(text, index, study).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
-        found.is_older |= line_read.study().is_none();
+        let is_older = line_read.study().is_none();
+        if index > 0 && is_older != found.is_older {
+            return Err(Error::in_file(file, index + 1, LogFlaw::Mixed));
+        }
+        found.is_older = is_older;
         let trial = Trial::try_from(line_read).map_err(|flaw| LogFlaw::NoTrial(serde_json::Error::custom(flaw)));
         let trial = trial.and_then(|trial| {
             space.encode(&trial.test).map_err(LogFlaw::Test)?;

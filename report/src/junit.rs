@@ -5,6 +5,7 @@
 //! the simulated seconds, and the command that runs the test again. No `time` is written: readers take it for the time
 //! that a test took, which differs from run to run.
 
+use crate::xml::xml_text;
 use paracosm_campaign::{Artefact, Error, Log, Study, Subject, Trial};
 use paracosm_oracles::Verdict;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
@@ -74,7 +75,7 @@ impl Junit {
 
     /// Returns the contents of the JUnit file as XML.
     pub fn text(&self) -> String {
-        self.0.to_string().expect("the report is written to memory")
+        xml_text(self.0.to_string().expect("the report is written to memory"))
     }
 }
 
@@ -201,11 +202,12 @@ pub fn shell_word(word: &str) -> String {
     }
 }
 
-/// Returns the option that repeats the command of a study, after a space; an empty text if the study has no command.
-/// Without the option, the programs do not run the command that a folder or a file names.
+/// Returns the option that repeats the command of a study, after a space, or the option that trusts the address of its
+/// driver. The text is empty if the study has neither. Without the option, the programs do not run the command that a
+/// folder or a file names, and send nothing to the address.
 pub fn command_option(study: &Study) -> String {
     let named = study.command().map(|named| format!(" {} {}", named.option, shell_word(named.command)));
-    named.unwrap_or_default()
+    named.or_else(|| study.address().map(|_| " --trust".to_owned())).unwrap_or_default()
 }
 
 #[cfg(test)]

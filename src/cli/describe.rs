@@ -36,7 +36,7 @@ impl Options {
         let program = study.program()?;
         let declaration = program.declare()?;
         if let Some(file) = &self.draw {
-            let target = Target::new("--draw", file, &[FileKind::Svg, FileKind::Png], &[])?;
+            let target = Target::new("--draw", file, &[FileKind::Svg, FileKind::Png], &self.subject.files())?;
             verbosity.note(target.write(|kind| draw(&study, program, &declaration, kind))?);
             return Ok(Status::Nothing);
         }

@@ -8,6 +8,7 @@ use crate::engine::sensor::Cameras;
 use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
+use paracosm_campaign::files::is_no_link;
 use paracosm_campaign::{Error, Expectation, Log, Metric, Study, Subject, Trial, Worker, write_trace};
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::plot;
@@ -155,11 +156,15 @@ impl Options {
         let default = || dir.join(format!("trace-{}.csv", trial.index));
         let path = self.trace.clone().unwrap_or_else(default);
         let ticks = plural(trial.ticks, "tick");
-        match (trace.map(|trace| write_trace(&path, trace)), &self.trace) {
+        let write = |trace| match &self.trace {
+            Some(_) => write_trace(&path, trace),
+            None => is_no_link(&path).map_err(Error::from).and_then(|()| write_trace(&path, trace)),
+        };
+        match (trace.map(write), &self.trace) {
             (Some(Ok(())), _) => verbosity.note(format_args!("trace of {ticks} written to {}", path.display())),
             (Some(Err(error)), Some(_)) => return Err(error),
             (Some(Err(error)), None) => {
-                verbosity.note(format_args!("the trace was not written: {error}; give another file with --trace"))
+                verbosity.note(format_args!("the trace was not written: {error}; give another file with --trace"));
             }
             (None, Some(path)) => {
                 verbosity.note(format_args!("the test has no trace to write to {}", path.display()));

@@ -10,6 +10,7 @@ use crate::space::{Domain, Value, did_you_mean, nearest};
 use clap::Args;
 use paracosm_campaign::study::Variation;
 use paracosm_campaign::{Error, StatedRequirement, Study, StudyBuilder};
+use std::path::Path;
 use std::path::PathBuf;
 
 /// The options of the system under test and its world.
@@ -55,6 +56,12 @@ pub(super) struct Subject {
 }
 
 impl Subject {
+    /// Returns the files that the options name.
+    pub fn files(&self) -> Vec<&Path> {
+        let models = self.model.iter().filter_map(|model| model.split_once('=')).map(|(_, file)| Path::new(file));
+        models.chain(self.requirements.as_deref()).collect()
+    }
+
     /// Returns true if the subject is a system of the user.
     pub fn is_system(&self) -> bool {
         self.system.is_given()

@@ -214,3 +214,15 @@ fn ticks_and_durations_that_the_scenario_does_not_have_are_refused() {
         refused(&fuzz(dir.path(), &["replay", "out", "0"]), &["`dt`", "`duration`", "as in the scenario"]);
     }
 }
+
+#[test]
+fn a_log_in_which_only_some_lines_name_their_study_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "4", "--out", "out", "-q"]));
+    let log = dir.path().join("out/trials.jsonl");
+    let named = fs::read_to_string(&log).unwrap();
+    let without = without_study(&named);
+    let mixed: Vec<&str> = named.lines().take(2).chain(without.lines().skip(2)).collect();
+    fs::write(&log, mixed.join("\n") + "\n").unwrap();
+    refused(&cover(dir.path(), &["estimate", "out"]), &["out/trials.jsonl, line 3", "two campaigns were mixed"]);
+}

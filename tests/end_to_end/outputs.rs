@@ -233,3 +233,50 @@ for line in sys.stdin:
         assert!(dir.path().join(&out).join("failure-map.svg").exists(), "{lo} to {hi}");
     }
 }
+
+#[test]
+fn links_in_the_folder_of_a_campaign_lead_nowhere() {
+    let dir = campaign();
+    let precious = dir.path().join("precious");
+    fs::write(&precious, "precious").unwrap();
+    for (file, commands) in [
+        ("failure-map.svg", &[&["map", "camp"] as &[&str]] as &[&[&str]]),
+        ("blame.json", &[&["blame", "camp"]]),
+        ("trials.csv", &[&["--budget", "2", "--out", "camp", "--resume"]]),
+        ("trace-1.csv", &[&["replay", "camp", "1"]]),
+        ("trials.jsonl", &[&["--budget", "2", "--out", "camp", "--resume"]]),
+        ("campaign.json", &[&["--budget", "2", "--out", "camp", "--resume"]]),
+    ] {
+        let path = dir.path().join("camp").join(file);
+        let before = fs::read(&path).ok();
+        let _ = fs::remove_file(&path);
+        symlink("../precious", &path).unwrap();
+        for command in commands {
+            let output = fuzz(dir.path(), command);
+            let told = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(output.status.code() != Some(0) || told.contains("is a link"), "{command:?}: {told}");
+            assert_eq!(fs::read_to_string(&precious).unwrap(), "precious", "{command:?}");
+        }
+        fs::remove_file(&path).unwrap();
+        before.into_iter().for_each(|contents| fs::write(&path, contents).unwrap());
+    }
+}
+
+#[test]
+fn a_picture_of_a_world_replaces_no_file_that_the_command_reads() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("rq.toml"), "[[requirement]]\nid = \"a\"\ntext = \"b\"\n").unwrap();
+    symlink("rq.toml", dir.path().join("rq.svg")).unwrap();
+    let describe = ["describe", "pedestrian-crossing", "--requirements", "rq.toml", "--draw", "rq.svg"];
+    refused(&fuzz(dir.path(), &describe), &["rq.svg"]);
+    assert!(fs::read_to_string(dir.path().join("rq.toml")).unwrap().starts_with("[[requirement]]"));
+}
+
+#[test]
+fn a_full_standard_output_is_named_by_generate() {
+    let dir = tempfile::tempdir().unwrap();
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-cover"));
+    let program = program.args(["generate", "--dims", "2", "--budget", "5"]).current_dir(dir.path()).stdout(full);
+    refused(&program.output().unwrap(), &["cannot write to the standard output: No space left"]);
+}

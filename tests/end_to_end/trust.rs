@@ -110,3 +110,22 @@ fn the_command_of_a_driver_is_not_run_either() {
     fuzz(dir.path(), &["blame", "camp"]);
     assert!(!has_run(dir.path()), "blame runs the reference drivers alone");
 }
+
+#[test]
+fn nothing_is_sent_to_the_address_of_a_driver_without_trust() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "1", "--out", "camp", "-q"]));
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    listener.set_nonblocking(true).unwrap();
+    let address = format!("grpc://{}", listener.local_addr().unwrap());
+    let file = dir.path().join("camp/campaign.json");
+    let mut study: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    study["driver"] =
+        serde_json::json!({ "name": address, "settings": {}, "external": { "by": "address", "timeout": 1.0 } });
+    fs::write(&file, study.to_string()).unwrap();
+    let log = dir.path().join("camp/trials.jsonl");
+    fs::write(&log, crate::common::without_study(&fs::read_to_string(&log).unwrap())).unwrap();
+    let output = fuzz(dir.path(), &["replay", "camp", "0"]);
+    refused(&output, &[&format!("names a driver at {address}"), "add --trust"]);
+    assert!(listener.accept().is_err(), "somebody has connected");
+}

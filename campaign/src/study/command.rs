@@ -1,7 +1,7 @@
 //! The command that the tests of a study run, and the check that it may be run.
 
 use super::{Study, Subject};
-use crate::Reason;
+use crate::{Error, Reason};
 use thiserror::Error;
 
 /// A command that a study names, with the option by which a user gives such a command.
@@ -26,7 +26,17 @@ pub struct Untrusted {
     pub option: &'static str,
 }
 
+/// The error that a study that was read from a file names the address of a driver, to which nothing is sent without the
+/// trust of the user.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the file names a driver at {address}, to which nothing is sent unless you ask for it: add --trust")]
+pub struct UntrustedAddress {
+    /// The address.
+    pub address: String,
+}
+
 impl Reason for Untrusted {}
+impl Reason for UntrustedAddress {}
 
 impl Study {
     /// Returns the command that the tests of the study run; `None` if everything runs in this process or on a server
@@ -41,11 +51,22 @@ impl Study {
         }
     }
 
-    /// Checks that the command of the study may be run.
-    pub(crate) fn check_trust(&self) -> Result<(), Untrusted> {
+    /// Returns the address of the driver that the study tests, if the driver runs already.
+    pub fn address(&self) -> Option<&str> {
+        match self.subject() {
+            Subject::Scenario(simulation) => simulation.driver().address(),
+            Subject::System(_) => None,
+        }
+    }
+
+    /// Checks that the command of the study may be run, and that its driver may be asked.
+    pub(crate) fn check_trust(&self) -> Result<(), Error> {
+        if let Some(address) = self.address().filter(|address| !self.trust().covers(address)) {
+            return Err(UntrustedAddress { address: address.to_owned() }.into());
+        }
         match self.command() {
             Some(NamedCommand { option, command }) if !self.trust().covers(command) => {
-                Err(Untrusted { command: command.to_owned(), option })
+                Err(Untrusted { command: command.to_owned(), option }.into())
             }
             _ => Ok(()),
         }

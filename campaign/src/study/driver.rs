@@ -301,6 +301,11 @@ impl DriverChoice {
         matches!(self.origin(), Origin::Process(..)).then_some(&self.name)
     }
 
+    /// Returns the address of the driver; `None` if the driver does not run already.
+    pub fn address(&self) -> Option<&str> {
+        (self.is_external() && self.command().is_none()).then_some(&self.name)
+    }
+
     /// Returns `true` if the driver is in an external process.
     pub fn is_external(&self) -> bool {
         matches!(self.source, Source::External(_))

@@ -22,7 +22,7 @@ mod toml_file;
 pub use actors::AppearanceFlaw;
 pub use appearance::{Appearances, ModelFlaw, WithoutCameras};
 pub use builder::StudyBuilder;
-pub use command::{NamedCommand, Untrusted};
+pub use command::{NamedCommand, Untrusted, UntrustedAddress};
 pub use driver::{DriverChoice, DriverFlaw, Origin};
 pub use formulas::{FormulaFlaw, SpecFlaw};
 pub use listed::ListedDriver;

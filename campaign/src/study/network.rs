@@ -1,6 +1,8 @@
 //! Networks as drivers, with the hash of their files, so that a campaign never continues or replays with another
 //! network.
 
+#[cfg(feature = "neural")]
+use crate::executor::WORKER;
 use crate::{Error, Reason};
 use paracosm_engine::driver::Driver;
 use serde::{Deserialize, Serialize};
@@ -128,7 +130,14 @@ impl Network {
 
     fn read(&self, contents: &[u8]) -> Result<paracosm_neural::Model, Error> {
         let unfit = |error| Error::in_file(self.file.as_ref(), None, error);
-        paracosm_neural::Model::read(contents).map_err(unfit)
+        // In a thread of this name, a panic of the library that reads networks is not printed.
+        let read = || paracosm_neural::Model::read(contents);
+        let thread = std::thread::Builder::new().name(WORKER.to_owned());
+        let read = std::thread::scope(|scope| thread.spawn_scoped(scope, read).map(|handle| handle.join()));
+        match read.map_err(Error::io("read", self.file.as_ref()))? {
+            Ok(read) => read.map_err(unfit),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
     }
 }
 

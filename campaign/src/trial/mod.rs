@@ -200,6 +200,11 @@ impl Trial {
         self.judgements.iter().map(|judgement| &*judgement.requirement)
     }
 
+    /// Returns the id and the robustness of each requirement that was decided, in the order of the judgements.
+    pub fn decided(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.judgements.iter().filter_map(|judgement| Some((&*judgement.requirement, judgement.robustness?)))
+    }
+
     /// Returns `true` if the trial violates the requirement with the given id. A robustness of 0 counts as a violation
     /// only in a failing trial in which no requirement has a negative robustness.
     pub fn violates(&self, requirement: &str) -> bool {

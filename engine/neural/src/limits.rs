@@ -3,7 +3,7 @@
 //! The library that runs networks computes constants while it reads a network, so a small file could ask for any amount
 //! of memory. Only operations that networks for driving need are run, and tensors have a greatest size.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use thiserror::Error;
 use tract_onnx::pb::{GraphProto, ModelProto, NodeProto};
 use tract_onnx::prelude::TypedModel;
@@ -19,13 +19,13 @@ const MOST_NUMBERS: usize = 1 << 28;
 
 /// The operations that a network may have, by their names in ONNX.
 #[rustfmt::skip]
-const OPERATIONS: [&str; 57] = [
+const OPERATIONS: [&str; 60] = [
     "Abs", "Add", "AveragePool", "BatchNormalization", "Cast", "Ceil", "Clip", "Concat", "Constant", "Conv", "Div",
     "Dropout", "Elu", "Erf", "Exp", "Flatten", "Floor", "Gather", "Gelu", "Gemm", "GlobalAveragePool",
     "GlobalMaxPool", "HardSigmoid", "HardSwish", "Identity", "InstanceNormalization", "LayerNormalization",
     "LeakyRelu", "Log", "LogSoftmax", "MatMul", "Max", "MaxPool", "Min", "Mish", "Mul", "Neg", "PRelu", "Pow",
     "Reciprocal", "ReduceMax", "ReduceMean", "ReduceMin", "ReduceSum", "Relu", "Reshape", "Selu", "Shape", "Sigmoid",
-    "Slice", "Softmax", "Softplus", "Sqrt", "Squeeze", "Sub", "Tanh", "Transpose",
+    "Slice", "Softmax", "Softplus", "Split", "Sqrt", "Squeeze", "Sub", "Sum", "Tanh", "Transpose", "Unsqueeze",
 ];
 
 /// Operations with padding: the sizes of the inputs do not bound the size of the result.
@@ -47,6 +47,18 @@ pub enum Limit {
     #[error("the network has the operation `{name}`, which is not run; the operations are {}", OPERATIONS.join(", "))]
     Operation {
         /// The name of the operation in ONNX.
+        name: String,
+    },
+    /// An operation uses a tensor that no earlier operation makes.
+    #[error("an operation uses the tensor `{name}` before the tensor is made, expected the operations in order")]
+    Order {
+        /// The name of the tensor.
+        name: String,
+    },
+    /// Two operations make a tensor of the same name.
+    #[error("two operations make the tensor `{name}`")]
+    Twice {
+        /// The name of the tensor.
         name: String,
     },
     /// The tensors of the network are too large.
@@ -84,9 +96,19 @@ fn check_constants(graph: &GraphProto) -> Result<(), Limit> {
     };
     let mut sizes: HashMap<&str, usize> =
         graph.initializer.iter().map(|tensor| (tensor.name.as_str(), numbers(&tensor.dims))).collect();
+    let mut named: HashSet<&str> =
+        graph.input.iter().map(|input| input.name.as_str()).chain(sizes.keys().copied()).collect();
     let mut all = sizes.values().fold(0usize, |all, size| all.saturating_add(*size));
     for node in &graph.node {
         let inputs = node.input.iter().filter(|name| !name.is_empty());
+        // As the format demands, an operation comes after the operations that make its inputs. Otherwise a constant would
+        // not be known as one.
+        if let Some(unknown) = inputs.clone().find(|name| !named.contains(name.as_str())) {
+            return Err(Limit::Order { name: unknown.clone() });
+        }
+        if let Some(twice) = node.output.iter().filter(|name| !name.is_empty()).find(|name| !named.insert(name)) {
+            return Err(Limit::Twice { name: twice.clone() });
+        }
         let Some(inputs) = inputs.map(|name| sizes.get(name.as_str()).copied()).collect::<Option<Vec<usize>>>() else {
             // The shape of any tensor is a constant.
             if node.op_type == "Shape" {
@@ -124,7 +146,7 @@ mod tests {
     use crate::{CLONED, Model};
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64;
-    use tract_onnx::pb::TensorProto;
+    use tract_onnx::pb::{TensorProto, ValueInfoProto};
     use tract_onnx::prelude::Framework;
 
     fn node(kind: &str, inputs: &[&str], output: &str) -> NodeProto {
@@ -134,7 +156,9 @@ mod tests {
 
     fn with(node: Vec<NodeProto>) -> ModelProto {
         let initializer = vec![TensorProto { name: "c".to_owned(), dims: vec![100, 100], ..TensorProto::default() }];
-        ModelProto { graph: Some(GraphProto { node, initializer, ..GraphProto::default() }), ..ModelProto::default() }
+        let input = vec![ValueInfoProto { name: "image".to_owned(), ..ValueInfoProto::default() }];
+        let graph = GraphProto { node, initializer, input, ..GraphProto::default() };
+        ModelProto { graph: Some(graph), ..ModelProto::default() }
     }
 
     #[test]
@@ -150,6 +174,10 @@ mod tests {
         assert_eq!(check(&with(vec![node("Relu", &["image"], "y"), node("Add", &["c", "c"], "z")])), Ok(()));
         let name = || "Loop".to_owned();
         assert_eq!(check(&with(vec![node("Loop", &["c"], "y")])), Err(Limit::Operation { name: name() }));
+        let late = vec![node("Mul", &["d", "d"], "z"), node("Identity", &["c"], "d")];
+        assert_eq!(check(&with(late)), Err(Limit::Order { name: "d".to_owned() }));
+        let twice = vec![node("Relu", &["image"], "d"), node("Identity", &["c"], "d")];
+        assert_eq!(check(&with(twice)), Err(Limit::Twice { name: "d".to_owned() }));
         let many = vec![node("Relu", &["image"], "y"); MOST_OPERATIONS + 1];
         assert_eq!(check(&with(many)), Err(Limit::Operations { found: MOST_OPERATIONS + 1 }));
         // Each operation doubles the constant before it.

@@ -3,6 +3,7 @@
 use crate::limits::{Limit, MOST_MEBIBYTES, check, check_tensors};
 use paracosm_engine::sensor::Image;
 use std::io::Cursor;
+use std::panic;
 use std::sync::Arc;
 use thiserror::Error;
 use tract_onnx::prelude::{
@@ -22,6 +23,12 @@ pub enum ModelError {
     Unreadable {
         /// The error of the ONNX reader.
         source: TractError,
+    },
+    /// The library that reads networks does not understand the network.
+    #[error("the network has no meaning for the library that reads ONNX files: {message}")]
+    Broken {
+        /// The message of the library.
+        message: String,
     },
     /// The network is beyond a limit.
     #[error(transparent)]
@@ -79,6 +86,15 @@ impl Model {
     /// # Errors The contents are no ONNX file, or the network is beyond a limit, or the network has other inputs and
     /// outputs than a driver needs.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
+        // The library panics on some networks that no software writes.
+        panic::catch_unwind(|| Self::parse(contents)).unwrap_or_else(|panic| {
+            let message = panic.downcast_ref::<String>().cloned();
+            let message = message.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+            Err(ModelError::Broken { message: message.unwrap_or_default() })
+        })
+    }
+
+    fn parse(contents: &[u8]) -> Result<Self, ModelError> {
         let unreadable = |source: TractError| ModelError::Unreadable { source };
         if contents.len() > MOST_MEBIBYTES << 20 {
             return Err(Limit::Size.into());

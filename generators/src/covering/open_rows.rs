@@ -16,7 +16,7 @@ pub(super) struct OpenRows {
     first: Vec<usize>,
     /// The positions of the rows.
     rows: Vec<usize>,
-    /// For each entry, the rows that have it.
+    /// For each entry, the rows that have it. Of the newest column there is one entry, that of the given level.
     has: Vec<Vec<u64>>,
     /// For each column, the rows in which it is open.
     open: Vec<Vec<u64>>,
@@ -36,7 +36,7 @@ impl OpenRows {
         let mut found: Vec<usize> = newest.take(MOST_BITS / entries).collect();
         found.reverse();
         let sets = |number: usize| vec![vec![0; found.len().div_ceil(64)]; number];
-        let (has, open) = (sets(entries), sets(column + 1));
+        let (has, open) = (sets(first[column] + 1), sets(column + 1));
         let mut open = Self { columns: column + 1, first, rows: Vec::new(), has, open };
         found.into_iter().for_each(|index| open.push(index, rows.row(index)));
         open
@@ -51,7 +51,10 @@ impl OpenRows {
         for (column, &level) in row[..self.columns].iter().enumerate() {
             let set = match level {
                 OPEN => &mut self.open[column],
-                level => &mut self.has[self.first[column] + level as usize],
+                level => {
+                    let entry = self.entry(column, level);
+                    &mut self.has[entry]
+                }
             };
             set[word] |= bit;
         }
@@ -67,7 +70,8 @@ impl OpenRows {
                     rows.row_mut(index)[column] = level;
                     let (word, bit) = (place / 64, 1 << (place % 64));
                     self.open[column][word] &= !bit;
-                    self.has[self.first[column] + level as usize][word] |= bit;
+                    let entry = self.entry(column, level);
+                    self.has[entry][word] |= bit;
                 }
             }
             return index;
@@ -81,10 +85,14 @@ impl OpenRows {
         rows.len() - 1
     }
 
+    /// Returns the position of the set of rows that have a level.
+    fn entry(&self, column: usize, level: u32) -> usize {
+        self.first[column] + if column + 1 == self.columns { 0 } else { level as usize }
+    }
+
     /// The first row with room for a combination.
     fn find(&self, columns: &Columns, rows: &Rows, combination: &[(usize, u32)]) -> Option<usize> {
-        let sets =
-            |&(column, level): &(usize, u32)| (&self.has[self.first[column] + level as usize], &self.open[column]);
+        let sets = |&(column, level): &(usize, u32)| (&self.has[self.entry(column, level)], &self.open[column]);
         let sets: Vec<(&Vec<u64>, &Vec<u64>)> = combination.iter().map(sets).collect();
         for word in 0..self.rows.len().div_ceil(64) {
             let mut fits = sets.iter().fold(u64::MAX, |fits, (has, open)| fits & (has[word] | open[word]));

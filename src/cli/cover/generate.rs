@@ -258,14 +258,22 @@ fn write(
         keep(tests);
     }
     bar.finish_and_clear();
-    csv.flush()?;
+    csv.flush().map_err(named)?;
     Ok(written)
 }
 
 /// Returns the error of the operating system, so that a closed pipe is recognised.
 fn plain(error: csv::Error) -> io::Error {
     match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
+        csv::ErrorKind::Io(error) => named(error),
         other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+/// Returns the error with the name of the output, unless the reader of a pipe has gone.
+fn named(error: io::Error) -> io::Error {
+    match error.kind() {
+        io::ErrorKind::BrokenPipe => error,
+        kind => io::Error::new(kind, format!("cannot write to the standard output: {error}")),
     }
 }

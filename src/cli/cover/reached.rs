@@ -59,7 +59,7 @@ impl Reached {
         }
         let covered = |found: Discrete| {
             let Discrete { k, covered, valid, .. } = found;
-            format!("{used} of {}: {covered} of {valid} {}", plural(rows.len(), "row"), combinations(k))
+            format!("{used} of the {}: {covered} of {valid} {}", plural(rows.len(), "row"), combinations(k))
         };
         Ok(self.discrete(self.tests.k)?.map(covered))
     }

@@ -28,6 +28,10 @@ const DEPTH: usize = 64;
 /// of their own.
 const MOST_CORNERS: usize = 6_000_000;
 
+/// The greatest number of objects in the description of a model, such as nodes and materials. Bytes of buffers that look
+/// like the beginning of an object count, too: one of 256 on average, so as many as a file of 256 MiB may have.
+const MOST_OBJECTS: usize = 2_000_000;
+
 /// The reason why a file cannot be used as a model of an object.
 #[derive(Debug, Error)]
 pub enum GltfError {
@@ -52,6 +56,9 @@ pub enum GltfError {
 /// The flaw of a file that was to be read as a glTF model.
 #[derive(Debug, Error)]
 pub enum GltfFlaw {
+    /// The description of the model has too many objects.
+    #[error("it has more than {MOST_OBJECTS} objects such as nodes, which is the limit: reduce the model")]
+    TooManyObjects,
     /// The header of a binary file states a length that is shorter than the header.
     #[error("its header says that it has {bytes} bytes, expected at least 20")]
     Header {
@@ -212,6 +219,10 @@ fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), GltfFlaw> {
         if length < 20 {
             return Err(GltfFlaw::Header { bytes: length });
         }
+    }
+    // Each object of the JSON takes some hundred bytes of memory.
+    if file.iter().filter(|byte| **byte == b'{').count() > MOST_OBJECTS {
+        return Err(GltfFlaw::TooManyObjects);
     }
     let Gltf { document, blob } = Gltf::from_slice_without_validation(file)?;
     // and its validation takes for granted that all named accessors exist.
