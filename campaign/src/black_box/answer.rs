@@ -30,6 +30,9 @@ const EXPECTED: &str = "an answer as JSON, {\"index\": …} with `trace`, `robus
 /// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 1e-3;
 
+/// The greatest number of requirements in an answer. Tables, reports and searches compare requirements by their ids.
+const MOST_REQUIREMENTS: usize = 1000;
+
 /// The number of characters of an answer that a message quotes.
 const QUOTED: usize = 40;
 
@@ -78,6 +81,15 @@ pub enum AnswerFlaw {
     Robustness {
         /// The id of the requirement whose robustness is not a number.
         requirement: String,
+    },
+    /// The answer has the robustness of too many requirements.
+    #[error(
+        "found the robustness of {found} requirements, expected at most {MOST_REQUIREMENTS}: join requirements by their \
+         smallest robustness"
+    )]
+    TooMany {
+        /// The number of requirements in the answer.
+        found: usize,
     },
     /// Tables and reports cannot show the id of a requirement.
     #[error("the id of a requirement {flaw}")]
@@ -155,6 +167,10 @@ fn words(error: &serde_json::Error) -> String {
 }
 
 fn read_robustness(robustness: &Record<Number>) -> Result<Vec<(String, f64)>, AnswerFlaw> {
+    let found = robustness.iter().count();
+    if found > MOST_REQUIREMENTS {
+        return Err(AnswerFlaw::TooMany { found });
+    }
     let worth = |(id, number): (&str, &Number)| {
         let number = number.0.filter(|number| !number.is_nan());
         let number = number.ok_or_else(|| AnswerFlaw::Robustness { requirement: id.to_owned() })?;
@@ -313,6 +329,11 @@ mod tests {
         refuses(r#"[1,2]"#, "expected an answer as JSON");
         refuses(r#"{"index":3,"robustness":{}}"#, "`robustness` is empty");
         refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is not a number");
+        let many: Vec<String> = (0..1001).map(|i| format!("\"r{i}\":1")).collect();
+        refuses(
+            &format!("{{\"index\":3,\"robustness\":{{{}}}}}", many.join(",")),
+            "found the robustness of 1001 requirements, expected at most 1000",
+        );
         refuses(r#"{"index":3,"robustness":{"a\u001b":1}}"#, "the id of a requirement has the control character");
         refuses(r#"{"index":3,"trace":{"time":[0,1],"=f(x)":[0,1]}}"#, "the name of signal 1 is a formula");
         refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "found `a` twice, expected one value per name");
