@@ -24,12 +24,9 @@ pub enum ModelError {
         /// The error of the ONNX reader.
         source: TractError,
     },
-    /// The library that reads networks does not understand the network.
-    #[error("the network has no meaning for the library that reads ONNX files: {message}")]
-    Broken {
-        /// The message of the library.
-        message: String,
-    },
+    /// The library that reads networks gives up on the network.
+    #[error("no software writes such a network: the library that reads ONNX files gives up on it")]
+    Broken,
     /// The network is beyond a limit.
     #[error(transparent)]
     Limit(#[from] Limit),
@@ -87,11 +84,7 @@ impl Model {
     /// outputs than a driver needs.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
         // The library panics on some networks that no software writes.
-        panic::catch_unwind(|| Self::parse(contents)).unwrap_or_else(|panic| {
-            let message = panic.downcast_ref::<String>().cloned();
-            let message = message.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
-            Err(ModelError::Broken { message: message.unwrap_or_default() })
-        })
+        panic::catch_unwind(|| Self::parse(contents)).unwrap_or(Err(ModelError::Broken))
     }
 
     fn parse(contents: &[u8]) -> Result<Self, ModelError> {

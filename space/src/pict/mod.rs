@@ -75,6 +75,9 @@ pub use flaw::{PictError, PictFlaw, Section};
 /// each time.
 const MOST_VALUES: usize = 1_000_000;
 
+/// The words that begin a constraint. As in PICT, only `IF` begins the first constraint of a model.
+const OPENING: [&str; 4] = ["IF", "NOT", "IsNegative", "IsPositive"];
+
 /// The content of a model file of PICT.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {

@@ -1,6 +1,6 @@
 //! Reads the lines that declare parameters.
 
-use super::{Fault, MOST_VALUES, PictFlaw, begins_with, fail, indent, statements};
+use super::{Fault, MOST_VALUES, OPENING, PictFlaw, begins_with, fail, indent};
 use crate::constraint::Relation;
 use crate::names::nearest;
 use crate::{Position, Value};
@@ -206,7 +206,7 @@ impl Parameters {
         let is_statement = line.contains('[') && line.ends_with(';');
         let comma = line.split_once(',').filter(|_| !is_statement);
         let Some((head, list)) = line.split_once(':').or(comma) else {
-            let constraint = line.contains('[') || statements::OPENING.iter().any(|word| begins_with(line, word));
+            let constraint = line.contains('[') || OPENING.iter().any(|word| begins_with(line, word));
             return fail(offset + line.len(), PictFlaw::NoColon { constraint });
         };
         let name = head.trim();

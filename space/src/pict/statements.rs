@@ -3,7 +3,7 @@
 use super::parameters::{Declarations, Declared};
 use super::terms;
 use super::tokens::{Token, tokens};
-use super::{Fault, PictFlaw, Section, fail};
+use super::{Fault, OPENING, PictFlaw, Section, fail};
 use crate::constraint::{Expression, Relation};
 use crate::names::{did_you_mean, nearest};
 use crate::plural;
@@ -13,9 +13,6 @@ use std::ops::Range;
 
 /// The greatest depth to which parentheses and `NOT` may be nested.
 const DEEPEST: usize = 48;
-
-/// The words that begin a constraint. As in PICT, only `IF` begins the first constraint of a model.
-pub(super) const OPENING: [&str; 4] = ["IF", "NOT", "IsNegative", "IsPositive"];
 
 /// The most pairs of values in a comparison of two parameters.
 const MOST_PAIRS: usize = 10_000_000;
