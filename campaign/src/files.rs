@@ -200,6 +200,15 @@ pub fn is_no_link(path: &Path) -> Result<(), IsLink> {
     if path.is_symlink() { Err(IsLink { path: path.to_owned() }) } else { Ok(()) }
 }
 
+/// Writes a file that the program names itself completely or not at all.
+///
+/// # Errors
+/// The file is a link, or cannot be written.
+pub fn write_whole_here(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    is_no_link(path)?;
+    write_whole(path, contents)
+}
+
 /// Removes the temporary files that a killed process has left in a folder, if they stand for files that `is_ours`
 /// names. The caller ensures that no other process writes these files. A file that cannot be removed stays.
 pub(crate) fn remove_leftovers(folder: &Path, is_ours: impl Fn(&OsStr) -> bool) {

@@ -6,7 +6,7 @@
 //! anew. A process that is killed may leave a line without its end; when the campaign is resumed, this line is dropped
 //! and its test runs again.
 
-use crate::files::{create_folder, is_no_link, remove_leftovers, write_whole};
+use crate::files::{create_folder, remove_leftovers, write_whole_here};
 use crate::json::differing_key;
 use crate::lock::Lock;
 use crate::scales::Learned;
@@ -190,9 +190,7 @@ impl Folder {
     /// The file cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Error> {
         self.is_still_there()?;
-        let file = self.path.join(name);
-        is_no_link(&file)?;
-        write_whole(&file, contents)
+        write_whole_here(&self.path.join(name), contents)
     }
 
     /// Checks that the path of the log still leads to the log. If the folder was removed or moved, writing to the open
@@ -219,9 +217,7 @@ fn present(path: &Path, first: &[&'static str]) -> Option<&'static str> {
 /// Writes `campaign.json`, and returns its text.
 fn write_study(path: &Path, study: &Study, learned: &Learned, extension: Option<&Extension>) -> Result<String, Error> {
     let text = StudyFile::new(study, learned, extension).text();
-    let file = path.join(STUDY);
-    is_no_link(&file)?;
-    write_whole(&file, text.as_bytes())?;
+    write_whole_here(&path.join(STUDY), text.as_bytes())?;
     Ok(text)
 }
 
@@ -229,7 +225,7 @@ fn write_study(path: &Path, study: &Study, learned: &Learned, extension: Option<
 fn keep_extended(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(), Error> {
     let file = path.join(EXTENDED);
     match extension {
-        Some(extension) if !file.exists() && !file.is_symlink() => write_whole(&file, &extension.csv(study.space())?),
+        Some(extension) if !file.exists() => write_whole_here(&file, &extension.csv(study.space())?),
         _ => Ok(()),
     }
 }

@@ -1,7 +1,7 @@
 //! The errors in a list of samples that should be a trace, whether a system answered with it or it stands in a file.
 
 use crate::Reason;
-use paracosm_space::{WordFlaw, plural, word_flaw};
+use paracosm_space::{WordFlaw, plural, some_of, word_flaw};
 use std::collections::HashSet;
 use thiserror::Error;
 
@@ -121,10 +121,5 @@ impl TraceFlaw {
 const MOST_NAMES: usize = 20;
 
 fn found(signals: &[String]) -> String {
-    let (shown, more) = signals.split_at(signals.len().min(MOST_NAMES));
-    match (shown, more.len()) {
-        ([], _) => "nothing".to_owned(),
-        (_, 0) => shown.join(", "),
-        (_, more) => format!("{} and {more} more", shown.join(", ")),
-    }
+    if signals.is_empty() { "nothing".to_owned() } else { some_of(signals, MOST_NAMES) }
 }

@@ -63,15 +63,18 @@ impl Scales {
     /// Returns the robustness of a requirement in a trial, divided by the requirement's scale and clipped to [-10, 10].
     /// `None` if the trial has no result or did not decide the requirement.
     pub fn clipped(&self, trial: &Trial, id: &str) -> Option<f64> {
-        let robustness = trial.robustness(id).filter(|_| trial.covers())?;
-        Some(self.normalised(id, robustness).clamp(-MOST, MOST))
+        trial.robustness(id).filter(|_| trial.covers()).map(|robustness| self.clip(id, robustness))
+    }
+
+    fn clip(&self, id: &str, robustness: f64) -> f64 {
+        self.normalised(id, robustness).clamp(-MOST, MOST)
     }
 
     /// Returns the smallest scaled robustness of all requirements in a trial, clipped to [-10, 10]. A single search
     /// minimises this number. `None` if the trial has no result or decided no requirement.
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
-        let known = |(id, robustness): (&str, f64)| self.normalised(id, robustness).clamp(-MOST, MOST);
-        trial.decided().filter(|_| trial.covers()).map(known).min_by(f64::total_cmp)
+        let clip = |(id, robustness): (&str, f64)| self.clip(id, robustness);
+        trial.decided().filter(|_| trial.covers()).map(clip).min_by(f64::total_cmp)
     }
 
     /// Returns the requirement with the smallest scaled robustness in a trial, together with this robustness. The trial

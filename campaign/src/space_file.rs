@@ -3,7 +3,7 @@
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
 use paracosm_space::pict::{Aliases, Model, PictError};
-use paracosm_space::{Position, Space, SpaceError};
+use paracosm_space::{Position, Space, SpaceError, some_of};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
@@ -112,13 +112,9 @@ fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<Vec<
             let never = levels.iter().zip(supported).filter(|(_, supported)| !supported);
             let never: Vec<String> = never.map(|(level, _)| format!("`{level}`")).collect();
             if !never.is_empty() {
-                let (first, others) = never.split_at(never.len().min(MOST_LISTED));
-                let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+                let never = some_of(&never, MOST_LISTED);
                 let name = coordinate.name();
-                notes.push(format!(
-                    "the constraints exclude {}{more} of parameter `{name}` from all tests",
-                    first.join(", ")
-                ));
+                notes.push(format!("the constraints exclude {never} of parameter `{name}` from all tests"));
             }
         }
     }

@@ -1,3 +1,4 @@
+//! Lets `cargo fuzz` call the parser `tests` of the table in `src/parsers.rs`.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| paracosm_fuzz_targets::read("tests", data));

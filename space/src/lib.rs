@@ -54,7 +54,7 @@ pub use domain::Domain;
 pub use error::SpaceError;
 pub use names::{did_you_mean, nearest};
 pub use parameter::{Coordinate, Parameter, ParameterError, ParameterFlaw};
-pub use plural::plural;
+pub use plural::{plural, some_of};
 pub use position::Position;
 pub use record::Record;
 pub use shape::{Shape, ShapeError};

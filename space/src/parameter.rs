@@ -324,9 +324,10 @@ impl Entry {
     /// Makes an entry that says how its numbers are written, since file formats may write fractions in another way.
     pub(crate) fn spelled_out(parameter: Parameter) -> Self {
         let levels = parameter.levels().unwrap_or_default();
-        let is_integer =
-            |level: &Value, number| Value::whole(number).is_some_and(|whole| level.to_string() == whole.to_string());
-        let fraction = |level: &Value| level.number().is_some_and(|number| !is_integer(level, number));
+        let is_other = |level: &Value, whole: i64| level.to_string() != whole.to_string();
+        let fraction = |level: &Value| {
+            level.number().is_some_and(|number| Value::whole(number).is_none_or(|whole| is_other(level, whole)))
+        };
         let written = levels.iter().any(fraction).then(|| levels.iter().map(ToString::to_string).collect());
         let entry = Self::from(parameter);
         Self { written: written.or(entry.written), ..entry }

@@ -1,4 +1,4 @@
-//! Numbers of things in messages: "1 test", "2 tests".
+//! Numbers and lists of things in messages: "1 test", "2 tests", "a, b and 3 more".
 
 /// Returns a count with its noun, such as "1 test" or "2 tests". The plural of the noun has to end in `s`.
 ///
@@ -8,4 +8,17 @@
 /// ```
 pub fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Joins texts with commas. Of more than `most` texts, the first `most` and the number of the others are named.
+///
+/// ```
+/// let texts = ["a", "b", "c"].map(str::to_owned);
+/// assert_eq!(paracosm_space::some_of(&texts, 3), "a, b, c");
+/// assert_eq!(paracosm_space::some_of(&texts, 2), "a, b and 1 more");
+/// ```
+pub fn some_of(texts: &[String], most: usize) -> String {
+    let (first, others) = texts.split_at(texts.len().min(most));
+    let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+    first.join(", ") + &more
 }

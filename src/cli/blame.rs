@@ -7,7 +7,7 @@ use super::report::in_words;
 use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
 use clap::Args;
 use paracosm_analysis::blame::{Blame, Blamed, Inquiry, Preventability, REFERENCES};
-use paracosm_campaign::files::{is_no_link, write_whole};
+use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Log, Study, Trial};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{BlameTable, FailureMap};
@@ -95,8 +95,7 @@ impl Options {
         for artefact in artefacts.into_iter().flatten() {
             for file in artefact.files() {
                 let path = self.dir.join(file);
-                is_no_link(&path)?;
-                write_whole(&path, &artefact.contents(file)?)?;
+                write_whole_here(&path, &artefact.contents(file)?)?;
                 written.push(path.display().to_string());
             }
         }

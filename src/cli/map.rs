@@ -6,7 +6,7 @@ use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use paracosm_analysis::failure_estimate;
-use paracosm_campaign::files::{is_no_link, write_whole};
+use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Error, Log, Study};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{FailureMap, Picture};
@@ -52,9 +52,7 @@ impl Options {
             None => {
                 let files = MapFiles::Failures(&map);
                 for file in files.files() {
-                    let path = self.dir.join(file);
-                    is_no_link(&path)?;
-                    write_whole(&path, &files.contents(file)?)?;
+                    write_whole_here(&self.dir.join(file), &files.contents(file)?)?;
                 }
                 verbosity.note(format_args!("written to {}", self.dir.join("failure-map.svg").display()));
             }

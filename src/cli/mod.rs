@@ -160,11 +160,15 @@ fn printable(text: &str) -> Cow<'_, str> {
 /// Prints a result.
 fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(printable(text).as_bytes()).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(format!("cannot write to the standard output: {error}").into())
-        }
-        written => Ok(written?),
+    let written = stdout.write_all(printable(text).as_bytes()).and_then(|()| stdout.flush());
+    Ok(written.map_err(output_error)?)
+}
+
+/// Returns an error in writing to the standard output with words that say so, unless the reader of a pipe has gone.
+fn output_error(error: io::Error) -> io::Error {
+    match error.kind() {
+        io::ErrorKind::BrokenPipe => error,
+        kind => io::Error::new(kind, format!("cannot write to the standard output: {error}")),
     }
 }
 

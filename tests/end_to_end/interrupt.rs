@@ -107,6 +107,11 @@ if [ -e stop ]; then wait; fi; echo "{\"index\":$i,\"robustness\":{\"a\":-1}}"; 
 
 const SPACE: &str = "parameter = [{ name = \"x\", interval = [-1, 1] }, { name = \"y\", interval = [0, 1] }]\n";
 
+/// The options of a campaign of five tests of a system.
+fn sleeper<'a>(system: &'a str, out: &'a str) -> [&'a str; 11] {
+    ["--system", system, "--space", "SPACE.toml", "--budget", "5", "--jobs", "1", "--out", out, "-q"]
+}
+
 #[test]
 fn no_signal_leaves_a_process_of_a_system_behind() {
     if !Path::new("/proc/self/stat").exists() {
@@ -116,35 +121,10 @@ fn no_signal_leaves_a_process_of_a_system_behind() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("system.sh"), SLEEPER).unwrap();
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
-    let arguments = [
-        "--system",
-        "sh system.sh first",
-        "--space",
-        "SPACE.toml",
-        "--budget",
-        "5",
-        "--jobs",
-        "1",
-        "--out",
-        "camp",
-        "-q",
-    ];
-    succeeds(fuzz(dir.path(), &arguments));
+    succeeds(fuzz(dir.path(), &sleeper("sh system.sh first", "camp")));
     fs::write(dir.path().join("stop"), "").unwrap();
     for signal in ["INT", "TERM", "HUP"] {
-        let run = [
-            "--system",
-            "sh system.sh run",
-            "--space",
-            "SPACE.toml",
-            "--budget",
-            "5",
-            "--jobs",
-            "1",
-            "--out",
-            signal,
-            "-q",
-        ];
+        let run = sleeper("sh system.sh run", signal);
         for (file, arguments) in
             [("run", &run[..]), ("first", &["shrink", "camp", "0", "--trust", "--budget", "100", "-q"])]
         {

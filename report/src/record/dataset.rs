@@ -7,7 +7,7 @@ use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
 use super::missing::Missing;
 use super::{Film, Inside, Projector, Rendering, Shot, VariedCameras};
-use paracosm_campaign::files::{Draft, write_whole};
+use paracosm_campaign::files::{Draft, write_whole_here};
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Camera, NoCamera, Stages, WantedImages, camera_settings};
@@ -164,7 +164,7 @@ impl Dataset {
                 return Err(OtherRecording { path: file }.into());
             }
         } else {
-            write_whole(&file, pretty(&recording).as_bytes())?;
+            write_whole_here(&file, pretty(&recording).as_bytes())?;
         }
         Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
     }

@@ -3,6 +3,8 @@
 use super::{Fault, MOST_VALUES, OPENING, PictFlaw, begins_with, fail, indent};
 use crate::constraint::Relation;
 use crate::names::nearest;
+use crate::plural::some_of;
+use crate::value::Meaning;
 use crate::{Position, Value};
 use std::collections::{HashMap, HashSet};
 use std::ops::Deref;
@@ -34,10 +36,9 @@ impl Seen {
 
     /// Returns the value as constraints see it. If the value is no number, its text counts.
     pub fn of(value: &Value) -> Self {
-        match value.number() {
-            // Both zeros are the same number.
-            Some(number) => Self::Number((number + 0.0).to_bits()),
-            None => Self::word(&value.to_string()),
+        match value.meaning() {
+            Meaning::Number(number) => Self::Number(number),
+            Meaning::Word(_) | Meaning::List(_) => Self::word(&value.to_string()),
         }
     }
 }
@@ -163,7 +164,7 @@ impl Values {
     /// # Errors
     /// The value also stands in the line with the other sign.
     fn add(&mut self, listed: Listed) -> Result<(), PictFlaw> {
-        let sign = match Value::parse(&listed.text).number() {
+        let sign = match listed.value.number() {
             Some(_) => Seen::of(&listed.value),
             None => Seen::Word(listed.text.clone()),
         };
@@ -191,13 +192,6 @@ pub(super) struct Parameters {
     unknown: Vec<(String, usize)>,
     /// The number of values read so far.
     values: usize,
-}
-
-/// Joins texts for a note, which names the first texts only.
-fn some(texts: &[String]) -> String {
-    let (first, others) = texts.split_at(texts.len().min(MOST_LISTED));
-    let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
-    first.join(", ") + &more
 }
 
 impl Parameters {
@@ -252,7 +246,10 @@ impl Parameters {
             self.notes.push(format!("parameter `{name}` lists the empty word as a value"));
         }
         if !again.is_empty() {
-            self.notes.push(format!("parameter `{name}` lists {} twice; both are read as one value", some(&again)));
+            self.notes.push(format!(
+                "parameter `{name}` lists {} twice; both are read as one value",
+                some_of(&again, MOST_LISTED)
+            ));
         }
         self.declared.push(Declared::new(name.to_owned(), listed));
         Ok(())
@@ -308,7 +305,7 @@ impl Parameters {
             ("weights are ignored", &self.weighted),
         ] {
             if !found.is_empty() {
-                self.notes.push(format!("{what}: {}", some(found)));
+                self.notes.push(format!("{what}: {}", some_of(found, MOST_LISTED)));
             }
         }
         Ok((self.declared, self.notes))

@@ -7,7 +7,7 @@ use crate::cli::interrupt::Interruptible;
 use crate::cli::output::plural;
 use crate::cli::sampling::Sampling;
 use crate::cli::usage;
-use crate::cli::{Failure, Strict, Verbosity, complain};
+use crate::cli::{Failure, Strict, Verbosity, complain, output_error};
 use crate::coverage::Deadline;
 use crate::generators::{DiscreteFamily, Generator, Purpose, Request, Strategy};
 use crate::space::demand::Demand;
@@ -258,22 +258,14 @@ fn write(
         keep(tests);
     }
     bar.finish_and_clear();
-    csv.flush().map_err(named)?;
+    csv.flush().map_err(output_error)?;
     Ok(written)
 }
 
 /// Returns the error of the operating system, so that a closed pipe is recognised.
 fn plain(error: csv::Error) -> io::Error {
     match error.into_kind() {
-        csv::ErrorKind::Io(error) => named(error),
+        csv::ErrorKind::Io(error) => output_error(error),
         other => io::Error::other(format!("{other:?}")),
-    }
-}
-
-/// Returns the error with the name of the output, unless the reader of a pipe has gone.
-fn named(error: io::Error) -> io::Error {
-    match error.kind() {
-        io::ErrorKind::BrokenPipe => error,
-        kind => io::Error::new(kind, format!("cannot write to the standard output: {error}")),
     }
 }
