@@ -101,7 +101,7 @@ impl Regression {
         let mut read: Self = serde_json::from_str(&text)
             .map_err(|error| Error::in_file(path, error.line(), RegressionFlaw::Json(error)))?;
         let wrong = |flaw| Error::in_file(path, None, flaw);
-        read.study.study = read.study.study.with_program_of(catalogue);
+        read.study = read.study.with_program_of(catalogue).map_err(|flaw| Error::in_file(path, None, flaw))?;
         let study = read.study();
         study.space().encode(&read.test).map_err(|error| wrong(RegressionFlaw::Test(error)))?;
         // The requirements of a system that answers with robustness are known only from its answer.

@@ -1,6 +1,6 @@
 //! The file `campaign.json`: a study, the scales that its campaign learned, and the tests that it extends.
 
-use crate::study::{Maker, Odd, Sampling, StatedRequirement, Study, Subject};
+use crate::study::{EntryFlaw, Maker, Odd, Sampling, StatedRequirement, Study, Subject, check_learned};
 use crate::{Catalogue, Extension, ExtensionRecord, Learned, Reason};
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
 use paracosm_space::Space;
@@ -76,6 +76,9 @@ pub enum FormatFlaw {
     /// The file names a strategy, a family or an aim that does not exist.
     #[error(transparent)]
     Sampling(#[from] GeneratorError),
+    /// An entry cannot be right.
+    #[error(transparent)]
+    Entry(#[from] EntryFlaw),
     /// The file is not JSON, or the JSON does not describe a study.
     #[error("{0}")]
     Json(serde_json::Error),
@@ -88,7 +91,7 @@ impl FormatFlaw {
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::Json(error) => Some(error.line()),
-            Self::Format { .. } | Self::Sampling(_) => None,
+            Self::Format { .. } | Self::Sampling(_) | Self::Entry(_) => None,
         }
     }
 }
@@ -106,8 +109,17 @@ impl StudyFile {
     /// The text is not a study, or is of another version.
     pub fn parse(text: &str, catalogue: &Catalogue) -> Result<Self, FormatFlaw> {
         let entries: Entries = serde_json::from_str(text).map_err(FormatFlaw::Json)?;
-        let file = Self::try_from(entries)?;
-        Ok(Self { study: file.study.with_program_of(catalogue), ..file })
+        Ok(Self::try_from(entries)?.with_program_of(catalogue)?)
+    }
+
+    /// Looks for the program of the scenario in a catalogue.
+    ///
+    /// # Errors
+    /// This version of the software wrote the file, and the file does not agree with the program.
+    pub fn with_program_of(self, catalogue: &Catalogue) -> Result<Self, EntryFlaw> {
+        let study = self.study.with_program_of(catalogue);
+        study.check_program()?;
+        Ok(Self { study, ..self })
     }
 
     /// Returns the entries that determine the tests of the campaign and the verdicts on the tests. Two files with the
@@ -177,6 +189,8 @@ impl TryFrom<Entries> for StudyFile {
         };
         let made_by = Maker { version, target };
         let study = Study::of_file(made_by, subject, space, requirements, odd, sampling);
+        study.check_entries()?;
+        check_learned(&entries.learned_scales)?;
         Ok(Self { study, learned: entries.learned_scales, extends: entries.extends })
     }
 }

@@ -1,6 +1,7 @@
 //! Bad input: refused with exit status 2 and a message that says what is wrong where, and nothing is written.
 
 use crate::common::{cover, fuzz, refused, succeeds, without_study};
+use serde_json::Value;
 use std::fs;
 
 #[test]
@@ -195,24 +196,60 @@ fn values_out_of_range_in_a_log_are_named_with_file_and_line() {
     refused(&cover(dir.path(), &["estimate", "out"]), &["out/trials.jsonl, line 3"]);
 }
 
+/// Entries of a `campaign.json`, wrong values for them, and words that the error has to have.
+const WRONG_ENTRIES: [(&str, &str, &[&str]); 21] = [
+    ("/dt", "1e-12", &["`duration` is", "expected 1 to 10000000 ticks"]),
+    ("/dt", "0.02", &["`dt` is 0.02 s, expected", "as in the scenario `pedestrian-crossing`"]),
+    ("/dt", "\"x\"", &["`dt`: invalid type: string \"x\""]),
+    ("/dt", "null", &["`dt`: invalid type: null"]),
+    ("/duration", "-5.0", &["`duration` is -5, expected a number of seconds above 0"]),
+    ("/duration", "1e300", &["`duration` is 1", "ticks"]),
+    ("/durations", "5.0", &["unknown field `durations`", "`duration`"]),
+    ("/requirements/0/scale", "-1.0", &["scale of `", "is -1, expected a number above 0"]),
+    ("/requirements/0/scale", "3.5", &["`scale of requirement", "is 3.5, expected"]),
+    ("/requirements/0/formula", "\"G (gap >= 5)\"", &["`formula of requirement", "(gap >= 5)", "as in the scenario"]),
+    ("/requirements/0/formula", "\"G (gap >=\"", &["`G (gap >=`"]),
+    ("/requirements/0/id", "\"mine\"", &["the requirement `", "is missing"]),
+    ("/requirements/0/id", "\"a\\u0007b\"", &["the id of requirement 1 has the control character"]),
+    ("/requirements/0/weight", "3", &["unknown field `weight`"]),
+    ("/requirements", "[]", &["the requirement `", "of the scenario `pedestrian-crossing` is missing"]),
+    ("/fixed/friction", "100", &["`fixed`: ", "`friction`"]),
+    ("/k", "1000000000", &["`k` is 1000000000, expected a number from 1 to"]),
+    ("/epsilon", "-0.5", &["`epsilon` is -0.5"]),
+    ("/budget", "0", &["`budget` is 0"]),
+    ("/batch", "0", &["`batch` is 0"]),
+    ("/vehicle", "\"boat\"", &["`vehicle`", "boat"]),
+];
+
 #[test]
-fn ticks_and_durations_that_the_scenario_does_not_have_are_refused() {
+fn every_command_refuses_a_study_with_a_wrong_entry_and_names_the_entry() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "out", "-q"]));
+    let file = dir.path().join("out/campaign.json");
+    let whole: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    let log = dir.path().join("out/trials.jsonl");
+    // A log of an older version does not name its study, so that a changed study is not recognised by its hash.
+    fs::write(&log, without_study(&fs::read_to_string(&log).unwrap())).unwrap();
+    for (entry, wrong, words) in WRONG_ENTRIES {
+        let mut changed = whole.clone();
+        let (around, name) = entry.rsplit_once('/').unwrap();
+        changed.pointer_mut(around).unwrap()[name] = serde_json::from_str(wrong).unwrap();
+        fs::write(&file, changed.to_string()).unwrap();
+        for command in ["map", "trace", "blame"] {
+            refused(&fuzz(dir.path(), &[command, "out"]), &[&["out/campaign.json"], words].concat());
+        }
+        refused(&fuzz(dir.path(), &["replay", "out", "0"]), words);
+    }
+}
+
+#[test]
+fn a_study_that_was_changed_after_its_tests_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "out", "-q"]));
     let file = dir.path().join("out/campaign.json");
     let whole = fs::read_to_string(&file).unwrap();
-    let log = dir.path().join("out/trials.jsonl");
-    let trials = fs::read_to_string(&log).unwrap();
-    for (entry, other) in [("\"dt\": ", "1e-12"), ("\"duration\": ", "-5.0")] {
-        let (before, after) = whole.split_once(entry).unwrap();
-        let (_, after) = after.split_once(',').unwrap();
-        fs::write(&file, format!("{before}{entry}{other},{after}")).unwrap();
-        fs::write(&log, &trials).unwrap();
-        refused(&fuzz(dir.path(), &["replay", "out", "0"]), &["campaign.json was changed"]);
-        // A log of an older version does not name its study.
-        fs::write(&log, without_study(&trials)).unwrap();
-        refused(&fuzz(dir.path(), &["replay", "out", "0"]), &["`dt`", "`duration`", "as in the scenario"]);
-    }
+    fs::write(&file, whole.replace("\"budget\": 2", "\"budget\": 3")).unwrap();
+    refused(&fuzz(dir.path(), &["replay", "out", "0"]), &["campaign.json was changed"]);
 }
 
 #[test]

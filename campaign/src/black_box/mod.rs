@@ -28,6 +28,7 @@ use thiserror::Error;
 
 /// An external system under test, which a command starts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BlackBox {
     /// The command that starts the system, with words separated and quoted as in a shell.
     #[serde(rename = "system")]

@@ -8,6 +8,7 @@ mod appearance;
 mod builder;
 mod command;
 mod driver;
+mod entries;
 mod formulas;
 mod listed;
 mod network;
@@ -24,6 +25,8 @@ pub use appearance::{Appearances, ModelFlaw, WithoutCameras};
 pub use builder::StudyBuilder;
 pub use command::{NamedCommand, Untrusted, UntrustedAddress};
 pub use driver::{DriverChoice, DriverFlaw, Origin};
+pub use entries::EntryFlaw;
+pub(crate) use entries::check_learned;
 pub use formulas::{FormulaFlaw, SpecFlaw};
 pub use listed::ListedDriver;
 pub use network::NetworkFlaw;
@@ -245,9 +248,8 @@ impl Study {
     /// Looks for the scenario of the study in a catalogue, and returns the study with the scenario's program. If the
     /// catalogue does not have the scenario, the first test reports the error.
     pub fn with_program_of(mut self, catalogue: &Catalogue) -> Self {
-        let is_of_this_software = self.is_of_this_software();
         if let Subject::Scenario(simulation) = &mut self.subject {
-            simulation.look_for_program(catalogue, &self.space, is_of_this_software);
+            simulation.look_for_program(catalogue, &self.space);
         }
         self
     }

@@ -1,21 +1,20 @@
 //! The subject of a study: a scenario with a driver, or an external system.
 
 use super::{Appearances, DriverChoice, StatedRequirement};
+use crate::json::named;
 use crate::{BlackBox, Catalogue, Error, Reason};
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{Declaration, Program};
 use paracosm_space::{Space, Values};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::{Map, Value as JsonValue};
 use std::sync::Arc;
 use thiserror::Error;
 
 /// The subject of a study, which is a scenario with a driver or an external system.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "missing field: expected `scenario` with `vehicle`, `fixed`, `driver`, `dt` and `duration`, or `system` \
-                 with `timeout`"
-)]
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
 pub enum Subject {
     /// A simulated scenario with a driver under test.
     Scenario(Box<Simulation>),
@@ -25,6 +24,7 @@ pub enum Subject {
 
 /// A scenario with the driver under test and the fixed parameters.
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Simulation {
     pub(super) scenario: String,
     pub(super) vehicle: VehicleModel,
@@ -35,8 +35,8 @@ pub struct Simulation {
     /// True if runs ended as soon as all requirements were decided, as older versions allowed.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub(super) stop_runs_early: bool,
-    dt: f64,
-    duration: f64,
+    pub(super) dt: f64,
+    pub(super) duration: f64,
     #[serde(skip)]
     program: Source,
 }
@@ -70,17 +70,6 @@ pub struct NoScenario {
     pub command: String,
 }
 
-/// The error that a file states another length of a tick or another duration than the scenario has.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("the file has `dt` {} s and `duration` {} s, expected {} s and {} s as in the scenario", there[0], there[1], here[0], here[1])]
-pub struct OtherTimes {
-    /// The length of a tick and the duration of the scenario, in seconds.
-    pub here: [f64; 2],
-    /// The length of a tick and the duration in the file, in seconds.
-    pub there: [f64; 2],
-}
-
-impl Reason for OtherTimes {}
 impl Reason for MissingScenario {}
 impl Reason for NoScenario {}
 
@@ -90,6 +79,22 @@ fn why(source: &Option<Arc<Error>>) -> String {
 
 /// The fixed parameters of a system: it has none.
 static NOTHING_FIXED: Values = Values::EMPTY;
+
+impl<'de> Deserialize<'de> for Subject {
+    /// Reads the entries of an external system if one of them is `system`, otherwise the entries of a scenario. An error
+    /// names the wrong entry.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let entries = Map::deserialize(deserializer)?;
+        let is_system = entries.contains_key("system");
+        let entries = JsonValue::Object(entries);
+        let subject = if is_system {
+            named(entries).map(Self::System)
+        } else {
+            named(entries).map(|simulation| Self::Scenario(Box::new(simulation)))
+        };
+        subject.map_err(D::Error::custom)
+    }
+}
 
 impl Subject {
     /// Returns the scenario of the subject, with the driver.
@@ -182,23 +187,15 @@ impl Simulation {
         }
     }
 
-    /// Looks for the program of a study that was read from a file. If this version of the software wrote the file, the
-    /// program must have the ticks and the duration of the file: otherwise somebody changed the file. Parameters that
-    /// were added to the program since then are fixed at their nominal values, which changes nothing.
-    pub(super) fn look_for_program(&mut self, catalogue: &Catalogue, open: &Space, is_of_this_software: bool) {
+    /// Looks for the program of a study that was read from a file. Parameters that were added to the program since then
+    /// are fixed at their nominal values, which changes nothing.
+    pub(super) fn look_for_program(&mut self, catalogue: &Catalogue, open: &Space) {
         self.program = match catalogue.find(&self.scenario) {
             Ok(program) => Source::Here(program),
             Err(error) => Source::Missing(Arc::new(error)),
         };
         // If the scenario cannot be declared, the first test reports the reason.
         let declared = self.program().ok().and_then(|program| program.declare().ok());
-        if let Some(Declaration { dt, duration, .. }) = declared
-            && is_of_this_software
-            && (dt, duration) != (self.dt, self.duration)
-        {
-            let other = OtherTimes { here: [dt, duration], there: [self.dt, self.duration] };
-            self.program = Source::Missing(Arc::new(other.into()));
-        }
         for declared in declared.into_iter().flat_map(|declaration| declaration.parameters) {
             let name = &declared.parameter.name;
             if !declared.open && self.fixed.get(name).is_none() && open.parameter(name).is_err() {
