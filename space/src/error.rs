@@ -6,6 +6,10 @@ use crate::rules::Conflict;
 use crate::{ParameterError, Position, WordFlaw};
 use thiserror::Error;
 
+/// The greatest number of parameters of a space. The time and the memory of a plan grow with the number of pairs of
+/// parameters.
+pub(crate) const MOST_PARAMETERS: usize = 5_000;
+
 /// The reason why a space cannot be built, or why a test does not belong to a space.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum SpaceError {
@@ -14,6 +18,12 @@ pub enum SpaceError {
     Twice {
         /// The name that both parameters have.
         name: String,
+    },
+    /// There are more parameters than a space may have.
+    #[error("found {found} parameters, expected at most {MOST_PARAMETERS}: fix some of them")]
+    TooMany {
+        /// The number of parameters.
+        found: usize,
     },
     /// A parameter has no name. The number is its position among the parameters, from 1.
     #[error("parameter {0} has no name")]

@@ -10,6 +10,7 @@ mod text;
 
 use crate::constraint::Constraint;
 use crate::domain::{at, coordinate};
+use crate::error::MOST_PARAMETERS;
 use crate::names::nearest;
 use crate::rules::{Clause, Conflict, Rules, RulesError};
 use crate::{Coordinate, Domain, Parameter, SpaceError, Value, Values, WordFlaw, word_flaw};
@@ -52,8 +53,12 @@ impl Space {
     /// Makes a space of the given parameters, in the given order.
     ///
     /// # Errors
-    /// Two parameters share a name, or a parameter has no name, or a parameter is not valid.
+    /// Two parameters share a name, or a parameter has no name, or a parameter is not valid; or there are more than
+    /// 5,000 parameters.
     pub fn new(parameters: Vec<Parameter>) -> Result<Self, SpaceError> {
+        if parameters.len() > MOST_PARAMETERS {
+            return Err(SpaceError::TooMany { found: parameters.len() });
+        }
         let mut names = HashSet::new();
         for (index, parameter) in parameters.iter().enumerate() {
             if parameter.name.trim().is_empty() {
