@@ -116,6 +116,9 @@ const MOST_COMBINATIONS: u128 = 1 << 31;
 /// The greatest number of points that are measured.
 const MOST_MEASURED: usize = 1 << 20;
 
+/// The greatest number of coordinates of the points that are measured, which take 256 MiB in each of their copies.
+const MOST_COORDINATES: usize = 1 << 25;
+
 impl Plan {
     /// Computes the numbers of tests that cover a space, with their kinds of guarantee. `demand` may ask for more than
     /// all combinations of k values of the discrete parameters. Making a covering array takes at most half of `limit`
@@ -237,7 +240,8 @@ enum Enough {
 /// Finds the least number of first points of a strategy that have a dispersion of at most epsilon.
 fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) -> Result<Enough, Error> {
     let space = Space::unit_cube(dims);
-    let mut generator = strategy.build(&Request::new(&space, MOST_MEASURED))?;
+    let most = MOST_MEASURED.min(MOST_COORDINATES / dims);
+    let mut generator = strategy.build(&Request::new(&space, most))?;
     let mut all = Vec::new();
     let mut is_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
         while all.len() < n {
@@ -255,7 +259,7 @@ fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) 
     loop {
         match is_enough(long, generator.as_mut())? {
             Some(true) => break,
-            Some(false) if long < MOST_MEASURED => (short, long) = (long, 2 * long),
+            Some(false) if 2 * long <= most => (short, long) = (long, 2 * long),
             _ => return Ok(Enough::Over(short as u64)),
         }
     }

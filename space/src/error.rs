@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// The greatest number of parameters of a space. The time and the memory of a plan grow with the number of pairs of
 /// parameters.
-pub(crate) const MOST_PARAMETERS: usize = 5_000;
+pub(crate) const MOST_PARAMETERS: usize = 10_000;
 
 /// The reason why a space cannot be built, or why a test does not belong to a space.
 #[derive(Debug, Clone, Error, PartialEq)]

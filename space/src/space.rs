@@ -54,7 +54,7 @@ impl Space {
     ///
     /// # Errors
     /// Two parameters share a name, or a parameter has no name, or a parameter is not valid; or there are more than
-    /// 5,000 parameters.
+    /// 10,000 parameters.
     pub fn new(parameters: Vec<Parameter>) -> Result<Self, SpaceError> {
         if parameters.len() > MOST_PARAMETERS {
             return Err(SpaceError::TooMany { found: parameters.len() });

@@ -110,13 +110,13 @@ fn a_space_file_with_an_error_says_where_it_is() {
 }
 
 #[test]
-fn a_space_has_at_most_five_thousand_parameters() {
+fn a_space_has_at_most_ten_thousand_parameters() {
     let parameters = |count: usize| {
         (0..count).map(|i| Parameter::new(format!("p{i}"), Domain::Interval { lo: 0.0, hi: 1.0 })).collect()
     };
-    assert!(Space::new(parameters(5_000)).is_ok());
-    let error = Space::new(parameters(5_001)).unwrap_err();
-    assert_eq!(error.to_string(), "found 5001 parameters, expected at most 5000: fix some of them");
+    assert!(Space::new(parameters(10_000)).is_ok());
+    let error = Space::new(parameters(10_001)).unwrap_err();
+    assert_eq!(error.to_string(), "found 10001 parameters, expected at most 10000: fix some of them");
 }
 
 fn varying(parameter: Parameter, shape: Shape) -> Parameter {
