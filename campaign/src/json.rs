@@ -1,7 +1,7 @@
-//! JSON helpers: write infinities, which JSON does not have, as "inf" and "-inf", name the entry with an error, and find
-//! the first difference of two files.
+//! JSON helpers: write infinities, which JSON does not have, as "inf" and "-inf", and find the first difference of two
+//! files.
 
-use serde::de::{DeserializeOwned, Error as _};
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A number in a log, which may be infinite or missing. JSON has infinities as words, and NaN or a missing number as
@@ -30,14 +30,6 @@ impl<'de> Deserialize<'de> for Number {
             other => Err(D::Error::custom(format!("found {other}, expected a number, \"inf\", \"-inf\" or null"))),
         }
     }
-}
-
-/// Reads a value from JSON. An error names the entry, with the names of the entries around it.
-pub fn named<T: DeserializeOwned>(json: serde_json::Value) -> Result<T, String> {
-    serde_path_to_error::deserialize(json).map_err(|error| match error.path().to_string() {
-        path if path == "." => error.inner().to_string(),
-        path => format!("`{path}`: {}", error.inner()),
-    })
 }
 
 /// Returns the first key at which two JSON objects have different values; `None` if the objects are equal.

@@ -31,6 +31,7 @@ mod extension;
 pub mod files;
 mod folder;
 mod json;
+mod json_text;
 mod judge;
 mod lock;
 mod log;
@@ -86,6 +87,7 @@ pub mod reasons {
     pub use crate::extension::OtherTests;
     pub use crate::files::{Exists, IsLink};
     pub use crate::folder::{FolderFlaw, NotYours};
+    pub use crate::json_text::JsonFlaw;
     pub use crate::lock::InUse;
     pub use crate::log::HasSpace;
     pub use crate::process::CommandFlaw;
@@ -93,8 +95,8 @@ pub mod reasons {
     pub use crate::samples::TraceFlaw;
     pub use crate::space_file::SpaceFileFlaw;
     pub use crate::study::{
-        AppearanceFlaw, DriverFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario, OddFlaw,
-        ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted, UntrustedAddress,
+        AppearanceFlaw, DriverFlaw, EntryFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario,
+        OddFlaw, ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted, UntrustedAddress,
         WithoutCameras,
     };
     pub use crate::study_file::FormatFlaw;

@@ -5,6 +5,7 @@
 //! change `expect` to `"pass"`; from then on the file checks that the failure stays repaired.
 
 use crate::files::{create_folder, is_new, write_whole};
+use crate::json_text::{JsonFlaw, read_json};
 use crate::study_file::StudyFile;
 use crate::{Campaign, Catalogue, Error, Folder, Reason, Study, Trial, Trust};
 use paracosm_oracles::Verdict;
@@ -60,7 +61,7 @@ pub struct Replayed {
 pub enum RegressionFlaw {
     /// The contents of the file do not have the form of a regression test.
     #[error("the file is not a regression test: {0}")]
-    Json(serde_json::Error),
+    Json(JsonFlaw),
     /// The test does not belong to the study of the file.
     #[error("`test`: {0}")]
     Test(SpaceError),
@@ -98,8 +99,8 @@ impl Regression {
     /// The file cannot be read, is not a regression file, or its test does not belong to its study.
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
         let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
-        let mut read: Self = serde_json::from_str(&text)
-            .map_err(|error| Error::in_file(path, error.line(), RegressionFlaw::Json(error)))?;
+        let mut read: Self =
+            read_json(&text).map_err(|flaw| Error::in_file(path, flaw.line(), RegressionFlaw::Json(flaw)))?;
         let wrong = |flaw| Error::in_file(path, None, flaw);
         read.study = read.study.with_program_of(catalogue).map_err(|flaw| Error::in_file(path, None, flaw))?;
         let study = read.study();

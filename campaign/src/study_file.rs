@@ -1,11 +1,17 @@
 //! The file `campaign.json`: a study, the scales that its campaign learned, and the tests that it extends.
 
-use crate::study::{EntryFlaw, Maker, Odd, Sampling, StatedRequirement, Study, Subject, check_learned};
-use crate::{Catalogue, Extension, ExtensionRecord, Learned, Reason};
+use crate::json_text::{JsonFlaw, read_json};
+use crate::study::{
+    Appearances, DriverChoice, EntryFlaw, Maker, Odd, Sampling, Simulation, StatedRequirement, Study, Subject,
+    check_scale,
+};
+use crate::{BlackBox, Catalogue, Extension, ExtensionRecord, Learned, Reason};
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
-use paracosm_space::Space;
+use paracosm_space::{Space, Values};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::mem;
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -28,14 +34,34 @@ pub struct StudyFile {
     pub extends: Option<ExtensionRecord>,
 }
 
-/// The entries of the file, in their order.
+/// The entries of the file, in their order. The subject is a scenario, or a system with its time-out.
 #[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Entries {
     format: u32,
     version: String,
     target: String,
-    #[serde(flatten)]
-    subject: Subject,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    scenario: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    vehicle: Option<VehicleModel>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    fixed: Option<Values>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    driver: Option<DriverChoice>,
+    #[serde(skip_serializing_if = "Appearances::is_empty", default)]
+    models: Appearances,
+    /// True if runs ended as soon as all requirements were decided, as older versions allowed.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    stop_runs_early: bool,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    dt: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    duration: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    system: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    timeout: Option<f64>,
     space: Space,
     requirements: Vec<StatedRequirement>,
     #[serde(skip_serializing_if = "Learned::is_empty", default)]
@@ -80,8 +106,8 @@ pub enum FormatFlaw {
     #[error(transparent)]
     Entry(#[from] EntryFlaw),
     /// The file is not JSON, or the JSON does not describe a study.
-    #[error("{0}")]
-    Json(serde_json::Error),
+    #[error(transparent)]
+    Json(#[from] JsonFlaw),
 }
 
 impl Reason for FormatFlaw {}
@@ -108,7 +134,7 @@ impl StudyFile {
     /// # Errors
     /// The text is not a study, or is of another version.
     pub fn parse(text: &str, catalogue: &Catalogue) -> Result<Self, FormatFlaw> {
-        let entries: Entries = serde_json::from_str(text).map_err(FormatFlaw::Json)?;
+        let entries: Entries = read_json(text)?;
         Ok(Self::try_from(entries)?.with_program_of(catalogue)?)
     }
 
@@ -160,14 +186,74 @@ fn identity(mut entries: Value) -> Value {
     entries
 }
 
+/// Takes an entry that a study with the entry `of` has.
+fn must<T>(entry: &'static str, of: &'static str, found: Option<T>) -> Result<T, EntryFlaw> {
+    found.ok_or(EntryFlaw::Lacks { entry, of })
+}
+
+/// Checks that a study with the entry `of` does not have another entry.
+fn must_not(entry: &'static str, of: &'static str, is_there: bool) -> Result<(), EntryFlaw> {
+    if is_there { Err(EntryFlaw::Surplus { entry, of }) } else { Ok(()) }
+}
+
+impl Entries {
+    /// Takes the entries of the subject out.
+    fn take_subject(&mut self) -> Result<Subject, EntryFlaw> {
+        let of = if self.system.is_some() { "system" } else { "scenario" };
+        let Some(command) = self.system.take() else {
+            must_not("timeout", of, self.timeout.is_some())?;
+            return Ok(Subject::Scenario(Box::new(Simulation {
+                scenario: self.scenario.take().ok_or(EntryFlaw::NoSubject)?,
+                vehicle: must("vehicle", of, self.vehicle)?,
+                fixed: must("fixed", of, self.fixed.take())?,
+                driver: must("driver", of, self.driver.take())?,
+                appearances: mem::take(&mut self.models),
+                stop_runs_early: self.stop_runs_early,
+                dt: must("dt", of, self.dt)?,
+                duration: must("duration", of, self.duration)?,
+                program: Default::default(),
+            })));
+        };
+        must_not("scenario", of, self.scenario.is_some())?;
+        must_not("vehicle", of, self.vehicle.is_some())?;
+        must_not("fixed", of, self.fixed.is_some())?;
+        must_not("driver", of, self.driver.is_some())?;
+        must_not("models", of, !self.models.is_empty())?;
+        must_not("dt", of, self.dt.is_some())?;
+        must_not("duration", of, self.duration.is_some())?;
+        Ok(Subject::System(BlackBox { command, timeout: must("timeout", of, self.timeout)? }))
+    }
+
+    /// Sets the entries of the subject.
+    fn put_subject(self, subject: &Subject) -> Self {
+        match subject.clone() {
+            Subject::Scenario(simulation) => Self {
+                scenario: Some(simulation.scenario),
+                vehicle: Some(simulation.vehicle),
+                fixed: Some(simulation.fixed),
+                driver: Some(simulation.driver),
+                models: simulation.appearances,
+                stop_runs_early: simulation.stop_runs_early,
+                dt: Some(simulation.dt),
+                duration: Some(simulation.duration),
+                ..self
+            },
+            Subject::System(BlackBox { command, timeout }) => {
+                Self { system: Some(command), timeout: Some(timeout), ..self }
+            }
+        }
+    }
+}
+
 impl TryFrom<Entries> for StudyFile {
     type Error = FormatFlaw;
 
-    fn try_from(entries: Entries) -> Result<Self, FormatFlaw> {
-        let Entries { format, version, target, subject, space, requirements, odd, .. } = entries;
-        if format != FORMAT {
-            return Err(FormatFlaw::Format { found: format, version });
+    fn try_from(mut entries: Entries) -> Result<Self, FormatFlaw> {
+        if entries.format != FORMAT {
+            return Err(FormatFlaw::Format { found: entries.format, version: entries.version });
         }
+        let subject = entries.take_subject()?;
+        let Entries { version, target, space, requirements, odd, .. } = entries;
         // This sequence had the name `halton-shifted`, with or without a seed, until it was found to be the seeded
         // `halton`.
         let (strategy, seed) = match entries.strategy.as_str() {
@@ -190,7 +276,9 @@ impl TryFrom<Entries> for StudyFile {
         let made_by = Maker { version, target };
         let study = Study::of_file(made_by, subject, space, requirements, odd, sampling);
         study.check_entries()?;
-        check_learned(&entries.learned_scales)?;
+        for (id, scale) in &entries.learned_scales {
+            check_scale(&format!("learned_scales.{id}"), *scale)?;
+        }
         Ok(Self { study, learned: entries.learned_scales, extends: entries.extends })
     }
 }
@@ -207,7 +295,16 @@ impl From<StudyFile> for Entries {
             format: FORMAT,
             version: made_by.version,
             target: made_by.target,
-            subject: study.subject().clone(),
+            scenario: None,
+            vehicle: None,
+            fixed: None,
+            driver: None,
+            models: Appearances::default(),
+            stop_runs_early: false,
+            dt: None,
+            duration: None,
+            system: None,
+            timeout: None,
             space: study.space().clone(),
             requirements: study.requirements().to_vec(),
             learned_scales: learned,
@@ -225,5 +322,6 @@ impl From<StudyFile> for Entries {
             stop_at_first: sampling.stop_at_first,
             extends,
         }
+        .put_subject(study.subject())
     }
 }

@@ -114,10 +114,7 @@ impl Table {
             let label = measure.descriptor().label;
             match measured {
                 Measured::Number(number) => {
-                    self.row(
-                        label,
-                        &number.map_or("unknown: no tests, or the time limit ended the search".into(), digits),
-                    );
+                    self.row(label, &number.map_or(format!("unknown: no tests, or {CUT_SHORT}"), digits));
                 }
                 Measured::Bracket(found) => self.row(label, &bracket(found)),
                 Measured::Hole(hole) => {
@@ -167,12 +164,15 @@ fn side((name, [lo, hi]): (&str, &[f64; 2])) -> String {
     format!("{name} {}..{}", digits(*lo), digits(*hi))
 }
 
+/// The reason why a measure is not exact, with the option that gives the search more time.
+const CUT_SHORT: &str = "the time limit ended the search; `paracosm-cover estimate --time-limit` sets the limit";
+
 /// Prints an exact value as one number, and a bracket as two numbers.
 pub(super) fn bracket(bracket: &Bracket) -> String {
     if bracket.is_exact() {
         digits(bracket.lower)
     } else {
-        format!("between {} and {} (the time limit ended the search)", digits(bracket.lower), digits(bracket.upper))
+        format!("between {} and {} ({CUT_SHORT})", digits(bracket.lower), digits(bracket.upper))
     }
 }
 

@@ -197,15 +197,18 @@ fn values_out_of_range_in_a_log_are_named_with_file_and_line() {
 }
 
 /// Entries of a `campaign.json`, wrong values for them, and words that the error has to have.
-const WRONG_ENTRIES: [(&str, &str, &[&str]); 21] = [
+const WRONG_ENTRIES: [(&str, &str, &[&str]); 24] = [
     ("/dt", "1e-12", &["`duration` is", "expected 1 to 10000000 ticks"]),
     ("/dt", "0.02", &["`dt` is 0.02 s, expected", "as in the scenario `pedestrian-crossing`"]),
-    ("/dt", "\"x\"", &["`dt`: invalid type: string \"x\""]),
-    ("/dt", "null", &["`dt`: invalid type: null"]),
+    ("/dt", "\"x\"", &["`dt`: invalid type: string \"x\"", "line "]),
+    ("/dt", "null", &["the entry `dt` is missing, which a study with `scenario` has"]),
+    ("/timeout", "60.0", &["found the entry `timeout` beside `scenario`"]),
+    ("/system", "\"./sut\"", &["found the entry `scenario` beside `system`"]),
+    ("/requirements/0/scale", "\"x\"", &["`requirements[0].scale`: invalid type", "line "]),
     ("/duration", "-5.0", &["`duration` is -5, expected a number of seconds above 0"]),
     ("/duration", "1e300", &["`duration` is 1", "ticks"]),
     ("/durations", "5.0", &["unknown field `durations`", "`duration`"]),
-    ("/requirements/0/scale", "-1.0", &["scale of `", "is -1, expected a number above 0"]),
+    ("/requirements/0/scale", "-1.0", &["`scale of no-collision` is -1", "expected a number above 0"]),
     ("/requirements/0/scale", "3.5", &["`scale of requirement", "is 3.5, expected"]),
     ("/requirements/0/formula", "\"G (gap >= 5)\"", &["`formula of requirement", "(gap >= 5)", "as in the scenario"]),
     ("/requirements/0/formula", "\"G (gap >=\"", &["`G (gap >=`"]),
@@ -218,7 +221,7 @@ const WRONG_ENTRIES: [(&str, &str, &[&str]); 21] = [
     ("/epsilon", "-0.5", &["`epsilon` is -0.5"]),
     ("/budget", "0", &["`budget` is 0"]),
     ("/batch", "0", &["`batch` is 0"]),
-    ("/vehicle", "\"boat\"", &["`vehicle`", "boat"]),
+    ("/vehicle", "\"boat\"", &["`vehicle`: unknown variant `boat`", "line "]),
 ];
 
 #[test]

@@ -30,7 +30,7 @@ fn tests_that_do_not_reach_epsilon_in_time_are_printed_with_what_they_reach() {
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let (csv, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--epsilon", "1e-9", "--time-limit", "0.2"]);
     assert!(
-        notes.contains("the time limit of 0.2 s ended the search before epsilon 0.000000001 was reached"),
+        notes.contains("the --time-limit of 0.2 s ended the search before epsilon 0.000000001 was reached"),
         "{notes}"
     );
     // What was reached stands in the notes, measured; it is not what was asked for.

@@ -305,7 +305,8 @@ impl Schedule {
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {
             notes.push(format!(
-                "the time limit cut {} short: the lower bounds of their brackets stand for the values",
+                "the time limit cut {} short: the lower bounds of their brackets stand for the values; --time-limit sets the \
+                 limit",
                 plural(cut_short, "set")
             ));
         }

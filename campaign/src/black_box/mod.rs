@@ -20,18 +20,16 @@ use crate::process::{self, CommandFlaw};
 use crate::{Error, Problem, ProblemKind, Reason};
 use conversation::Process;
 use paracosm_space::Values;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// An external system under test, which a command starts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BlackBox {
     /// The command that starts the system, with words separated and quoted as in a shell.
-    #[serde(rename = "system")]
     pub command: String,
     /// The time that the system may take to answer, in seconds.
     pub timeout: f64,

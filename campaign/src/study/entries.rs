@@ -1,8 +1,8 @@
 //! Checks a study that was read from a file, entry by entry: anybody may have changed the file.
 
 use super::{Simulation, StatedRequirement, Study, Subject};
+use crate::Reason;
 use crate::black_box::{TimeoutFlaw, checked_timeout};
-use crate::{Learned, Reason};
 use paracosm_space::{ParameterError, WordFlaw, word_flaw};
 use std::fmt::Display;
 use thiserror::Error;
@@ -13,6 +13,25 @@ const MOST_TICKS: f64 = 1e7;
 /// The reason why an entry of a study cannot be right.
 #[derive(Debug, Error)]
 pub enum EntryFlaw {
+    /// The study has neither a scenario nor a system.
+    #[error("expected the entry `scenario` or the entry `system`")]
+    NoSubject,
+    /// A study of a scenario lacks an entry, or a study of a system.
+    #[error("the entry `{entry}` is missing, which a study with `{of}` has")]
+    Lacks {
+        /// The name of the missing entry.
+        entry: &'static str,
+        /// The entry that names the subject: `scenario` or `system`.
+        of: &'static str,
+    },
+    /// A study of a system has an entry for scenarios, or the other way round.
+    #[error("found the entry `{entry}` beside `{of}`, expected one of them")]
+    Surplus {
+        /// The name of the entry that does not belong there.
+        entry: &'static str,
+        /// The entry that names the subject: `scenario` or `system`.
+        of: &'static str,
+    },
     /// The entry has a value out of its range.
     #[error("`{entry}` is {found}, expected {expected}")]
     Range {
@@ -44,8 +63,11 @@ pub enum EntryFlaw {
         scenario: String,
     },
     /// Two requirements have the same id.
-    #[error("two requirements have the id `{0}`")]
-    Twice(String),
+    #[error("two requirements have the id `{id}`")]
+    Twice {
+        /// The id of both requirements.
+        id: String,
+    },
     /// The id of a requirement cannot be a name.
     #[error("the id of requirement {place} {flaw}")]
     Id {
@@ -74,11 +96,9 @@ fn is_positive(number: f64) -> bool {
     number > 0.0 && number.is_finite()
 }
 
-/// Checks the scales that a campaign learned.
-pub(crate) fn check_learned(learned: &Learned) -> Result<(), EntryFlaw> {
-    learned.iter().try_for_each(|(id, scale)| {
-        range(&format!("learned_scales.{id}"), scale, is_positive(*scale), "a number above 0")
-    })
+/// Checks a scale of a requirement.
+pub(crate) fn check_scale(entry: &str, scale: f64) -> Result<(), EntryFlaw> {
+    range(entry, scale, is_positive(scale), "a number above 0")
 }
 
 impl Study {
@@ -99,10 +119,9 @@ impl Study {
         for (i, StatedRequirement { id, scale, .. }) in self.requirements.iter().enumerate() {
             word_flaw(id).map_or(Ok(()), |flaw| Err(EntryFlaw::Id { place: i + 1, flaw }))?;
             if self.requirements[..i].iter().any(|other| other.id == *id) {
-                return Err(EntryFlaw::Twice(id.clone()));
+                return Err(EntryFlaw::Twice { id: id.clone() });
             }
-            let check = |scale| range(&format!("scale of `{id}`"), scale, is_positive(scale), "a number above 0");
-            scale.map_or(Ok(()), check)?;
+            scale.map_or(Ok(()), |scale| check_scale(&format!("scale of {id}"), scale))?;
         }
         Ok(())
     }

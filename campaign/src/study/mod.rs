@@ -26,7 +26,7 @@ pub use builder::StudyBuilder;
 pub use command::{NamedCommand, Untrusted, UntrustedAddress};
 pub use driver::{DriverChoice, DriverFlaw, Origin};
 pub use entries::EntryFlaw;
-pub(crate) use entries::check_learned;
+pub(crate) use entries::check_scale;
 pub use formulas::{FormulaFlaw, SpecFlaw};
 pub use listed::ListedDriver;
 pub use network::NetworkFlaw;

@@ -1,20 +1,15 @@
 //! The subject of a study: a scenario with a driver, or an external system.
 
 use super::{Appearances, DriverChoice, StatedRequirement};
-use crate::json::named;
 use crate::{BlackBox, Catalogue, Error, Reason};
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{Declaration, Program};
 use paracosm_space::{Space, Values};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
-use serde_json::{Map, Value as JsonValue};
 use std::sync::Arc;
 use thiserror::Error;
 
 /// The subject of a study, which is a scenario with a driver or an external system.
-#[derive(Debug, Clone, Serialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone)]
 pub enum Subject {
     /// A simulated scenario with a driver under test.
     Scenario(Box<Simulation>),
@@ -23,27 +18,23 @@ pub enum Subject {
 }
 
 /// A scenario with the driver under test and the fixed parameters.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Simulation {
-    pub(super) scenario: String,
-    pub(super) vehicle: VehicleModel,
-    pub(super) fixed: Values,
-    pub(super) driver: DriverChoice,
-    #[serde(rename = "models", skip_serializing_if = "Appearances::is_empty", default)]
-    pub(super) appearances: Appearances,
+    pub(crate) scenario: String,
+    pub(crate) vehicle: VehicleModel,
+    pub(crate) fixed: Values,
+    pub(crate) driver: DriverChoice,
+    pub(crate) appearances: Appearances,
     /// True if runs ended as soon as all requirements were decided, as older versions allowed.
-    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
-    pub(super) stop_runs_early: bool,
-    pub(super) dt: f64,
-    pub(super) duration: f64,
-    #[serde(skip)]
-    program: Source,
+    pub(crate) stop_runs_early: bool,
+    pub(crate) dt: f64,
+    pub(crate) duration: f64,
+    pub(crate) program: Source,
 }
 
 /// The source of a study's program.
 #[derive(Debug, Clone, Default)]
-enum Source {
+pub(crate) enum Source {
     Here(Program),
     /// No catalogue has the program.
     Missing(Arc<Error>),
@@ -79,22 +70,6 @@ fn why(source: &Option<Arc<Error>>) -> String {
 
 /// The fixed parameters of a system: it has none.
 static NOTHING_FIXED: Values = Values::EMPTY;
-
-impl<'de> Deserialize<'de> for Subject {
-    /// Reads the entries of an external system if one of them is `system`, otherwise the entries of a scenario. An error
-    /// names the wrong entry.
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let entries = Map::deserialize(deserializer)?;
-        let is_system = entries.contains_key("system");
-        let entries = JsonValue::Object(entries);
-        let subject = if is_system {
-            named(entries).map(Self::System)
-        } else {
-            named(entries).map(|simulation| Self::Scenario(Box::new(simulation)))
-        };
-        subject.map_err(D::Error::custom)
-    }
-}
 
 impl Subject {
     /// Returns the scenario of the subject, with the driver.

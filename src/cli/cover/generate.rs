@@ -170,7 +170,7 @@ impl Options {
         let tests = TestSet { k: self.sampling.k, demand, ..TestSet::new(space.clone(), points) };
         let reached = Reached::of(tests, existing.len(), measuring);
         // The tests decide if the time was enough: the limit may have passed just after the last test.
-        let end = if interrupted { "an interrupt" } else { &format!("the time limit of {} s", limit.as_secs_f64()) };
+        let end = if interrupted { "an interrupt" } else { &format!("the --time-limit of {} s", limit.as_secs_f64()) };
         let missed = self.sampling.epsilon.filter(|_| cut_short).and_then(|epsilon| reached.missed(epsilon, end));
         let promise = Promise::of(strategy, &request, if missed.is_some() { written } else { most } as u64)?;
         if let Some(promise) = promise {

@@ -109,7 +109,7 @@ fn needs(table: &mut Table, needs: &[Need]) {
             (None, None) => "over 10^19".to_owned(),
         };
         let guarantee = match (over, guarantee) {
-            (Some(_), Guarantee::Measured) => "measured until the time limit",
+            (Some(_), Guarantee::Measured) => "measured until the --time-limit, or as far as memory allows",
             (Some(_), _) => "not made: it takes too long",
             (None, _) => guarantee.words(),
         };
