@@ -13,7 +13,7 @@ use crate::scales::Learned;
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::trial::Line;
 use crate::trials_file::{Read, TRIALS, read_trials};
-use crate::{Catalogue, Error, Extension, Failure, Reason, Study, Trial};
+use crate::{Error, Extension, Failure, Reason, Study, Trial};
 use same_file::Handle;
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -234,7 +234,8 @@ fn keep_extended(path: &Path, study: &Study, extension: Option<&Extension>) -> R
 fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<String, Error> {
     let file = path.join(STUDY);
     let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
-    let there = StudyFile::parse(&text, &Catalogue::default());
+    // The scenario may have got further parameters since the folder was written, which are nominal there.
+    let there = StudyFile::parse(&text, &study.catalogue());
     let there = there.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
     let here = StudyFile::new(study, &Learned::new(), extension);
     let (tests_there, tests_here) = (there.identity(), here.identity());

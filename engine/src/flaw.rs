@@ -223,6 +223,12 @@ pub enum ObjectFlaw {
         /// The greatest speed at which the object may start, in m/s.
         most: f64,
     },
+    /// The acceleration of a pedestrian is not above 0.
+    #[error("has the acceleration {acceleration} m/s², expected more than 0 m/s²")]
+    Acceleration {
+        /// The acceleration of the pedestrian, in m/s².
+        acceleration: f64,
+    },
     /// The description of the vehicle is not valid.
     #[error("cannot be built: {0}")]
     Vehicle(#[from] VehicleFlaw),

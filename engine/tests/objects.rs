@@ -212,6 +212,36 @@ fn a_run_says_its_weather_and_how_far_bodies_have_come() {
 }
 
 #[test]
+fn a_pedestrian_becomes_faster_and_slower_with_its_acceleration() {
+    let outcome = run(|s| {
+        let (road, _) = rolling(s);
+        let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 50.0)).accelerating(2.0));
+        // 3 m/s for two seconds, then no wish to walk.
+        let wish = Stream::<()>::tick()
+            .scan(0.0, |ticks: f64, ()| ticks + 1.0)
+            .map(|ticks| if ticks <= 200.0 { 3.0 } else { 0.0 });
+        walker.walk(road.on_sidewalk(Side::Left, 150.0), wish);
+    });
+    let (speed, x) = (signal(&outcome, "pedestrian.speed"), signal(&outcome, "pedestrian.x"));
+    // Euler steps of 0.02 m/s: after n of them the pedestrian has walked 0.0001 n (n + 1) metres.
+    for (tick, expected) in [(50, 1.0), (100, 2.0), (150, 3.0), (200, 3.0), (250, 2.0), (350, 0.0), (450, 0.0)] {
+        assert!((speed[tick] - expected).abs() < 1e-9, "{} m/s at tick {tick}", speed[tick]);
+    }
+    let sum = |n: f64| 0.0001 * n * (n + 1.0);
+    assert!((x[450] - x[0] - (sum(150.0) + 50.0 * 0.03 + sum(149.0))).abs() < 1e-6, "{} m", x[450] - x[0]);
+}
+
+#[test]
+fn an_acceleration_of_a_pedestrian_that_is_not_above_0_is_refused() {
+    for build in [
+        |s: &mut Scenario| drop(s.place(Pedestrian::at(Pose::default()).accelerating(0.0))),
+        |s: &mut Scenario| drop(s.place(Pedestrian::at(Pose::default()).accelerating(f64::NAN))),
+    ] {
+        assert!(refusal(build).contains("m/s², expected more than 0 m/s²"));
+    }
+}
+
+#[test]
 fn without_an_environment_it_is_broad_daylight() {
     let program = Program::new("day", "day", |s| drop(rolling(s)));
     let run = Run::new(&program, &Values::default(), Setup::asking_every(0.5)).unwrap();

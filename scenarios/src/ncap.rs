@@ -117,9 +117,17 @@ fn cpnco(s: &mut Scenario) {
     roadside(s);
 }
 
+/// Returns the distance in metres from the middle line of the ego vehicle to that of the target, to the left. The
+/// target covers the given share of the ego vehicle's width; with a negative share it is to the right. With all of the
+/// width, both middle lines are the same.
+fn aside(overlap: f64) -> f64 {
+    let (own, target) = (Vehicle::BMW_320I.width, 2.0 * Body::car().outline.half_extent().y);
+    if overlap.abs() < 1.0 { (0.5 * (own + target) - overlap.abs() * own).copysign(overlap) } else { 0.0 }
+}
+
 fn ccr(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 10.0..=80.0).unit("km/h").default(50.0);
-    // The share of the ego vehicle's width that meets the target; for a negative share the target is to the right.
+    // The share of the ego vehicle's width that the target covers; for a negative share the target is to the right.
     let overlap = s.choice("overlap", [-50, -75, 100, 75, 50]).unit("%").default(100);
     let target = s.choice("target", ["standing", "moving", "braking"]).default("standing");
     let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");
@@ -140,9 +148,7 @@ fn ccr(s: &mut Scenario) {
     if ahead <= 0.0 {
         s.refuse("the ego vehicle is not faster than the target, so it never reaches the target");
     }
-    let overlap = f64::from(overlap.value()) / 100.0;
-    let aside = (1.0 - overlap.abs()).copysign(overlap) * Vehicle::BMW_320I.width;
-    let shifted = road.path(1).shifted(aside);
+    let shifted = road.path(1).shifted(aside(f64::from(overlap.value()) / 100.0));
     let start = START + middles(ahead.max(0.0));
     s.place(Mover::car(shifted).named("target").starting(start).speed(driven));
     roadside(s);

@@ -120,10 +120,16 @@ fn runs_that_go_on_in_turns_are_those_that_go_on_alone() {
     }
 }
 
+/// The width of the target of `ncap-ccr` in metres.
+const TARGET_WIDTH: f64 = 1.8;
+
 #[test]
 fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_overlap_that_is_asked_for() {
     let program = find("ncap-ccr").unwrap();
-    for (overlap, target, speed) in [(100, "standing", 50.0), (50, "standing", 10.0), (-75, "moving", 60.0)] {
+    let speeds = [("standing", 50.0), ("standing", 10.0), ("moving", 60.0)];
+    let cases =
+        [-50, -75, 100, 75, 50].into_iter().flat_map(|overlap| speeds.map(|(target, speed)| (overlap, target, speed)));
+    for (overlap, target, speed) in cases {
         let changes = [
             ("ego_speed", Value::Number(speed)),
             ("overlap", Value::Number(f64::from(overlap))),
@@ -133,10 +139,13 @@ fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_ove
         let time = outcome.trace.as_ref().unwrap().len() as f64 * 0.01;
         assert!((time - 6.0).abs() < 0.05, "{target} at {speed} km/h: {time} s");
         let last = |name: &str| *signal(&outcome, name).last().unwrap();
+        // The sides of both cars as places across the lane: the share of the ego vehicle's width that both cover.
+        let [own, other] = [("car.y", Vehicle::BMW_320I.width), ("target.y", TARGET_WIDTH)]
+            .map(|(name, width)| [last(name) - 0.5 * width, last(name) + 0.5 * width]);
+        let covered = (own[1].min(other[1]) - own[0].max(other[0])) / Vehicle::BMW_320I.width;
+        assert!((covered - f64::from(overlap).abs() / 100.0).abs() < 1e-9, "{overlap} %: {covered}");
         let aside = last("target.y") - last("car.y");
-        let width = Vehicle::BMW_320I.width;
-        assert!((1.0 - aside.abs() / width - f64::from(overlap).abs() / 100.0).abs() < 1e-9, "{aside}");
-        assert!(overlap == 100 || aside.signum() == f64::from(overlap).signum());
+        assert!(overlap == 100 && aside.abs() < 1e-9 || aside.signum() == f64::from(overlap).signum());
     }
     let changes = [("ego_speed", Value::Number(15.0)), ("target", Value::Word("moving".to_owned()))];
     let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");

@@ -17,7 +17,7 @@
 
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{
-    Campaign, Catalogue, Error, Finish, Learned, Observer, Reason, Sampling, Study, StudyFile, Trial, differing_key,
+    Campaign, Error, Finish, Learned, Observer, Reason, Sampling, Study, StudyFile, Trial, differing_key,
 };
 use paracosm_generators::{DiscreteFamily, Strategy};
 use paracosm_oracles::Verdict;
@@ -181,7 +181,7 @@ impl ReferenceMap {
         if written.format != FORMAT {
             return wrong(MapFlaw::Format { found: written.format });
         }
-        let there = written.study.study.with_program_of(&Catalogue::default());
+        let there = written.study.study.with_program_of(&study.catalogue());
         let here = Self::study_of(study, there.sampling().budget)?;
         if let Some(key) = differing_key(&comparable(&there), &comparable(&here)) {
             return wrong(MapFlaw::Other { key: key.to_owned() });

@@ -173,6 +173,12 @@ impl Study {
         Ok(Some(Run::new(program, Test::new(&values, &self.space), setup)?.signals().to_vec()))
     }
 
+    /// Returns a catalogue of the study's own program, for files of the same scenario. The catalogue of an external
+    /// system is empty.
+    pub fn catalogue(&self) -> Catalogue {
+        self.program().map(|program| Catalogue::of(&[program])).unwrap_or_default()
+    }
+
     /// Makes a generator that proposes the study's tests in addition to the existing tests.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! People on foot: they walk straight to a target, at the speed of their input.
 
+use crate::flaw::ObjectFlaw;
 use crate::geometry::Pose;
 use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
 use crate::road::Path;
@@ -15,6 +16,7 @@ pub struct Pedestrian {
     name: String,
     body: Body,
     start: Pose,
+    acceleration: f64,
 }
 
 /// The handle of a placed pedestrian, with its outputs and its input.
@@ -36,6 +38,10 @@ struct Walking {
     pose: Pose,
     /// The velocity over the last tick, in m/s.
     velocity: Vector2<f64>,
+    /// The speed at which the pedestrian walked in the last tick, unless the walk ended within it, in m/s.
+    pace: f64,
+    /// The greatest change of the speed in m/s².
+    acceleration: f64,
     target: Rc<Cell<Option<Vector2<f64>>>>,
     input: Input<f64>,
     position: Output<Vector2<f64>>,
@@ -48,17 +54,24 @@ struct Walking {
 impl Pedestrian {
     /// Makes a pedestrian of average build who stands at `start`.
     pub fn at(start: Pose) -> Self {
-        Self { name: "pedestrian".to_owned(), body: Body::adult(), start }
+        Self { name: "pedestrian".to_owned(), body: Body::adult(), start, acceleration: f64::INFINITY }
     }
 
     /// Makes a child who stands at `start`.
     pub fn child(start: Pose) -> Self {
-        Self { name: "child".to_owned(), body: Body::child(), start }
+        Self { name: "child".to_owned(), body: Body::child(), start, acceleration: f64::INFINITY }
     }
 
     /// Sets the name by which traces and requirements refer to the pedestrian.
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
+        self
+    }
+
+    /// Sets the acceleration in m/s² with which the pedestrian becomes faster and slower. By default the pedestrian has
+    /// each new speed at once. At the target, the pedestrian always stops at once.
+    pub fn accelerating(mut self, acceleration: f64) -> Self {
+        self.acceleration = acceleration;
         self
     }
 }
@@ -69,9 +82,16 @@ impl Place for Pedestrian {
     fn place(self, scenario: &mut Scenario) -> Walker {
         let mut draft = scenario.object(&self.name);
         draft.body(self.body, self.start);
+        // In this form, the condition refuses NaN as well.
+        let is_sound = self.acceleration > 0.0;
+        if !is_sound {
+            draft.flaw(ObjectFlaw::Acceleration { acceleration: self.acceleration });
+        }
         let walking = Walking {
             pose: self.start,
             velocity: Vector2::zeros(),
+            pace: 0.0,
+            acceleration: self.acceleration,
             target: Rc::default(),
             input: draft.input("speed", Stream::absent()),
             position: draft.output("position"),
@@ -131,6 +151,13 @@ impl Walk {
 }
 
 impl Walking {
+    /// Returns the speed in this tick, in m/s.
+    fn next_pace(&self, tick: &Tick<'_>) -> Result<f64, InputError> {
+        let (wanted, most) = (tick.speed(&self.input)?, self.acceleration * tick.dt());
+        let change = wanted - self.pace;
+        Ok(if change.abs() <= most { wanted } else { self.pace + most.copysign(change) })
+    }
+
     fn remaining(&self) -> f64 {
         self.target.get().map_or(0.0, |target| (target - self.pose.position).norm())
     }
@@ -143,7 +170,7 @@ impl Geometric for Walking {
 
     fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
         let way = self.target.get().map_or(Vector2::zeros(), |target| target - self.pose.position);
-        self.velocity = way.try_normalize(0.0).unwrap_or_default() * tick.speed(&self.input)?;
+        self.velocity = way.try_normalize(0.0).unwrap_or_default() * self.next_pace(tick)?;
         velocities[0] = self.velocity;
         Ok(())
     }
@@ -162,11 +189,11 @@ impl Geometric for Walking {
 
     /// Walks no further than to the target. The last step reaches it exactly.
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
-        let speed = tick.speed(&self.input)?;
+        self.pace = self.next_pace(tick)?;
         let before = self.pose.position;
         if let Some(target) = self.target.get() {
             let way = target - before;
-            let step = speed * tick.dt();
+            let step = self.pace * tick.dt();
             self.pose.position = if step >= way.norm() { target } else { before + way * (step / way.norm()) };
         }
         self.velocity = (self.pose.position - before) / tick.dt();

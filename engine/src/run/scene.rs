@@ -238,9 +238,11 @@ impl Scene {
         own.into_iter().chain(self.objects.iter().filter_map(plan)).collect()
     }
 
-    /// Returns the braking distance in metres that was missing at a contact.
+    /// Returns the braking distance in metres that was missing at a contact. Brakes take away only the speed at which
+    /// the car and the body close along the heading of the car.
     fn missing_distance(&self, contact: Touching, friction: f64) -> f64 {
-        let closing = (self.bodies[0].velocity - self.bodies[contact.body].velocity).norm_squared();
-        (closing / (2.0 * friction * GRAVITY)).max(LEAST_MISSING)
+        let car = &self.bodies[0];
+        let closing = car.pose.turn_to_local(car.velocity - self.bodies[contact.body].velocity).x.max(0.0);
+        (closing * closing / (2.0 * friction * GRAVITY)).max(LEAST_MISSING)
     }
 }

@@ -46,7 +46,7 @@ impl Strategy {
     /// The strategy "gp-cmaes", which is CMA-ES with a Gaussian process that chooses the samples to test.
     pub const GP_CMAES: Self = Self::of(&Descriptor {
         name: "gp-cmaes",
-        about: "cmaes with a model that chooses from its samples: the fewest tests to a failure nearly everywhere",
+        about: "cmaes with a model that chooses from its samples: few tests to a failure on most functions",
         dims: ANY,
         look: Look::hollow(0xa0_1c1c, MarkShape::Diamond),
         method: Method(MethodKind::Search {

@@ -183,7 +183,8 @@ impl Car {
     }
 
     /// Returns the distance to the nearest other body in metres; bodies on the [`Roadside`](crate::Roadside) do not
-    /// count. At a contact: minus the missing braking distance, max(v²/(2 μ g), 0.001), with v the relative speed.
+    /// count. At a contact: minus the missing braking distance, max(v²/(2 μ g), 0.001), with v the speed at which the
+    /// car and the body close along the heading of the car, or 0 if they do not close.
     pub fn clearance(&self) -> Stream<f64> {
         self.shown.clearance.stream()
     }
