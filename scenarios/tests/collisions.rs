@@ -2,6 +2,7 @@
 
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{Outcome, Program, driver, simulate};
+use paracosm_oracles::Verdict;
 use paracosm_scenarios::find;
 use paracosm_space::{Value, Values};
 
@@ -84,6 +85,28 @@ fn a_pedestrian_from_the_near_side_walks_the_other_way_and_is_met_as_well() {
     test.set("side", Value::Word("near".to_owned()));
     let near = walk(&test);
     assert!(far.0 > 0.0 && far.1 < 0.0 && near.0 == far.1 && near.1 == far.0, "{far:?} {near:?}");
+}
+
+#[test]
+fn from_the_near_side_slow_pedestrians_are_hit_more_often_and_from_the_far_side_fast_ones() {
+    let program = find("pedestrian-crossing").unwrap();
+    // The share of tests that fail, with slow and with fast pedestrians.
+    let failing = |side: &str| {
+        [1.5, 8.0].map(|speed| {
+            let fails = (0..40).filter(|i| {
+                let mut test: Values = program.declare().unwrap().nominal();
+                test.set("side", Value::Word(side.to_owned()));
+                test.set("speed", Value::Number(speed));
+                test.set("distance", Value::Number(5.0 + 55.0 * (f64::from(*i) + 0.5) / 40.0));
+                let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+                simulate(program, &test, VehicleModel::SingleTrack, driver.as_mut()).verdict() == Verdict::Fail
+            });
+            fails.count()
+        })
+    };
+    let ([slow, fast], [slow_near, fast_near]) = (failing("far"), failing("near"));
+    assert!(slow < fast, "far side: {slow} slow, {fast} fast");
+    assert!(slow_near > fast_near, "near side: {slow_near} slow, {fast_near} fast");
 }
 
 #[test]
