@@ -6,6 +6,7 @@
 //! [`Space::decode`] and [`Space::encode`] are the only ways to convert one into the other.
 
 mod chance;
+mod levels;
 mod text;
 
 use crate::constraint::Constraint;
@@ -14,6 +15,7 @@ use crate::error::MOST_PARAMETERS;
 use crate::names::nearest;
 use crate::rules::{Clause, Conflict, Rules, RulesError};
 use crate::{Coordinate, Domain, Parameter, SpaceError, Value, Values, WordFlaw, word_flaw};
+use levels::Levels;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -33,6 +35,7 @@ pub struct Point {
 pub struct Space {
     parameters: Vec<Parameter>,
     constraints: Vec<Constraint>,
+    levels: Levels,
 }
 
 /// A space as it is written in a file. It is not checked yet.
@@ -73,7 +76,8 @@ impl Space {
             parameter.validate()?;
         }
         drop(names);
-        let space = Self { parameters, constraints: Vec::new() };
+        let levels = Levels::of(parameters.len());
+        let space = Self { parameters, constraints: Vec::new(), levels };
         // A table could not tell such a parameter apart from the coordinate of a signal that has the same name.
         let signals = space.coordinates().filter(|coordinate| coordinate.parameter.signal.is_some());
         for name in signals.map(|coordinate| coordinate.name()) {
@@ -115,7 +119,7 @@ impl Space {
     /// space of its own.
     pub fn unit_cube(dims: usize) -> Self {
         let axis = |i| Parameter::new(format!("x{i}"), Domain::Interval { lo: 0.0, hi: 1.0 });
-        Self { parameters: (1..=dims).map(axis).collect(), constraints: Vec::new() }
+        Self { parameters: (1..=dims).map(axis).collect(), constraints: Vec::new(), levels: Levels::of(dims) }
     }
 
     /// Returns the parameters of the space in their order.
@@ -246,17 +250,25 @@ impl Space {
             self.parameter(name)?;
         }
         let mut point = Point::default();
-        for parameter in &self.parameters {
+        for (position, parameter) in self.parameters.iter().enumerate() {
             let value =
                 values.get(&parameter.name).ok_or_else(|| SpaceError::Missing { name: parameter.name.clone() })?;
-            for value in parameter.scalars(value)? {
-                match &parameter.domain {
-                    Domain::Interval { lo, hi } => {
+            match &parameter.domain {
+                Domain::Interval { lo, hi } => {
+                    for value in parameter.scalars(value)? {
                         let v = value.number().expect("checked against an interval");
                         point.continuous.push(coordinate(*lo, *hi, v));
                     }
-                    Domain::Choice(_) => {
-                        point.discrete.push(parameter.level(&value).expect("checked against the choice"));
+                }
+                Domain::Choice(_) => {
+                    let level = |value: &Value| self.levels.level(position, parameter, value);
+                    let found: Option<Vec<usize>> = match value {
+                        Value::List(values) if parameter.signal.is_some() => values.iter().map(level).collect(),
+                        value => level(value).map(|level| vec![level; parameter.coordinates()]),
+                    };
+                    match found.filter(|levels| levels.len() == parameter.coordinates()) {
+                        Some(levels) => point.discrete.extend(levels),
+                        None => return Err(parameter.check(value).expect_err("a value without a level").into()),
                     }
                 }
             }
