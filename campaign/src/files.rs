@@ -4,7 +4,11 @@
 //! mode and its owner stay. Links are followed. Devices, pipes and the output of this process cannot be replaced: what
 //! is meant for them is written to them directly.
 
+mod input;
 mod owner;
+
+pub(crate) use input::is_regular;
+pub use input::{InputFlaw, Lines, read_bytes, read_text, read_text_here};
 
 use crate::{Error, Reason};
 use std::ffi::OsStr;

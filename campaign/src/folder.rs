@@ -6,7 +6,7 @@
 //! anew. A process that is killed may leave a line without its end; when the campaign is resumed, this line is dropped
 //! and its test runs again.
 
-use crate::files::{create_folder, remove_leftovers, write_whole_here};
+use crate::files::{Lines, create_folder, read_text_here, remove_leftovers, write_whole_here};
 use crate::json::differing_key;
 use crate::lock::Lock;
 use crate::scales::Learned;
@@ -141,7 +141,7 @@ impl Folder {
         keep_extended(path, study, extension)?;
         let mut folder = Self::open(path, log, Some(hash.clone()))?;
         let file = path.join(TRIALS);
-        let Read { trials, bytes, is_older } = read_trials(&file, &folder.log, study.space(), &hash)?;
+        let Read { trials, bytes, is_older } = read_trials(&file, Lines::of(&folder.log), study, &hash)?;
         // A log of an older version goes on as it began.
         folder.study = folder.study.filter(|_| !is_older);
         folder.log.set_len(bytes).map_err(Error::io("write", &file))?;
@@ -233,7 +233,7 @@ fn keep_extended(path: &Path, study: &Study, extension: Option<&Extension>) -> R
 /// Checks that a folder holds the campaign of this study, and returns the hash of the study.
 fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<String, Error> {
     let file = path.join(STUDY);
-    let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+    let text = read_text_here(&file)?;
     // The scenario may have got further parameters since the folder was written, which are nominal there.
     let there = StudyFile::parse(&text, &study.catalogue());
     let there = there.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;

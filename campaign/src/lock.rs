@@ -3,7 +3,7 @@
 //! The log is locked before anything is written. So of two campaigns that are started at once in one folder, one is
 //! refused and has written nothing.
 
-use crate::files::is_no_link;
+use crate::files::{is_no_link, is_regular};
 use crate::{Error, Reason};
 use std::fs::{self, File, Metadata, TryLockError};
 use std::path::{Path, PathBuf};
@@ -38,6 +38,9 @@ impl Lock {
         let mut options = File::options();
         options.read(true).write(true);
         let is_new = !path.exists();
+        if !is_new {
+            is_regular(path)?;
+        }
         let log = options.create(true).truncate(false).open(path).map_err(Error::io("write", path))?;
         match log.try_lock() {
             Ok(()) => Ok(Self { log: Some(log), created: is_new.then(|| path.to_owned()) }),

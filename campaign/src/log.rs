@@ -1,5 +1,6 @@
 //! The log of a campaign: its study, and the result of each test.
 
+use crate::files::{Lines, read_text_here};
 use crate::folder::EXTENDED;
 use crate::scales::{Learned, Scales};
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
@@ -8,7 +9,6 @@ use crate::trials_file::{TRIALS, read_trials};
 use crate::{Catalogue, Error, Extension, Reason, SpaceFile, Study, Trial, Trust};
 use paracosm_space::Point;
 use paracosm_space::pict::Aliases;
-use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -47,12 +47,12 @@ impl Log {
     /// error comes only when a test is run.
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
         let file = path.join(STUDY);
-        let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+        let text = read_text_here(&file)?;
         let read = StudyFile::parse(&text, catalogue);
         let hash = hash_of_text(&text);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
         let log = path.join(TRIALS);
-        let read = read_trials(&log, File::open(&log).map_err(Error::io("read", &log))?, study.space(), &hash)?;
+        let read = read_trials(&log, Lines::open_here(&log)?, &study, &hash)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
         Ok(Self::new(study, learned, extension, read.trials))
     }

@@ -4,14 +4,13 @@
 //! keeping. A regression file is made from a failing test, and says that the test fails. When the failure is repaired,
 //! change `expect` to `"pass"`; from then on the file checks that the failure stays repaired.
 
-use crate::files::{create_folder, is_new, write_whole};
+use crate::files::{create_folder, is_new, read_text, write_whole};
 use crate::json_text::{JsonFlaw, read_json};
 use crate::study_file::StudyFile;
 use crate::{Campaign, Catalogue, Error, Folder, Reason, Study, Trial, Trust};
 use paracosm_oracles::Verdict;
 use paracosm_space::{SpaceError, Values};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -98,7 +97,7 @@ impl Regression {
     /// # Errors
     /// The file cannot be read, is not a regression file, or its test does not belong to its study.
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
-        let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
+        let text = read_text(path)?;
         let mut read: Self =
             read_json(&text).map_err(|flaw| Error::in_file(path, flaw.line(), RegressionFlaw::Json(flaw)))?;
         let wrong = |flaw| Error::in_file(path, None, flaw);

@@ -1,11 +1,11 @@
 //! Reads spaces from files: SPACE.toml, or a model file of PICT.
 
+use crate::files::read_bytes;
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
 use paracosm_space::pict::{Aliases, Model, PictError};
 use paracosm_space::{Position, Space, SpaceError, some_of};
 use std::ffi::OsStr;
-use std::fs;
 use std::path::Path;
 use thiserror::Error;
 
@@ -55,7 +55,7 @@ impl SpaceFile {
     /// The file cannot be read or is not valid, or no test satisfies its constraints. The error names the line, and the
     /// column if it is known.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = String::from_utf8(fs::read(path).map_err(Error::io("read", path))?);
+        let text = String::from_utf8(read_bytes(path)?);
         let text = text.map_err(|error| {
             let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;

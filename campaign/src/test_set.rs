@@ -1,12 +1,12 @@
 //! Reads tests from a CSV file whose header names the parameters of a space.
 
+use crate::files::Lines;
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
 use paracosm_space::pict::Aliases;
 use paracosm_space::plural;
 use paracosm_space::{Coordinate, Parameter, ParameterError, Point, Space, SpaceError, Value, Values, nearest};
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -230,7 +230,7 @@ pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Val
 struct TestsFile<'p> {
     path: &'p Path,
     aliases: &'p Aliases,
-    reader: csv::Reader<BufReader<File>>,
+    reader: csv::Reader<BufReader<Lines>>,
     header: csv::StringRecord,
     space: Space,
     /// For each discrete parameter by its name, the positions of its levels by their texts.
@@ -245,7 +245,7 @@ struct TestsFile<'p> {
 
 impl<'p> TestsFile<'p> {
     fn open(path: &'p Path, space: Option<Space>, aliases: &'p Aliases) -> Result<Self, Error> {
-        let mut file = BufReader::new(File::open(path).map_err(Error::io("read", path))?);
+        let mut file = BufReader::new(Lines::open(path)?);
         let begin = file.fill_buf().map_err(Error::io("read", path))?;
         if begin.is_empty() {
             return Err(Error::in_file(path, None, HeaderFlaw::Empty));

@@ -1,9 +1,11 @@
 //! Reads `trials.jsonl`, which has one trial per line.
 
+use crate::study::Study;
 use crate::study_file::STUDY;
 use crate::trial::Line;
-use crate::{Error, Reason, Trial};
-use paracosm_space::{Space, SpaceError};
+use crate::{Error, Reason, Subject, Trial};
+use paracosm_oracles::Verdict;
+use paracosm_space::{SpaceError, did_you_mean, nearest};
 use serde::de::Error as _;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
@@ -35,6 +37,24 @@ pub enum LogFlaw {
     /// The test of the trial does not belong to the space of the study.
     #[error("`test`: {0}")]
     Test(SpaceError),
+    /// The trial has a requirement that the study does not have.
+    #[error("`robustness`: the study has no requirement `{id}`{}", did_you_mean(.nearest))]
+    Requirement {
+        /// The id that no requirement of the study has.
+        id: String,
+        /// The most similar id; `None` if no id is similar.
+        nearest: Option<String>,
+    },
+    /// The verdict of the trial contradicts the least robustness of the trial.
+    #[error("`verdict` is `{verdict}`, but the least robustness is {robustness}, of `{id}`")]
+    Verdict {
+        /// The verdict of the trial.
+        verdict: Verdict,
+        /// The id of the requirement with the least robustness.
+        id: String,
+        /// The least robustness.
+        robustness: f64,
+    },
     /// Some lines name their study, and others do not.
     #[error(
         "the lines before name their study and this line does not, or the other way round: two campaigns were mixed"
@@ -65,9 +85,9 @@ pub(crate) struct Read {
     pub is_older: bool,
 }
 
-/// Reads the trials of a log line by line. A last line without its end is ignored. The tests have to belong to the
-/// space, and the trials to the study with the given hash.
-pub(crate) fn read_trials(file: &Path, log: impl io::Read, space: &Space, study: &str) -> Result<Read, Error> {
+/// Reads the trials of a log line by line. A last line without its end is ignored. The trials have to belong to
+/// the study, which has the given hash.
+pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: &str) -> Result<Read, Error> {
     let mut log = BufReader::new(log);
     let mut found = Read::default();
     let mut line = Vec::new();
@@ -76,7 +96,7 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, space: &Space, study:
         log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
         let Some(text) = line.strip_suffix(b"\n") else { break };
         let index = found.trials.len();
-        let line_read = parse(text, index, study).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
+        let line_read = parse(text, index, hash).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
         let is_older = line_read.study().is_none();
         if index > 0 && is_older != found.is_older {
             return Err(Error::in_file(file, index + 1, LogFlaw::Mixed));
@@ -84,13 +104,36 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, space: &Space, study:
         found.is_older = is_older;
         let trial = Trial::try_from(line_read).map_err(|flaw| LogFlaw::NoTrial(serde_json::Error::custom(flaw)));
         let trial = trial.and_then(|trial| {
-            space.encode(&trial.test).map_err(LogFlaw::Test)?;
+            study.space().encode(&trial.test).map_err(LogFlaw::Test)?;
+            agrees(&trial, study)?;
             Ok(trial)
         });
         trial.map_err(|flaw| Error::in_file(file, index + 1, flaw))?.append_to(&mut found.trials);
         found.bytes += line.len() as u64;
     }
     Ok(found)
+}
+
+/// Checks that the verdict of a trial agrees with its robustness, and that the study has its requirements. A system that
+/// judges itself may have any requirements.
+fn agrees(trial: &Trial, study: &Study) -> Result<(), LogFlaw> {
+    if let Subject::Scenario(_) = study.subject()
+        && let Some(id) = trial.requirements().find(|id| study.requirement(id).is_none())
+    {
+        let ids = study.requirements().iter().map(|requirement| requirement.id.as_str());
+        let nearest = nearest(id, ids).map(str::to_owned);
+        return Err(LogFlaw::Requirement { id: id.to_owned(), nearest });
+    }
+    let worst = trial.decided().min_by(|a, b| a.1.total_cmp(&b.1));
+    match (trial.verdict, worst) {
+        (Verdict::Pass, Some((id, robustness))) if robustness < 0.0 => {
+            Err(LogFlaw::Verdict { verdict: trial.verdict, id: id.to_owned(), robustness })
+        }
+        (Verdict::Fail, Some((id, robustness))) if robustness > 0.0 => {
+            Err(LogFlaw::Verdict { verdict: trial.verdict, id: id.to_owned(), robustness })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Reads a line of a log, which should be the trial with the given index.

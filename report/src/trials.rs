@@ -30,7 +30,7 @@ fn csv(log: &Log) -> Vec<u8> {
     let parameters = study.space().coordinates().map(|coordinate| coordinate.name());
     let requirements = ids.iter().map(|id| format!("robustness.{id}"));
     let header = ["index".to_owned()].into_iter().chain(parameters).chain(["verdict".to_owned()]);
-    let header = header.chain(requirements).chain(metrics.iter().map(|name| format!("metric.{name}")));
+    let header = header.chain(requirements).chain(metrics.iter().map(|name| as_text(&format!("metric.{name}"))));
     let header = header.chain(["ticks", "trace_hash", "error"].map(str::to_owned));
     let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
     write(header.collect());
@@ -40,7 +40,9 @@ fn csv(log: &Log) -> Vec<u8> {
         row.extend(trial.test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string));
         row.push(trial.verdict.to_string());
         row.extend(ids.iter().map(|id| trial.robustness(id).map_or(String::new(), |value| value.to_string())));
-        row.extend(metrics.iter().map(|name| measured.get(name).map_or(String::new(), ToString::to_string)));
+        row.extend(
+            metrics.iter().map(|name| measured.get(name).map_or(String::new(), |metric| as_text(&metric.to_string()))),
+        );
         row.push(trial.ticks.to_string());
         row.push(trial.trace_hash.clone().unwrap_or_default());
         row.push(as_text(trial.error().unwrap_or_default()));

@@ -5,9 +5,9 @@ use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use crate::oracles::{Cause, Evaluation, Formula, Monitor, Semantics, Trace, Truth};
 use clap::Args;
+use paracosm_campaign::files::Lines;
 use paracosm_campaign::{Error, Number, read_trace};
 use serde_json::{Value, json};
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::PathBuf;
 
@@ -63,9 +63,9 @@ impl Options {
             asked.push(Asked { id: format!("spec-{}", i + 1), formula, monitor: None, decided_at: None });
         }
         let source: Box<dyn Read> = if self.trace.as_os_str() == "-" {
-            Box::new(io::stdin().lock())
+            Box::new(Lines::of(io::stdin().lock()))
         } else {
-            Box::new(File::open(&self.trace).map_err(Error::io("read", &self.trace))?)
+            Box::new(Lines::open(&self.trace)?)
         };
         let mut seen = 0;
         let trace = read_trace(&self.trace, source, |trace| {

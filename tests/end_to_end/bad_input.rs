@@ -3,6 +3,7 @@
 use crate::common::{cover, fuzz, refused, succeeds, without_study};
 use serde_json::Value;
 use std::fs;
+use std::process::Command;
 
 #[test]
 fn a_folder_after_resume_is_taken_for_no_scenario() {
@@ -265,4 +266,76 @@ fn a_log_in_which_only_some_lines_name_their_study_is_refused() {
     let mixed: Vec<&str> = named.lines().take(2).chain(without.lines().skip(2)).collect();
     fs::write(&log, mixed.join("\n") + "\n").unwrap();
     refused(&cover(dir.path(), &["estimate", "out"]), &["out/trials.jsonl, line 3", "two campaigns were mixed"]);
+}
+
+#[test]
+fn a_log_that_contradicts_itself_is_refused_with_the_line() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "5", "--out", "out", "-q"]));
+    let log = dir.path().join("out/trials.jsonl");
+    let whole = fs::read_to_string(&log).unwrap();
+    let third = whole.lines().nth(2).unwrap();
+    assert!(third.contains("\"verdict\":\"fail\""), "{third}");
+    for (from, to, says) in [
+        ("\"verdict\":\"fail\"", "\"verdict\":\"pass\"", "`verdict` is `pass`, but the least robustness is -"),
+        ("\"no-collision\":-", "\"no-collision\":", "`verdict` is `fail`, but the least robustness is "),
+        (
+            "\"robustness\":{\"no-collision\"",
+            "\"robustness\":{\"no-colision\"",
+            "no requirement `no-colision` (did you mean",
+        ),
+    ] {
+        let changed = third.replacen(from, to, 1);
+        assert_ne!(changed, third);
+        fs::write(&log, whole.replace(third, &changed)).unwrap();
+        for command in [&["map", "out"] as &[&str], &["trace", "out"], &["--budget", "5", "--out", "out", "--resume"]] {
+            refused(&fuzz(dir.path(), command), &["out/trials.jsonl, line 3", says]);
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_or_a_device_in_place_of_a_file_of_a_campaign_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for file in ["trials.jsonl", "campaign.json"] {
+        let out = dir.path().join("out");
+        let _ = fs::remove_dir_all(&out);
+        succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "out", "-q"]));
+        fs::remove_file(out.join(file)).unwrap();
+        assert!(Command::new("mkfifo").arg(out.join(file)).status().unwrap().success());
+        for command in
+            [&["map", "out"] as &[&str], &["replay", "out", "0"], &["--budget", "2", "--out", "out", "--resume"]]
+        {
+            refused(&fuzz(dir.path(), command), &[file, "found no regular file"]);
+        }
+        refused(&cover(dir.path(), &["estimate", "out"]), &[file, "found no regular file"]);
+        fs::remove_file(out.join(file)).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", out.join(file)).unwrap();
+        refused(&fuzz(dir.path(), &["map", "out"]), &[file, "found no regular file"]);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_input_without_end_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/dev/zero", dir.path().join("SPACE.toml")).unwrap();
+    refused(&cover(dir.path(), &["estimate", "/dev/zero"]), &["/dev/zero", "a line has more than 64 MiB"]);
+    refused(&fuzz(dir.path(), &["monitor", "/dev/zero", "--spec", "G (a > 1)"]), &["a line has more than 64 MiB"]);
+    refused(&cover(dir.path(), &["plan", "--space", "SPACE.toml"]), &["SPACE.toml", "more than 256 MiB"]);
+}
+
+#[test]
+fn the_map_of_a_campaign_with_a_long_name_is_drawn_and_a_longer_name_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "4", "--out", "out", "-q"]));
+    let log = dir.path().join("out/trials.jsonl");
+    fs::write(&log, without_study(&fs::read_to_string(&log).unwrap())).unwrap();
+    let file = dir.path().join("out/campaign.json");
+    let whole = fs::read_to_string(&file).unwrap();
+    fs::write(&file, whole.replace("pedestrian-crossing", &"p".repeat(4000))).unwrap();
+    succeeds(fuzz(dir.path(), &["map", "out"]));
+    fs::write(&file, whole.replace("pedestrian-crossing", &"p".repeat(5000))).unwrap();
+    refused(&fuzz(dir.path(), &["map", "out"]), &["`scenario` is a name of 5000 bytes, expected at most 4096 bytes"]);
 }

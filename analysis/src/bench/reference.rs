@@ -23,7 +23,6 @@ use paracosm_generators::{DiscreteFamily, Strategy};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Point, Space, Value};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -174,7 +173,7 @@ impl ReferenceMap {
     /// # Errors
     /// The file cannot be read, is broken, or holds the map of another study.
     pub fn read(path: &Path, study: &Study) -> Result<Self, Error> {
-        let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
+        let text = paracosm_campaign::files::read_text(path)?;
         let written: Written =
             serde_json::from_str(&text).map_err(|error| Error::in_file(path, error.line(), error))?;
         let wrong = |flaw| Err(Error::in_file(path, None, flaw));

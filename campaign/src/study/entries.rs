@@ -10,6 +10,9 @@ use thiserror::Error;
 /// The greatest number of ticks of a test. With more ticks a single trace takes gigabytes.
 const MOST_TICKS: f64 = 1e7;
 
+/// The greatest number of bytes of a name, which may be the path of a file.
+const MOST_NAME: usize = 4096;
+
 /// The reason why an entry of a study cannot be right.
 #[derive(Debug, Error)]
 pub enum EntryFlaw {
@@ -92,6 +95,12 @@ fn range(entry: &str, found: impl Display, is_right: bool, expected: &str) -> Re
     if is_right { Ok(()) } else { Err(flaw()) }
 }
 
+/// Checks that a name is short enough for titles and messages.
+fn check_name(entry: &str, name: &str) -> Result<(), EntryFlaw> {
+    let found = format!("a name of {} bytes", name.len());
+    range(entry, found, name.len() <= MOST_NAME, &format!("at most {MOST_NAME} bytes"))
+}
+
 fn is_positive(number: f64) -> bool {
     number > 0.0 && number.is_finite()
 }
@@ -105,7 +114,11 @@ impl Study {
     /// Checks the entries of a study that was read from a file, without its program.
     pub(crate) fn check_entries(&self) -> Result<(), EntryFlaw> {
         match &self.subject {
-            Subject::Scenario(simulation) => simulation.check_times()?,
+            Subject::Scenario(simulation) => {
+                check_name("scenario", simulation.scenario())?;
+                check_name("driver.name", simulation.driver().name())?;
+                simulation.check_times()?;
+            }
             Subject::System(system) => drop(checked_timeout(Some(system.timeout))?),
         }
         let sampling = &self.sampling;

@@ -1,9 +1,9 @@
 //! Reads TOML files of users, with errors that name lines and suggest the nearest keys.
 
+use crate::files::read_text;
 use crate::{Error, Reason};
 use paracosm_space::{did_you_mean, nearest};
 use serde::de::DeserializeOwned;
-use std::fs;
 use std::path::Path;
 use thiserror::Error;
 use toml::Spanned;
@@ -45,7 +45,7 @@ fn quoted(keys: &[&str]) -> String {
 
 impl<'p> TomlFile<'p> {
     pub fn read(path: &'p Path) -> Result<Self, Error> {
-        Ok(Self { path, text: fs::read_to_string(path).map_err(Error::io("read", path))? })
+        Ok(Self { path, text: read_text(path)? })
     }
 
     pub fn path(&self) -> &Path {

@@ -38,11 +38,22 @@ pub(super) fn wrapped<B: DrawingBackend>(
     lines.push(line);
     for line in &mut lines {
         // Shortens a line that is too wide because of the dots, or because of a single word wider than the picture.
-        while !fits(line)? {
-            let mut kept: Vec<char> = line.trim_end_matches(REST).chars().collect();
-            kept.pop();
-            *line = kept.into_iter().collect::<String>().trim_end().to_owned() + REST;
+        if fits(line)? {
+            continue;
         }
+        let all: Vec<char> = line.trim_end_matches(REST).chars().collect();
+        let first = |count: usize| all[..count].iter().collect::<String>().trim_end().to_owned() + REST;
+        // The first `least` characters fit, and more than `most` do not.
+        let (mut least, mut most) = (0, all.len().saturating_sub(1));
+        while least < most {
+            let middle = least + (most - least).div_ceil(2);
+            if fits(&first(middle))? {
+                least = middle;
+            } else {
+                most = middle - 1;
+            }
+        }
+        *line = first(least);
     }
     Ok(lines)
 }

@@ -5,7 +5,6 @@ use super::camera_file::{Flaw, parse};
 use paracosm_campaign::Error;
 use paracosm_engine::sensor::{CameraSetting, Cameras};
 use paracosm_render::camera_settings;
-use std::fs;
 use std::path::Path;
 
 /// Returns the text of the standard camera file, which a recording uses if the user names no file. The file has one
@@ -40,6 +39,6 @@ pub fn cameras_for_people() -> Cameras {
 /// Returns an error if the file cannot be read, is not TOML, or describes a camera that cannot be built. The error
 /// names the key and the line.
 pub fn read_cameras(path: &Path) -> Result<VariedCameras, Error> {
-    let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
+    let text = paracosm_campaign::files::read_text(path)?;
     parse(&text).map_err(|Flaw { line, flaw }| Error::in_file(path, line, flaw))
 }

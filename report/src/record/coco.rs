@@ -5,7 +5,6 @@ use super::{Rendering, Shot};
 use paracosm_campaign::Error;
 use paracosm_render::{Box2, Box3, Semantic, boxes};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -98,7 +97,7 @@ pub(super) fn merge(top: &Path, tests: &[String], file: &mut impl Write) -> Resu
     let failed = |error: io::Error| Error::io("write", &top.join(ANNOTATIONS))(error);
     let read = |test: &String| -> Result<Annotations, Error> {
         let path = top.join(test).join(ANNOTATIONS);
-        let text = fs::read_to_string(&path).map_err(Error::io("read", &path))?;
+        let text = paracosm_campaign::files::read_text(&path)?;
         serde_json::from_str(&text).map_err(|error| Error::in_file(&path, error.line(), error))
     };
     let mut lists = Lists { first: true, file };

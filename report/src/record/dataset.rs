@@ -155,7 +155,7 @@ impl Dataset {
         let mut recording = Recording { kept, colours, cameras: cameras.nominal().clone() };
         camera_settings().complete(&mut recording.cameras);
         if file.exists() {
-            let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+            let text = paracosm_campaign::files::read_text(&file)?;
             let mut there: Recording =
                 serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
             // An older version did not write the settings that later versions added.

@@ -31,9 +31,17 @@ pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Result<(), Error> {
 }
 
 /// Formats a text for a cell of a table. A text that a spreadsheet would compute as a formula gets a `'` in front,
-/// which makes it a text for spreadsheets.
+/// which makes it a text for spreadsheets. The end of a line becomes a space, and
+/// other control characters except tabs become the replacement character U+FFFD.
 pub fn as_text(text: &str) -> String {
-    if word_flaw(text) == Some(WordFlaw::Formula) { format!("'{text}") } else { text.to_owned() }
+    let printable = |character| match character {
+        '\n' => ' ',
+        '\t' => '\t',
+        _ if char::is_control(character) => char::REPLACEMENT_CHARACTER,
+        _ => character,
+    };
+    let printable: String = text.chars().map(printable).collect();
+    if word_flaw(&printable) == Some(WordFlaw::Formula) { format!("'{printable}") } else { printable }
 }
 
 /// Formats a value for a table; a missing value gives an empty field.
