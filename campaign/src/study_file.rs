@@ -219,6 +219,7 @@ impl Entries {
         must_not("fixed", of, self.fixed.is_some())?;
         must_not("driver", of, self.driver.is_some())?;
         must_not("models", of, !self.models.is_empty())?;
+        must_not("stop_runs_early", of, self.stop_runs_early)?;
         must_not("dt", of, self.dt.is_some())?;
         must_not("duration", of, self.duration.is_some())?;
         Ok(Subject::System(BlackBox { command, timeout: must("timeout", of, self.timeout)? }))

@@ -7,6 +7,7 @@ use crate::{Error, Reason, Subject, Trial};
 use paracosm_oracles::Verdict;
 use paracosm_space::{SpaceError, did_you_mean, nearest};
 use serde::de::Error as _;
+use std::collections::HashSet;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 use thiserror::Error;
@@ -90,6 +91,7 @@ pub(crate) struct Read {
 pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: &str) -> Result<Read, Error> {
     let mut log = BufReader::new(log);
     let mut found = Read::default();
+    let ids: HashSet<&str> = study.requirements().iter().map(|requirement| requirement.id.as_str()).collect();
     let mut line = Vec::new();
     loop {
         line.clear();
@@ -105,7 +107,7 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: 
         let trial = Trial::try_from(line_read).map_err(|flaw| LogFlaw::NoTrial(serde_json::Error::custom(flaw)));
         let trial = trial.and_then(|trial| {
             study.space().encode(&trial.test).map_err(LogFlaw::Test)?;
-            agrees(&trial, study)?;
+            agrees(&trial, study, &ids)?;
             Ok(trial)
         });
         trial.map_err(|flaw| Error::in_file(file, index + 1, flaw))?.append_to(&mut found.trials);
@@ -116,23 +118,22 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: 
 
 /// Checks that the verdict of a trial agrees with its robustness, and that the study has its requirements. A system that
 /// judges itself may have any requirements.
-fn agrees(trial: &Trial, study: &Study) -> Result<(), LogFlaw> {
+fn agrees(trial: &Trial, study: &Study, ids: &HashSet<&str>) -> Result<(), LogFlaw> {
     if let Subject::Scenario(_) = study.subject()
-        && let Some(id) = trial.requirements().find(|id| study.requirement(id).is_none())
+        && let Some(id) = trial.requirements().find(|id| !ids.contains(id))
     {
-        let ids = study.requirements().iter().map(|requirement| requirement.id.as_str());
-        let nearest = nearest(id, ids).map(str::to_owned);
+        let nearest = nearest(id, ids.iter().copied()).map(str::to_owned);
         return Err(LogFlaw::Requirement { id: id.to_owned(), nearest });
     }
     let worst = trial.decided().min_by(|a, b| a.1.total_cmp(&b.1));
-    match (trial.verdict, worst) {
-        (Verdict::Pass, Some((id, robustness))) if robustness < 0.0 => {
-            Err(LogFlaw::Verdict { verdict: trial.verdict, id: id.to_owned(), robustness })
-        }
-        (Verdict::Fail, Some((id, robustness))) if robustness > 0.0 => {
-            Err(LogFlaw::Verdict { verdict: trial.verdict, id: id.to_owned(), robustness })
-        }
-        _ => Ok(()),
+    let contradicts = |robustness: f64| match trial.verdict {
+        Verdict::Pass => robustness < 0.0,
+        Verdict::Fail => robustness > 0.0,
+        Verdict::Inconclusive | Verdict::Invalid | Verdict::Error => false,
+    };
+    match worst.filter(|(_, robustness)| contradicts(*robustness)) {
+        Some((id, robustness)) => Err(LogFlaw::Verdict { verdict: trial.verdict, id: id.to_owned(), robustness }),
+        None => Ok(()),
     }
 }
 

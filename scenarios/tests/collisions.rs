@@ -34,8 +34,8 @@ fn missing_distance(outcome: &Outcome, other: &str, friction: f64) -> f64 {
     let (sin, cos) = libm::sincos(last("car.heading"));
     let ahead = |velocity: [f64; 2]| velocity[0] * cos + velocity[1] * sin;
     // The car may brake, so that its speed at the end of the tick is another than its speed during the tick.
-    let (during, [x, y]) = (ahead(velocity(outcome, "car")), velocity(outcome, "car"));
-    let car = last("car.speed") * during / libm::hypot(x, y);
+    let during = velocity(outcome, "car");
+    let car = last("car.speed") * ahead(during) / libm::hypot(during[0], during[1]);
     let closing = car - ahead(velocity(outcome, other));
     let closing = closing.max(0.0);
     (closing * closing / (2.0 * friction * GRAVITY)).max(0.001)

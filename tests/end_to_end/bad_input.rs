@@ -220,8 +220,8 @@ const WRONG_ENTRIES: [(&str, &str, &[&str]); 24] = [
     ("/fixed/friction", "100", &["`fixed`: ", "`friction`"]),
     ("/k", "1000000000", &["`k` is 1000000000, expected a number from 1 to"]),
     ("/epsilon", "-0.5", &["`epsilon` is -0.5"]),
-    ("/budget", "0", &["`budget` is 0"]),
-    ("/batch", "0", &["`batch` is 0"]),
+    ("/budget", "0", &["the budget is 0, expected at least 1 test"]),
+    ("/batch", "0", &["the batch is 0, expected at least 1 test"]),
     ("/vehicle", "\"boat\"", &["`vehicle`: unknown variant `boat`", "line "]),
 ];
 
@@ -327,15 +327,15 @@ fn an_input_without_end_is_refused() {
 }
 
 #[test]
-fn the_map_of_a_campaign_with_a_long_name_is_drawn_and_a_longer_name_is_refused() {
+fn the_map_of_a_campaign_with_a_very_long_name_is_drawn() {
     let dir = tempfile::tempdir().unwrap();
     succeeds(fuzz(dir.path(), &["--budget", "4", "--out", "out", "-q"]));
     let log = dir.path().join("out/trials.jsonl");
     fs::write(&log, without_study(&fs::read_to_string(&log).unwrap())).unwrap();
     let file = dir.path().join("out/campaign.json");
     let whole = fs::read_to_string(&file).unwrap();
-    fs::write(&file, whole.replace("pedestrian-crossing", &"p".repeat(4000))).unwrap();
-    succeeds(fuzz(dir.path(), &["map", "out"]));
-    fs::write(&file, whole.replace("pedestrian-crossing", &"p".repeat(5000))).unwrap();
-    refused(&fuzz(dir.path(), &["map", "out"]), &["`scenario` is a name of 5000 bytes, expected at most 4096 bytes"]);
+    for name in ["p".repeat(1_000_000), "p ".repeat(500_000)] {
+        fs::write(&file, whole.replace("pedestrian-crossing", &name)).unwrap();
+        succeeds(fuzz(dir.path(), &["map", "out"]));
+    }
 }

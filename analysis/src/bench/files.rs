@@ -4,10 +4,10 @@
 use super::row::RowFlaw;
 use super::{Bench, BenchFlaw, Row};
 use crate::asked::{make_folder, new_folder};
-use paracosm_campaign::files::write_whole;
+use paracosm_campaign::files::{read_text, write_whole};
 use paracosm_campaign::{Error, differing_key};
 use serde_json::{Value, json};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -53,13 +53,12 @@ impl Rows {
         if !file.exists() {
             return Self::create(folder, bench, maps).map(|rows| (rows, Vec::new()));
         }
-        let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+        let text = read_text(&file)?;
         let there: Value = serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
         if let Some(key) = differing_key(&there, &description(bench, maps)) {
             return Err(BenchFlaw::Other { folder: folder.to_owned(), key: key.to_owned() }.into());
         }
-        let text =
-            if runs.exists() { fs::read_to_string(&runs).map_err(Error::io("read", &runs))? } else { String::new() };
+        let text = if runs.exists() { read_text(&runs)? } else { String::new() };
         // A program that was killed can leave a last line without a line end. Such a line does not count.
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         if whole == 0 {

@@ -15,7 +15,7 @@
 //!
 //! The file of a map holds the study that made the map, from which the tests follow, and a letter for each verdict.
 
-use paracosm_campaign::files::write_whole;
+use paracosm_campaign::files::{read_text, write_whole};
 use paracosm_campaign::{
     Campaign, Error, Finish, Learned, Observer, Reason, Sampling, Study, StudyFile, Trial, differing_key,
 };
@@ -173,7 +173,7 @@ impl ReferenceMap {
     /// # Errors
     /// The file cannot be read, is broken, or holds the map of another study.
     pub fn read(path: &Path, study: &Study) -> Result<Self, Error> {
-        let text = paracosm_campaign::files::read_text(path)?;
+        let text = read_text(path)?;
         let written: Written =
             serde_json::from_str(&text).map_err(|error| Error::in_file(path, error.line(), error))?;
         let wrong = |flaw| Err(Error::in_file(path, None, flaw));

@@ -1,17 +1,15 @@
 //! Checks a study that was read from a file, entry by entry: anybody may have changed the file.
 
-use super::{Simulation, StatedRequirement, Study, Subject};
+use super::{SamplingFlaw, Simulation, StatedRequirement, Study, Subject};
 use crate::Reason;
 use crate::black_box::{TimeoutFlaw, checked_timeout};
 use paracosm_space::{ParameterError, WordFlaw, word_flaw};
+use std::collections::HashSet;
 use std::fmt::Display;
 use thiserror::Error;
 
 /// The greatest number of ticks of a test. With more ticks a single trace takes gigabytes.
 const MOST_TICKS: f64 = 1e7;
-
-/// The greatest number of bytes of a name, which may be the path of a file.
-const MOST_NAME: usize = 4096;
 
 /// The reason why an entry of a study cannot be right.
 #[derive(Debug, Error)]
@@ -82,6 +80,9 @@ pub enum EntryFlaw {
     /// A fixed value does not fit its parameter.
     #[error("`fixed`: {0}")]
     Fixed(ParameterError),
+    /// The budget or the batch is 0.
+    #[error(transparent)]
+    Sampling(#[from] SamplingFlaw),
     /// The time-out of an external system is out of range.
     #[error(transparent)]
     Timeout(#[from] TimeoutFlaw),
@@ -93,12 +94,6 @@ impl Reason for EntryFlaw {}
 fn range(entry: &str, found: impl Display, is_right: bool, expected: &str) -> Result<(), EntryFlaw> {
     let flaw = || EntryFlaw::Range { entry: entry.to_owned(), found: found.to_string(), expected: expected.to_owned() };
     if is_right { Ok(()) } else { Err(flaw()) }
-}
-
-/// Checks that a name is short enough for titles and messages.
-fn check_name(entry: &str, name: &str) -> Result<(), EntryFlaw> {
-    let found = format!("a name of {} bytes", name.len());
-    range(entry, found, name.len() <= MOST_NAME, &format!("at most {MOST_NAME} bytes"))
 }
 
 fn is_positive(number: f64) -> bool {
@@ -114,24 +109,20 @@ impl Study {
     /// Checks the entries of a study that was read from a file, without its program.
     pub(crate) fn check_entries(&self) -> Result<(), EntryFlaw> {
         match &self.subject {
-            Subject::Scenario(simulation) => {
-                check_name("scenario", simulation.scenario())?;
-                check_name("driver.name", simulation.driver().name())?;
-                simulation.check_times()?;
-            }
+            Subject::Scenario(simulation) => simulation.check_times()?,
             Subject::System(system) => drop(checked_timeout(Some(system.timeout))?),
         }
         let sampling = &self.sampling;
+        sampling.check()?;
         let parameters = self.space.levels().len() + self.space.dims();
         let most = format!("a number from 1 to {parameters}, the number of parameters");
         sampling.k.map_or(Ok(()), |k| range("k", k, (1..=parameters).contains(&k), &most))?;
         let epsilon = |volume: f64| range("epsilon", volume, volume > 0.0 && volume < 1.0, "above 0 and below 1");
         sampling.epsilon.map_or(Ok(()), epsilon)?;
-        range("budget", sampling.budget, sampling.budget > 0, "at least 1 test")?;
-        sampling.batch.map_or(Ok(()), |batch| range("batch", batch, batch > 0, "at least 1 test"))?;
+        let mut ids = HashSet::new();
         for (i, StatedRequirement { id, scale, .. }) in self.requirements.iter().enumerate() {
             word_flaw(id).map_or(Ok(()), |flaw| Err(EntryFlaw::Id { place: i + 1, flaw }))?;
-            if self.requirements[..i].iter().any(|other| other.id == *id) {
+            if !ids.insert(id) {
                 return Err(EntryFlaw::Twice { id: id.clone() });
             }
             scale.map_or(Ok(()), |scale| check_scale(&format!("scale of {id}"), scale))?;
@@ -167,8 +158,8 @@ impl Study {
             same(&name("unit"), stated.unit.clone(), own.unit.clone())?;
         }
         let closed = |name: &str| declared.parameters.iter().find(|declared| declared.parameter.name == name);
-        let known = simulation.fixed.iter().filter_map(|(name, value)| Some((closed(name)?, value)));
-        known.into_iter().try_for_each(|(declared, value)| declared.parameter.check(value)).map_err(EntryFlaw::Fixed)
+        let check = |(name, value)| closed(name).map_or(Ok(()), |declared| declared.parameter.check(value));
+        simulation.fixed.iter().try_for_each(check).map_err(EntryFlaw::Fixed)
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) fn wrapped<B: DrawingBackend>(
     width: f64,
     most: usize,
 ) -> Lines<B> {
+    // A character is at least a pixel wide. To measure a text of millions of characters would take hours.
+    let text: String = text.chars().take(most * width as usize + 1).collect();
     let fits = |line: &str| area.estimate_text_size(line, style).map(|(found, _)| WIDER * f64::from(found) <= width);
     let (mut lines, mut line) = (Vec::new(), String::new());
     for word in text.split(' ') {
@@ -43,17 +45,17 @@ pub(super) fn wrapped<B: DrawingBackend>(
         }
         let all: Vec<char> = line.trim_end_matches(REST).chars().collect();
         let first = |count: usize| all[..count].iter().collect::<String>().trim_end().to_owned() + REST;
-        // The first `least` characters fit, and more than `most` do not.
-        let (mut least, mut most) = (0, all.len().saturating_sub(1));
-        while least < most {
-            let middle = least + (most - least).div_ceil(2);
+        // The first `low` characters fit, and more than `high` do not.
+        let (mut low, mut high) = (0, all.len().saturating_sub(1));
+        while low < high {
+            let middle = low + (high - low).div_ceil(2);
             if fits(&first(middle))? {
-                least = middle;
+                low = middle;
             } else {
-                most = middle - 1;
+                high = middle - 1;
             }
         }
-        *line = first(least);
+        *line = first(low);
     }
     Ok(lines)
 }

@@ -3,6 +3,7 @@
 use super::VariedCameras;
 use super::camera_file::{Flaw, parse};
 use paracosm_campaign::Error;
+use paracosm_campaign::files::read_text;
 use paracosm_engine::sensor::{CameraSetting, Cameras};
 use paracosm_render::camera_settings;
 use std::path::Path;
@@ -39,6 +40,6 @@ pub fn cameras_for_people() -> Cameras {
 /// Returns an error if the file cannot be read, is not TOML, or describes a camera that cannot be built. The error
 /// names the key and the line.
 pub fn read_cameras(path: &Path) -> Result<VariedCameras, Error> {
-    let text = paracosm_campaign::files::read_text(path)?;
+    let text = read_text(path)?;
     parse(&text).map_err(|Flaw { line, flaw }| Error::in_file(path, line, flaw))
 }

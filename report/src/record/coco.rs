@@ -3,6 +3,7 @@
 
 use super::{Rendering, Shot};
 use paracosm_campaign::Error;
+use paracosm_campaign::files::read_text;
 use paracosm_render::{Box2, Box3, Semantic, boxes};
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
@@ -97,7 +98,7 @@ pub(super) fn merge(top: &Path, tests: &[String], file: &mut impl Write) -> Resu
     let failed = |error: io::Error| Error::io("write", &top.join(ANNOTATIONS))(error);
     let read = |test: &String| -> Result<Annotations, Error> {
         let path = top.join(test).join(ANNOTATIONS);
-        let text = paracosm_campaign::files::read_text(&path)?;
+        let text = read_text(&path)?;
         serde_json::from_str(&text).map_err(|error| Error::in_file(&path, error.line(), error))
     };
     let mut lists = Lists { first: true, file };

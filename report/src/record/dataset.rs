@@ -7,7 +7,7 @@ use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
 use super::missing::Missing;
 use super::{Film, Inside, Projector, Rendering, Shot, VariedCameras};
-use paracosm_campaign::files::{Draft, write_whole_here};
+use paracosm_campaign::files::{Draft, read_text, write_whole_here};
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Camera, NoCamera, Stages, WantedImages, camera_settings};
@@ -155,7 +155,7 @@ impl Dataset {
         let mut recording = Recording { kept, colours, cameras: cameras.nominal().clone() };
         camera_settings().complete(&mut recording.cameras);
         if file.exists() {
-            let text = paracosm_campaign::files::read_text(&file)?;
+            let text = read_text(&file)?;
             let mut there: Recording =
                 serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
             // An older version did not write the settings that later versions added.
