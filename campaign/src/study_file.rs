@@ -36,7 +36,7 @@ pub struct StudyFile {
 
 /// The entries of the file, in their order. The subject is a scenario, or a system with its time-out.
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "the entries of a study")]
 struct Entries {
     format: u32,
     version: String,

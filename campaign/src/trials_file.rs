@@ -1,12 +1,12 @@
 //! Reads `trials.jsonl`, which has one trial per line.
 
+use crate::json_text::{JsonFlaw, read_json};
 use crate::study::Study;
 use crate::study_file::STUDY;
-use crate::trial::Line;
+use crate::trial::{Line, UnknownWord};
 use crate::{Error, Reason, Subject, Trial};
 use paracosm_oracles::Verdict;
-use paracosm_space::{SpaceError, did_you_mean, nearest};
-use serde::de::Error as _;
+use paracosm_space::{SpaceError, did_you_mean, nearest, plural};
 use std::collections::HashSet;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
@@ -26,7 +26,26 @@ pub enum LogFlaw {
     CarriageReturn,
     /// The line is not a trial in JSON.
     #[error("the line is not a trial: {0}")]
-    NoTrial(serde_json::Error),
+    NoTrial(JsonFlaw),
+    /// A word in the trial is not known.
+    #[error("the line is not a trial: {0}")]
+    Word(#[from] UnknownWord),
+    /// The trial lacks an error text, or has one beside a verdict without an error.
+    #[error("`verdict` is `{verdict}`, but `{entry}` is {}", if *is_there { "there" } else { "missing" })]
+    Problem {
+        /// The verdict of the trial.
+        verdict: Verdict,
+        /// The entry: `error` or `cause`.
+        entry: &'static str,
+        /// True if the line has the entry.
+        is_there: bool,
+    },
+    /// The log has more trials than the budget of the study.
+    #[error("found more trials than the budget of the study, which is {}", plural(*budget, "test"))]
+    Surplus {
+        /// The budget of the study.
+        budget: usize,
+    },
     /// The index of the trial does not match the number of the line.
     #[error("found trial {found}, expected trial {expected}")]
     Index {
@@ -98,17 +117,24 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: 
         log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
         let Some(text) = line.strip_suffix(b"\n") else { break };
         let index = found.trials.len();
+        let budget = study.sampling().budget;
+        if index >= budget {
+            return Err(Error::in_file(file, index + 1, LogFlaw::Surplus { budget }));
+        }
         let line_read = parse(text, index, hash).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
         let is_older = line_read.study().is_none();
         if index > 0 && is_older != found.is_older {
             return Err(Error::in_file(file, index + 1, LogFlaw::Mixed));
         }
         found.is_older = is_older;
-        let trial = Trial::try_from(line_read).map_err(|flaw| LogFlaw::NoTrial(serde_json::Error::custom(flaw)));
-        let trial = trial.and_then(|trial| {
+        let problem = line_read.contradiction();
+        let trial = Trial::try_from(line_read).map_err(LogFlaw::Word).and_then(|trial| {
             study.space().encode(&trial.test).map_err(LogFlaw::Test)?;
             agrees(&trial, study, &ids)?;
-            Ok(trial)
+            match problem {
+                Some((entry, is_there)) => Err(LogFlaw::Problem { verdict: trial.verdict, entry, is_there }),
+                None => Ok(trial),
+            }
         });
         trial.map_err(|flaw| Error::in_file(file, index + 1, flaw))?.append_to(&mut found.trials);
         found.bytes += line.len() as u64;
@@ -143,7 +169,8 @@ fn parse(line: &[u8], index: usize, study: &str) -> Result<Line, LogFlaw> {
     if line.ends_with('\r') {
         return Err(LogFlaw::CarriageReturn);
     }
-    let line: Line = serde_json::from_str(line).map_err(LogFlaw::NoTrial)?;
+    // The second reading, which is slower, finds the entry of an error.
+    let line: Line = serde_json::from_str(line).or_else(|_| read_json(line)).map_err(LogFlaw::NoTrial)?;
     if let Some(found) = line.study().filter(|found| *found != study) {
         return Err(LogFlaw::OtherStudy { found: found.to_owned(), expected: study.to_owned() });
     }

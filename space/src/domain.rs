@@ -17,16 +17,22 @@ pub enum Domain {
     Choice(Vec<Value>),
 }
 
+/// The greatest number of values that a message shows.
+const MOST_SHOWN: usize = 50;
+
 impl fmt::Display for Domain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Domain::Interval { lo, hi } => write!(f, "a number in [{lo}, {hi}]"),
             Domain::Choice(levels) => {
                 f.write_str("one of ")?;
-                for (i, level) in levels.iter().enumerate() {
+                for (i, level) in levels.iter().take(MOST_SHOWN).enumerate() {
                     write!(f, "{}{level}", if i == 0 { "" } else { ", " })?;
                 }
-                Ok(())
+                match levels.len().saturating_sub(MOST_SHOWN) {
+                    0 => Ok(()),
+                    others => write!(f, " and {others} other values"),
+                }
             }
         }
     }

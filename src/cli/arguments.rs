@@ -1,9 +1,10 @@
 //! Reads the arguments with clap, and explains in words for people that a number was expected.
 
-use super::complain;
+use super::{complain, output_error};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, Parser};
 use std::error::Error;
+use std::io::{self, Write};
 use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
 use std::process;
 
@@ -16,7 +17,17 @@ pub(super) fn parse<C: Parser>() -> C {
             complain(&format_args!("error: {message}\n\nFor more information, try '--help'."));
             process::exit(2)
         }
-        None => error.exit(),
+        None => {
+            // Help and the version go to the standard output, which may be full or closed.
+            let printed = error.print().and_then(|()| io::stdout().flush());
+            process::exit(match printed.map_err(output_error) {
+                Err(problem) if problem.kind() != io::ErrorKind::BrokenPipe => {
+                    complain(&format_args!("error: {problem}"));
+                    2
+                }
+                _ => error.exit_code(),
+            })
+        }
     })
 }
 

@@ -42,10 +42,14 @@ impl Target {
     /// slow work. `inputs` are the files that the command reads.
     ///
     /// # Errors
-    /// The file belongs to a campaign, is read by the command, or has another ending.
+    /// The file belongs to a campaign, is read by the command, or has another ending; or its folder does not exist.
     pub fn new(option: &str, path: &Path, kinds: &[FileKind], inputs: &[&Path]) -> Result<Self, Error> {
+        is_ours_to_write(option, path, inputs)?;
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending) else {
+        // A device or a pipe has no ending, and gets the first of the formats.
+        let is_special = fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
+        let usual = kinds.first().filter(|_| is_special);
+        let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending).or(usual) else {
             let known: Vec<_> = kinds.iter().map(|kind| kind.ending()).collect();
             let found = if ending.is_empty() { "no ending".to_owned() } else { format!("the ending `.{ending}`") };
             let (path, meant) = (path.display(), did_you_mean(&nearest(&ending, known.iter().copied())));
@@ -53,7 +57,7 @@ impl Target {
             let message = format!("{option} {path}: found {found}, expected {}{meant}", known.join(" or "));
             return Err(usage(message));
         };
-        is_ours_to_write(option, path, inputs)?;
+        has_folder(option, path)?;
         Ok(Self { path: path.to_owned(), kind: *kind })
     }
 
@@ -69,6 +73,19 @@ impl Target {
         write_whole(&self.path, &contents)?;
         let what = if self.kind == FileKind::Csv { "table" } else { "picture" };
         Ok(format!("{what} of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
+    }
+}
+
+/// Checks that the folder of an option's file exists. This check comes before all slow work.
+///
+/// # Errors
+/// The folder does not exist.
+pub(super) fn has_folder(option: &str, path: &Path) -> Result<(), Error> {
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        Some(folder) => {
+            Err(usage(format!("{option} {}: the folder {} does not exist", path.display(), folder.display())))
+        }
+        None => Ok(()),
     }
 }
 

@@ -143,13 +143,32 @@ fn exit(result: Result<Status, Failure>) -> ExitCode {
 
 /// Prints a message to standard error. A closed standard error is no error.
 fn complain(message: &impl Display) {
-    let _ = writeln!(io::stderr(), "{}", printable(&message.to_string()));
+    let text = message.to_string();
+    let lines = text.split('\n').map(shortened).collect::<Vec<_>>().join("\n");
+    let _ = writeln!(io::stderr(), "{}", printable(&lines));
+}
+
+/// The greatest number of characters in a line of a message.
+const LONGEST: usize = 4000;
+
+/// Returns a line of a message without its middle if the line is very long, since files of others may have values of
+/// millions of characters.
+fn shortened(line: &str) -> Cow<'_, str> {
+    let characters = line.chars().count();
+    if characters <= LONGEST {
+        return Cow::Borrowed(line);
+    }
+    let head: String = line.chars().take(LONGEST / 2).collect();
+    let tail: String = line.chars().skip(characters - LONGEST / 2).collect();
+    Cow::Owned(format!("{head} [{} characters are not shown] {tail}", characters - LONGEST))
 }
 
 /// Returns a text with its control characters escaped, except ends of lines and tabs. A file or a system of somebody
-/// else could otherwise write to any place of the terminal.
+/// else could otherwise write to any place of the terminal, or change the order in which its characters are shown.
 fn printable(text: &str) -> Cow<'_, str> {
-    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    let turns =
+        |c| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\t') || turns(c);
     if !text.contains(is_harmful) {
         return Cow::Borrowed(text);
     }

@@ -1,6 +1,6 @@
 //! `paracosm-fuzz replay`: runs a test of a campaign's log again, or the tests in regression files.
 
-use super::draw::{FileKind, Target, is_ours_to_write};
+use super::draw::{FileKind, Target, has_folder, is_ours_to_write};
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions, trust};
@@ -99,6 +99,7 @@ impl Options {
         for (option, file) in [("--trace", &self.trace), ("--camera", &self.camera)] {
             file.as_deref().map_or(Ok(()), |file| is_ours_to_write(option, file, &inputs))?;
         }
+        self.trace.as_deref().map_or(Ok(()), |file| has_folder("--trace", file))?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;
@@ -135,12 +136,12 @@ impl Options {
             };
             clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
+        self.write_trace(dir, &trial, trace.as_ref(), verbosity)?;
         if let Some(target) = &target {
             let caption =
                 format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
-        self.write_trace(dir, &trial, trace.as_ref(), verbosity)?;
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(study, &trial),
             Format::Json => json(&trial),
@@ -214,8 +215,8 @@ fn parse_index(index: &Path) -> Result<usize, Error> {
 pub(super) fn logged<'a>(dir: &Path, log: &'a Log, index: usize) -> Result<&'a Trial, Error> {
     log.trials().get(index).ok_or_else(|| {
         let count = log.trials().len();
-        let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
-        usage(format!("{} has no test {index}, expected {there}", dir.display()))
+        let there = if count == 0 { "it has no tests yet".to_owned() } else { format!("expected 0 to {}", count - 1) };
+        usage(format!("{} has no test {index}: {there}", dir.display()))
     })
 }
 

@@ -297,7 +297,11 @@ fn regression_files_tell_in_a_line_and_by_the_exit_status_what_became_of_them() 
         }
         file["trace_hash"] = Value::Null;
     });
-    edited("broken.json", &|file| file["study"]["fixed"]["wind"] = 1.0.into());
+    // An older version of the scenario had a parameter that it has no longer.
+    edited("broken.json", &|file| {
+        file["study"]["version"] = "0.0.1".into();
+        file["study"]["fixed"]["wind"] = 1.0.into();
+    });
     let replay = |files: &[&str]| fuzz(dir.path(), &[&["replay", "--format", "table"], files].concat());
     let mut told = String::new();
     for (files, status) in [

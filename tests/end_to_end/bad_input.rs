@@ -198,7 +198,7 @@ fn values_out_of_range_in_a_log_are_named_with_file_and_line() {
 }
 
 /// Entries of a `campaign.json`, wrong values for them, and words that the error has to have.
-const WRONG_ENTRIES: [(&str, &str, &[&str]); 24] = [
+const WRONG_ENTRIES: [(&str, &str, &[&str]); 33] = [
     ("/dt", "1e-12", &["`duration` is", "expected 1 to 10000000 ticks"]),
     ("/dt", "0.02", &["`dt` is 0.02 s, expected", "as in the scenario `pedestrian-crossing`"]),
     ("/dt", "\"x\"", &["`dt`: invalid type: string \"x\"", "line "]),
@@ -206,10 +206,10 @@ const WRONG_ENTRIES: [(&str, &str, &[&str]); 24] = [
     ("/timeout", "60.0", &["found the entry `timeout` beside `scenario`"]),
     ("/system", "\"./sut\"", &["found the entry `scenario` beside `system`"]),
     ("/requirements/0/scale", "\"x\"", &["`requirements[0].scale`: invalid type", "line "]),
-    ("/duration", "-5.0", &["`duration` is -5, expected a number of seconds above 0"]),
+    ("/duration", "-5.0", &["`duration` is -5.0, expected a number of seconds above 0"]),
     ("/duration", "1e300", &["`duration` is 1", "ticks"]),
     ("/durations", "5.0", &["unknown field `durations`", "`duration`"]),
-    ("/requirements/0/scale", "-1.0", &["`scale of no-collision` is -1", "expected a number above 0"]),
+    ("/requirements/0/scale", "-1.0", &["`scale of no-collision` is -1.0", "expected a number above 0"]),
     ("/requirements/0/scale", "3.5", &["`scale of requirement", "is 3.5, expected"]),
     ("/requirements/0/formula", "\"G (gap >= 5)\"", &["`formula of requirement", "(gap >= 5)", "as in the scenario"]),
     ("/requirements/0/formula", "\"G (gap >=\"", &["`G (gap >=`"]),
@@ -218,6 +218,19 @@ const WRONG_ENTRIES: [(&str, &str, &[&str]); 24] = [
     ("/requirements/0/weight", "3", &["unknown field `weight`"]),
     ("/requirements", "[]", &["the requirement `", "of the scenario `pedestrian-crossing` is missing"]),
     ("/fixed/friction", "100", &["`fixed`: ", "`friction`"]),
+    ("/fixed/frction", "0.5", &["`fixed`: scenario `pedestrian-crossing` has no parameter `frction`", "`friction`"]),
+    ("/fixed/speed", "5.0", &["`space`: parameter `speed` is set and opened"]),
+    (
+        "/space/parameter",
+        "[{\"name\": \"distance\", \"interval\": [5, 60], \"unit\": \"m\"}]",
+        &["the parameter `speed` of the scenario `pedestrian-crossing` is missing"],
+    ),
+    ("/space/parameter/0/name", "\"sped\"", &["`space`: scenario `pedestrian-crossing` has no parameter `sped`"]),
+    ("/space/parameter/0/interval", "[0.5, 1e9]", &["`space`: ", "`speed`", "1000000000"]),
+    ("/requirements/0/scale", "null", &["`scale of requirement no-collision` is nothing, expected"]),
+    ("/driver/name", "\"cnn\"", &["driver `cnn` is a network, but the entry `network` is missing"]),
+    ("/driver/settings/brking", "1.0", &["`driver`: driver `aeb` has no setting `brking`"]),
+    ("/driver/colour", "1.0", &["unknown field `colour`"]),
     ("/k", "1000000000", &["`k` is 1000000000, expected a number from 1 to"]),
     ("/epsilon", "-0.5", &["`epsilon` is -0.5"]),
     ("/budget", "0", &["the budget is 0, expected at least 1 test"]),
@@ -283,6 +296,13 @@ fn a_log_that_contradicts_itself_is_refused_with_the_line() {
             "\"robustness\":{\"no-collision\"",
             "\"robustness\":{\"no-colision\"",
             "no requirement `no-colision` (did you mean",
+        ),
+        ("\"error\":null", "\"error\":\"lost\"", "`verdict` is `fail`, but `error` is there"),
+        ("\"verdict\":\"fail\"", "\"verdict\":\"error\"", "`verdict` is `error`, but `error` is missing"),
+        (
+            "\"ticks\":",
+            "\"ticks\":\"a\",\"tock\":",
+            "`ticks`: invalid type: string \"a\", expected a whole number (column",
         ),
     ] {
         let changed = third.replacen(from, to, 1);

@@ -280,3 +280,37 @@ fn a_full_standard_output_is_named_by_generate() {
     let program = program.args(["generate", "--dims", "2", "--budget", "5"]).current_dir(dir.path()).stdout(full);
     refused(&program.output().unwrap(), &["cannot write to the standard output: No space left"]);
 }
+
+#[test]
+fn a_full_standard_output_is_named_by_the_help() {
+    for arguments in [&["--help"] as &[&str], &["--version"], &["replay", "--help"]] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+        let output = program.args(arguments).stdout(full).output().unwrap();
+        refused(&output, &["cannot write to the standard output: No space left"]);
+    }
+}
+
+#[test]
+fn a_picture_or_a_table_goes_to_a_device_in_the_first_format() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "4", "--out", "camp", "-q"]));
+    let map = succeeds(fuzz(dir.path(), &["map", "camp", "--out", "/dev/stdout", "--format", "json", "-q"]));
+    let text = String::from_utf8_lossy(&map.stdout);
+    assert!(text.starts_with("<svg"), "{}", text.chars().take(100).collect::<String>());
+    refused(&fuzz(dir.path(), &["trace", "camp", "--csv", "/dev/full"]), &["/dev/full", "No space left"]);
+    refused(&fuzz(dir.path(), &["describe", "t-loop", "--draw", "/dev/full"]), &["/dev/full", "No space left"]);
+}
+
+#[test]
+fn a_replay_into_a_folder_that_does_not_exist_leaves_no_drawing() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "camp", "-q"]));
+    for trace in ["nowhere/trace.csv", "/dev/full"] {
+        let replay = fuzz(dir.path(), &["replay", "camp", "1", "--draw", "run.svg", "--trace", trace]);
+        refused(&replay, &[trace]);
+        assert!(!dir.path().join("run.svg").exists(), "{trace}");
+    }
+    let out = fuzz(dir.path(), &["map", "camp", "--out", "nowhere/map.svg"]);
+    refused(&out, &["--out nowhere/map.svg: the folder nowhere does not exist"]);
+}

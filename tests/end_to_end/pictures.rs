@@ -94,7 +94,7 @@ fn a_picture_replaces_what_was_drawn_before_and_has_an_ending_that_is_known() {
         refused(&drawing("picture.jpg"), &["picture.jpg", "`.jpg`", "expected .svg or .png"]);
         refused(&drawing("picture.svgg"), &["`.svgg`", "svg"]);
         refused(&drawing("picture"), &["picture", "no ending", ".svg"]);
-        refused(&drawing("nowhere/picture.svg"), &["cannot write", "nowhere/picture.svg"]);
+        refused(&drawing("nowhere/picture.svg"), &["--draw nowhere/picture.svg", "the folder nowhere does not exist"]);
     }
     refused(&fuzz(dir.path(), &["describe", "--draw", "world.gif"]), &["`.gif`", "expected .svg or .png"]);
     fs::remove_file(dir.path().join("out/failure-map.svg")).unwrap();

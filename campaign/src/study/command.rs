@@ -16,8 +16,8 @@ pub struct NamedCommand<'a> {
 /// The error that a study that was read from a file names a command that the user does not trust.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "the file names the command `{command}`, which is not run unless you ask for it: if you know what the command does, add \
-     {option} {}, or --trust", shell_words::quote(.command)
+    "the file names the command `{}`, which is not run unless you ask for it: if you know what the command does, add \
+     {option} {}, or --trust", on_one_line(.command), on_one_line(&shell_words::quote(.command))
 )]
 pub struct Untrusted {
     /// The command.
@@ -33,6 +33,11 @@ pub struct Untrusted {
 pub struct UntrustedAddress {
     /// The address.
     pub address: String,
+}
+
+/// Returns a command with its line breaks escaped. A stranger's command could otherwise add lines to the message.
+fn on_one_line(command: &str) -> String {
+    command.replace('\n', "\\n").replace('\r', "\\r")
 }
 
 impl Reason for Untrusted {}

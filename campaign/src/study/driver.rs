@@ -59,6 +59,7 @@ pub enum Origin {
 
 /// A driver in the form of campaign.json.
 #[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a driver with its settings")]
 struct Written {
     name: String,
     settings: Record<f64>,
@@ -69,6 +70,7 @@ struct Written {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the origin of a driver with its time-out")]
 struct WrittenExternal {
     by: By,
     timeout: f64,
@@ -136,6 +138,12 @@ pub enum DriverFlaw {
         driver: String,
         /// The name of the setting.
         setting: String,
+    },
+    /// The file of a study names a network without its entry.
+    #[error("driver `{driver}` is a network, but the entry `network` is missing")]
+    NoNetwork {
+        /// The name of the driver.
+        driver: String,
     },
     /// A setting of a driver in an external process is out of range.
     #[error(
@@ -288,12 +296,24 @@ impl DriverChoice {
             Source::Own(Own(make)) => Ok(make()),
             Source::Network(network) => network.driver(&self.name),
             Source::Engine => {
-                let settings: Vec<_> = self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect();
-                let built = driver::find(&self.name).and_then(|found: &Descriptor| found.build(&settings));
+                let built = driver::find(&self.name).and_then(|found: &Descriptor| found.build(&self.changes()));
                 Ok(built.map_err(DriverFlaw::from)?)
             }
             Source::External(_) => Err(DriverFlaw::InAProcess { driver: self.name.clone() }.into()),
         }
+    }
+
+    /// Checks the settings of a choice that was read from a file, if the driver comes with the engine.
+    pub(super) fn check(&self) -> Result<(), DriverFlaw> {
+        let Ok(found) = driver::find(&self.name) else { return Ok(()) };
+        if matches!(self.source, Source::Engine) {
+            found.settings(&self.changes())?;
+        }
+        Ok(())
+    }
+
+    fn changes(&self) -> Vec<(String, f64)> {
+        self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect()
     }
 
     /// Returns the command that starts the driver; `None` if no command starts it.
@@ -347,6 +367,7 @@ impl TryFrom<Written> for DriverChoice {
                 within(&settings, &LATENCY)?;
                 Ok(Self { name, settings, source: Source::Network(network) })
             }
+            (None, None) if is_network(&name) => Err(DriverFlaw::NoNetwork { driver: name }),
             (None, None) => Ok(Self { name, settings, source: Source::Engine }),
         }
     }

@@ -1,11 +1,11 @@
 //! Checks a study that was read from a file, entry by entry: anybody may have changed the file.
 
-use super::{SamplingFlaw, Simulation, StatedRequirement, Study, Subject};
-use crate::Reason;
+use super::{DriverFlaw, FormulaFlaw, SamplingFlaw, Simulation, StatedRequirement, Study, Subject};
 use crate::black_box::{TimeoutFlaw, checked_timeout};
-use paracosm_space::{ParameterError, WordFlaw, word_flaw};
+use crate::{Error, Reason};
+use paracosm_space::{WordFlaw, word_flaw};
 use std::collections::HashSet;
-use std::fmt::Display;
+use std::fmt::Debug;
 use thiserror::Error;
 
 /// The greatest number of ticks of a test. With more ticks a single trace takes gigabytes.
@@ -77,9 +77,36 @@ pub enum EntryFlaw {
         /// The error in the id.
         flaw: WordFlaw,
     },
-    /// A fixed value does not fit its parameter.
-    #[error("`fixed`: {0}")]
-    Fixed(ParameterError),
+    /// A fixed value or an open parameter does not fit the scenario.
+    #[error("`{entry}`: {flaw}")]
+    Parameter {
+        /// The entry: `fixed` or `space`.
+        entry: &'static str,
+        /// The reason.
+        flaw: Box<Error>,
+    },
+    /// A parameter of the scenario is neither fixed nor open.
+    #[error("the parameter `{name}` of the scenario `{scenario}` is missing: `fixed` or `space` should have it")]
+    NoParameter {
+        /// The name of the parameter.
+        name: String,
+        /// The name of the scenario.
+        scenario: String,
+    },
+    /// A setting does not fit the driver.
+    #[error("`driver`: {0}")]
+    Driver(DriverFlaw),
+    /// A formula that a user has added cannot judge a trace of the scenario.
+    #[error("the formula of requirement {id}: {flaw}")]
+    Formula {
+        /// The id of the requirement.
+        id: String,
+        /// The reason.
+        flaw: Box<FormulaFlaw>,
+    },
+    /// The study does not agree with the program of its scenario.
+    #[error("{0} (the file or the scenario was changed after the campaign)")]
+    Changed(Box<EntryFlaw>),
     /// The budget or the batch is 0.
     #[error(transparent)]
     Sampling(#[from] SamplingFlaw),
@@ -91,8 +118,9 @@ pub enum EntryFlaw {
 impl Reason for EntryFlaw {}
 
 /// Checks that a number is in the range that `expected` describes.
-fn range(entry: &str, found: impl Display, is_right: bool, expected: &str) -> Result<(), EntryFlaw> {
-    let flaw = || EntryFlaw::Range { entry: entry.to_owned(), found: found.to_string(), expected: expected.to_owned() };
+fn range(entry: &str, found: impl Debug, is_right: bool, expected: &str) -> Result<(), EntryFlaw> {
+    let flaw =
+        || EntryFlaw::Range { entry: entry.to_owned(), found: format!("{found:?}"), expected: expected.to_owned() };
     if is_right { Ok(()) } else { Err(flaw()) }
 }
 
@@ -128,38 +156,6 @@ impl Study {
             scale.map_or(Ok(()), |scale| check_scale(&format!("scale of {id}"), scale))?;
         }
         Ok(())
-    }
-
-    /// Checks that a study which this version of the software wrote agrees with the program of its scenario. A study of
-    /// another version may differ, and a study without a program can be analysed but not run.
-    pub(crate) fn check_program(&self) -> Result<(), EntryFlaw> {
-        let Subject::Scenario(simulation) = &self.subject else { return Ok(()) };
-        // If the scenario cannot be declared, the first test reports the reason.
-        let declared = simulation.program().ok().and_then(|program| program.declare().ok());
-        let Some(declared) = declared.filter(|_| self.is_of_this_software()) else { return Ok(()) };
-        let same = |entry: &str, found: String, expected: String| {
-            if found == expected {
-                return Ok(());
-            }
-            let scenario = simulation.scenario.clone();
-            Err(EntryFlaw::Other { entry: entry.to_owned(), found, expected, scenario })
-        };
-        let seconds = |seconds: f64| format!("{seconds} s");
-        same("dt", seconds(simulation.dt), seconds(declared.dt))?;
-        same("duration", seconds(simulation.duration), seconds(declared.duration))?;
-        for own in declared.requirements.into_iter().map(StatedRequirement::from) {
-            let missing = || EntryFlaw::Missing { id: own.id.clone(), scenario: simulation.scenario.clone() };
-            let stated = self.requirement(&own.id).ok_or_else(missing)?;
-            let formula = |of: &StatedRequirement| of.formula.as_ref().map(ToString::to_string).unwrap_or_default();
-            let scale = |of: &StatedRequirement| of.scale.map(|scale| scale.to_string()).unwrap_or_default();
-            let name = |entry: &str| format!("{entry} of requirement {}", own.id);
-            same(&name("formula"), formula(stated), formula(&own))?;
-            same(&name("scale"), scale(stated), scale(&own))?;
-            same(&name("unit"), stated.unit.clone(), own.unit.clone())?;
-        }
-        let closed = |name: &str| declared.parameters.iter().find(|declared| declared.parameter.name == name);
-        let check = |(name, value)| closed(name).map_or(Ok(()), |declared| declared.parameter.check(value));
-        simulation.fixed.iter().try_for_each(check).map_err(EntryFlaw::Fixed)
     }
 }
 

@@ -4,6 +4,7 @@
 //! that a campaign learns are kept beside it. [`StudyFile`](crate::StudyFile) is its form in `campaign.json`.
 
 mod actors;
+mod agreement;
 mod appearance;
 mod builder;
 mod command;

@@ -85,26 +85,33 @@ pub(super) fn is_of_world(name: &str) -> bool {
 impl Study {
     /// Opens a parameter, so that tests vary it over its declared domain or over this part of it.
     pub(super) fn open(&mut self, name: &str, over: Option<&Domain>) -> Result<(), Error> {
-        let mut parameter = self.declared(name)?;
-        if let Some(domain) = over {
-            let ends = match domain {
-                Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
-                Domain::Choice(levels) => levels.clone(),
-            };
-            // If the ends of an interval are in the wrong order, that is reported before they are found to lie outside.
-            Space::new(vec![Parameter::new(name, domain.clone())])?;
-            for end in &ends {
-                parameter.check(end)?;
-            }
-            if matches!((&parameter.domain, domain), (Domain::Choice(_), Domain::Interval { .. })) {
-                return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
-            }
-            parameter.domain = domain.clone();
-            parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
-        }
+        let parameter = match over {
+            Some(domain) => self.over(name, domain)?,
+            None => self.declared(name)?,
+        };
         let fixed = &mut self.subject.scenario_mut()?.fixed;
         *fixed = fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
         self.rebuild(name, Some(parameter))
+    }
+
+    /// Returns a parameter of the scenario over a part of its domain.
+    pub(super) fn over(&self, name: &str, domain: &Domain) -> Result<Parameter, Error> {
+        let mut parameter = self.declared(name)?;
+        let ends = match domain {
+            Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
+            Domain::Choice(levels) => levels.clone(),
+        };
+        // If the ends of an interval are in the wrong order, that is reported before they are found to lie outside.
+        Space::new(vec![Parameter::new(name, domain.clone())])?;
+        for end in &ends {
+            parameter.check(end)?;
+        }
+        if matches!((&parameter.domain, domain), (Domain::Choice(_), Domain::Interval { .. })) {
+            return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
+        }
+        parameter.domain = domain.clone();
+        parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
+        Ok(parameter)
     }
 
     /// Lets an open parameter vary over time.
@@ -171,7 +178,7 @@ impl Study {
         Ok(())
     }
 
-    fn declared(&self, name: &str) -> Result<Parameter, Error> {
+    pub(super) fn declared(&self, name: &str) -> Result<Parameter, Error> {
         let simulation = self.subject.scenario()?;
         let declared = simulation.program()?.declare()?.parameters;
         let found = declared.iter().find(|declared| declared.parameter.name == name);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A requirement that every test of a study should satisfy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a requirement")]
 pub struct StatedRequirement {
     /// The id of the requirement, which is a short name.
     pub id: String,

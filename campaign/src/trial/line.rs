@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 /// The entries of a line, in their order.
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "the entries of a trial")]
 pub(crate) struct Line {
     index: usize,
     test: Values,
@@ -37,6 +37,16 @@ impl Line {
     /// Returns the index of the test.
     pub(crate) fn index(&self) -> usize {
         self.index
+    }
+
+    /// Returns the name of an entry that contradicts the verdict, and whether the entry is there: only a test without a
+    /// result has an error.
+    pub(crate) fn contradiction(&self) -> Option<(&'static str, bool)> {
+        let has_no_result = matches!(self.verdict, Verdict::Invalid | Verdict::Error);
+        if self.error.is_some() != has_no_result {
+            return Some(("error", self.error.is_some()));
+        }
+        (self.cause.is_some() && !has_no_result).then_some(("cause", true))
     }
 
     /// Returns the hash of the study to which the test belongs, if the line has it.

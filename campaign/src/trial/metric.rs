@@ -170,13 +170,16 @@ fn contact(metrics: &Record<Metric>) -> Result<Option<Contact>, UnknownWord> {
     }))
 }
 
-/// The word of a metric is not known to this version.
+/// The error that this version of the software does not know the word of a metric.
 #[derive(Debug, thiserror::Error)]
 #[error("metric `{metric}` is `{word}`, expected one of {}", expected.join(", "))]
-pub(crate) struct UnknownWord {
-    metric: &'static str,
-    word: String,
-    expected: Vec<String>,
+pub struct UnknownWord {
+    /// The name of the metric.
+    pub metric: &'static str,
+    /// The unknown word.
+    pub word: String,
+    /// The known words.
+    pub expected: Vec<String>,
 }
 
 /// Returns the value that a word means.

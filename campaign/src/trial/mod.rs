@@ -4,7 +4,7 @@ mod line;
 mod metric;
 
 pub(crate) use line::Line;
-pub use metric::Metric;
+pub use metric::{Metric, UnknownWord};
 
 use paracosm_engine::driver::FaultKind;
 use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation};
