@@ -149,9 +149,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         standing(Body::block(Class::Prop, 0.6, 0.8, 0.6), -1.2),
         standing(Body::block(Class::Prop, 0.5, 2.0, 1.0), -3.0),
     ];
-    let portraits: [(&str, &[BodyState], f64); 10] = [
+    let portraits: [(&str, &[BodyState], f64); 13] = [
         ("car", &[standing(Body::car().coloured([170, 30, 30]), 0.0)], 8.0),
         ("truck", &[standing(Body::truck(), 0.0)], 17.0),
+        ("van", &[standing(Body::van(), 0.0)], 11.0),
+        ("bus", &[standing(Body::bus(), 0.0)], 20.0),
+        ("motorcycle", &[standing(Body::motorcycle().coloured([30, 60, 150]), 0.0)], 4.0),
         ("bicycle", &[standing(Body::bicycle().coloured([20, 120, 60]), 0.0)], 4.0),
         ("pedestrian", &[standing(Body::adult(), 0.0)], 4.0),
         ("people", &people, 7.0),

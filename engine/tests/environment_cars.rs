@@ -1,7 +1,7 @@
 //! Environment cars in a scenario: what they can be told, what can be read of them, and what they stop for.
 
 use nalgebra::Vector2;
-use paracosm_engine::object::BodyState;
+use paracosm_engine::object::{BodyState, VehicleKind};
 use paracosm_engine::road::{RoadSegment, grid_city};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::vehicle::VehicleModel;
@@ -39,6 +39,36 @@ fn refusal(build: fn(&mut Scenario)) -> String {
 fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
     let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.ending.message()));
     trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
+}
+
+#[test]
+fn every_kind_of_vehicle_is_in_the_traffic_with_its_class_and_its_dimensions() {
+    let (seen, _) = run(|s| {
+        let road = road(s);
+        let place = |index: i32| road.streets().place_on("road", 1, 20.0 + 30.0 * f64::from(index)).unwrap();
+        let cars = vec![
+            TrafficCar::at(place(0)),
+            TrafficCar::van(place(1)),
+            TrafficCar::truck(place(2)),
+            TrafficCar::bus(place(3)),
+            TrafficCar::motorcycle(place(4)),
+            TrafficCar::bicycle(place(5)),
+        ];
+        s.place(EnvironmentCars::on(road.streets(), cars));
+        s.require("time", eventually(Stream::time().at_least(1.0)));
+    });
+    let kinds = [
+        VehicleKind::CAR,
+        VehicleKind::VAN,
+        VehicleKind::TRUCK,
+        VehicleKind::BUS,
+        VehicleKind::MOTORCYCLE,
+        VehicleKind::BICYCLE,
+    ];
+    for (state, kind) in seen[0].iter().zip(kinds) {
+        let half = state.body.outline.half_extent();
+        assert_eq!((state.body.class, [2.0 * half.x, 2.0 * half.y, state.body.height]), (kind.class, kind.size));
+    }
 }
 
 /// A road of 300 m with two lanes for each direction, on which the ego vehicle stands far away, the other way.

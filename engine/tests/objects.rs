@@ -72,7 +72,7 @@ fn the_car_collides_with_another_car_by_the_side_that_meets_it() {
     assert_eq!(outcome.verdict(), Verdict::Fail);
     // 40 m less the halves of both, at 8 m/s; what was missing is what stops 8 m/s.
     let clearance = signal(&outcome, "car.clearance");
-    assert!((clearance[0] - (40.0 - 5.0 - 2.254)).abs() < 1e-9);
+    assert!((clearance[0] - (40.0 - 5.05 - 2.254)).abs() < 1e-9);
     assert!((outcome.judgements[0].robustness.unwrap() + 64.0 / (2.0 * 0.8 * 9.80665)).abs() < 0.1);
     let measured = outcome.measured.as_ref().expect("it was run");
     let contact = measured.contact.as_ref().expect("they touch");

@@ -1,12 +1,12 @@
 //! The road of the paper's section 4.2.1: six lanes with all kinds of traffic. At a crossing a white truck passes from
 //! left to right while the ego vehicle approaches on the innermost lane.
 //!
-//! Cars, vans and lorries of different sizes and temperaments drive in both directions beside the ego vehicle. Cars and
-//! vans change lanes where they can, also into the lane of the ego vehicle. Lorries keep to the middle lanes, which
+//! Cars, vans and trucks of different sizes and temperaments drive in both directions beside the ego vehicle. Cars and
+//! vans change lanes where they can, also into the lane of the ego vehicle. Trucks keep to the middle lanes, which
 //! lead straight on.
 
 use crate::surroundings::{roadside, weather};
-use paracosm_engine::object::Colour;
+use paracosm_engine::object::{Body, Colour};
 use paracosm_engine::road::{CrossIntersection, RoadNetwork, RoadSegment};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario, Stream};
@@ -47,7 +47,7 @@ fn highway_traffic(s: &mut Scenario) {
     let [from, to] =
         [("north", -1, 25.0), ("south", 1, 140.0)].map(|(road, lane, at)| streets.place_on(road, lane, at));
     let crossing = from.zip(to).and_then(|(from, to)| ROADS.route(from, to, 0.0)).expect("the roads are longer");
-    let truck = TrafficCar::following(&crossing).size(10.0, 2.5).heedless().coloured(WHITE);
+    let truck = TrafficCar::following(&crossing).body(Body::truck()).heedless().coloured(WHITE);
     let seed = seed.value() as u64;
     let places = TRAFFIC.into_iter().flat_map(|(road, count)| {
         [-3, -2, 2, 3].into_iter().flat_map(move |lane| (0..count).map(move |i| (road, lane, i)))
@@ -56,7 +56,7 @@ fn highway_traffic(s: &mut Scenario) {
         let at = 30.0 + 40.0 * f64::from(i) + if lane % 2 == 0 { 0.0 } else { 15.0 };
         let start = streets.place_on(road, lane, at)?;
         let car = match (index as u64 + seed) % 3 {
-            0 if lane % 2 == 0 => TrafficCar::lorry(start),
+            0 if lane % 2 == 0 => TrafficCar::truck(start),
             0 => TrafficCar::van(start).changing_lanes(),
             _ => TrafficCar::at(start).changing_lanes(),
         };

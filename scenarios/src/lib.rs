@@ -20,9 +20,9 @@ mod roundabout_entry;
 mod surroundings;
 mod t_loop;
 
-use paracosm_engine::Program;
-use paracosm_engine::object::Body;
+use paracosm_engine::object::{Body, VehicleKind};
 use paracosm_engine::vehicle::Vehicle;
+use paracosm_engine::{Program, Scenario};
 
 /// All scenarios that this crate provides.
 pub const ALL: &[&Program] = &[
@@ -38,6 +38,7 @@ pub const ALL: &[&Program] = &[
     &ncap::CPFA,
     &ncap::CPNCO,
     &ncap::CCR,
+    &ncap::CCRB,
     &highway_traffic::PROGRAM,
 ];
 
@@ -47,7 +48,29 @@ const LANE: f64 = 3.5;
 /// Returns the distance in metres from the middle of the ego vehicle to the middle of a car ahead, whose bumpers are
 /// `gap` metres apart.
 fn middles(gap: f64) -> f64 {
-    gap + 0.5 * Vehicle::BMW_320I.length + Body::car().outline.half_extent().x
+    middles_to(&Body::car(), gap)
+}
+
+/// Returns the distance in metres from the middle of the ego vehicle to the middle of a body ahead, if `gap` metres lie
+/// between the front of the ego vehicle and the body.
+fn middles_to(body: &Body, gap: f64) -> f64 {
+    gap + 0.5 * Vehicle::BMW_320I.length + body.outline.half_extent().x
+}
+
+/// Returns the kind of vehicle that the level of a parameter names.
+///
+/// # Panics
+/// There is no such kind: the level of the scenario has a mistake in its name.
+fn kind(name: &str) -> &'static VehicleKind {
+    VehicleKind::ALL.iter().find(|kind| kind.name == name).expect("the level names a kind of vehicle")
+}
+
+/// Refuses a test in which a vehicle would move to the side faster than it drives, as the regulation's scenarios do. Both
+/// speeds are in m/s.
+fn checked_lateral(s: &mut Scenario, lateral: f64, speed: f64) {
+    if lateral >= speed {
+        s.refuse("the vehicle that changes lanes would move to the side faster than it drives");
+    }
 }
 
 /// Returns the scenario with the given name; `None` if the catalogue has no such scenario.

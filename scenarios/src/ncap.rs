@@ -1,4 +1,6 @@
-//! Tests of Euro NCAP's AEB protocols: crossing pedestrians (CPNA, CPFA, CPNCO) and cars ahead (CCR).
+//! Tests of Euro NCAP's AEB protocols of 2023: crossing pedestrians (CPNA, CPFA, CPNCO) and cars ahead (CCR).
+//!
+//! The speeds, overlaps, gaps and decelerations are those of the public files of the protocols (OSC-NCAP-scenarios).
 //!
 //! A pedestrian starts so that a car that does not brake hits the pedestrian with a given part of its front. `impact`
 //! is the place of the pedestrian's middle at that moment as a share of the car's width, counted from the side that the
@@ -21,12 +23,20 @@ pub(crate) const CPNCO: Program =
     Program::new("ncap-cpnco", "a child runs from behind parked cars at the near side (Euro NCAP CPNCO-50)", cpnco);
 pub(crate) const CCR: Program = Program::new(
     "ncap-ccr",
-    "the ego vehicle comes upon a car that stands, drives slowly or brakes (Euro NCAP CCRs, CCRm, CCRb)",
+    "the ego vehicle comes upon a car that stands or drives slowly (Euro NCAP CCRs and CCRm)",
     ccr,
 );
+pub(crate) const CCRB: Program =
+    Program::new("ncap-ccrb", "the ego vehicle follows a car that brakes (Euro NCAP CCRb)", ccrb);
 
 /// The time from the beginning to the impact, in seconds.
 const TIME: f64 = 6.0;
+/// The speed in m/s of a target that drives (CCRm).
+const SLOW: f64 = 20.0 / 3.6;
+/// The speed in m/s to which a target brakes (CCRb).
+const CRAWL: f64 = 2.0 / 3.6;
+/// The least speed of the ego vehicle in km/h with a target that drives.
+const SLOWEST_TO_MOVING: f64 = 30.0;
 /// The place where the ego vehicle starts, in metres along the road.
 const START: f64 = 10.0;
 
@@ -129,28 +139,41 @@ fn ccr(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 10.0..=80.0).unit("km/h").default(50.0);
     // The share of the ego vehicle's width that the target covers; for a negative share the target is to the right.
     let overlap = s.choice("overlap", [-50, -75, 100, 75, 50]).unit("%").default(100);
-    let target = s.choice("target", ["standing", "moving", "braking"]).default("standing");
-    let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");
-    let brake = s.nominal_choice("deceleration", [2, 6], 6).unit("m/s²");
+    let target = s.choice("target", ["standing", "moving"]).default("standing");
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let weather = later_weather(s);
 
+    let v = speed.value() / 3.6;
+    let slow = if target.value() == "moving" { SLOW } else { 0.0 };
+    if target.value() == "moving" && speed.value() < SLOWEST_TO_MOVING {
+        s.refuse("with a target that drives, the protocol begins at 30 km/h");
+    }
     s.place(weather.friction(friction));
     let road = s.place(RoadSegment::new(600.0));
-    let v = speed.value() / 3.6;
-    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
-    let slow = 20.0 / 3.6;
-    let (ahead, driven) = match target.value() {
-        "standing" => (v * TIME, Stream::constant(0.0)),
-        "moving" => ((v - slow) * TIME, Stream::constant(slow)),
-        _ => (f64::from(gap.value()), (v - (Stream::time() - 1.0).max(0.0) * f64::from(brake.value())).max(0.0)),
-    };
-    if ahead <= 0.0 {
-        s.refuse("the ego vehicle is not faster than the target, so it never reaches the target");
-    }
     let shifted = road.path(1).shifted(aside(f64::from(overlap.value()) / 100.0));
-    let start = START + middles(ahead.max(0.0));
-    s.place(Mover::car(shifted).named("target").starting(start).speed(driven));
+    let target = Mover::car(shifted).speed(slow);
+    behind(s, &road, v, target, ((v - slow) * TIME).max(0.0));
+}
+
+fn ccrb(s: &mut Scenario) {
+    let gap = s.interval("gap", 12.0..=40.0).unit("m").default(40.0);
+    let brake = s.interval("deceleration", 2.0..=6.0).unit("m/s²").default(6.0);
+    let speed = s.nominal("ego_speed", 30.0..=80.0, 50.0).unit("km/h");
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
+
+    let v = speed.value() / 3.6;
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(600.0));
+    let braking = (v - (Stream::time() - 1.0).max(0.0) * brake.value()).max(CRAWL);
+    behind(s, &road, v, Mover::car(road.path(1)).speed(braking), gap.value());
+}
+
+/// Places the ego vehicle with a speed in m/s on the first lane, the target `ahead` metres before it, and states the
+/// requirements.
+fn behind(s: &mut Scenario, road: &Road, speed: f64, target: Mover, ahead: f64) {
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(speed));
+    s.place(target.named("target").starting(START + middles(ahead)));
     roadside(s);
 
     s.duration(15.0);

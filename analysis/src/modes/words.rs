@@ -99,8 +99,8 @@ fn meeting(contact: &Touch, typical: &Trial) -> String {
         if with.starts_with(&class.to_string()) { format!("the {with}") } else { format!("the {class} `{with}`") };
     let goes = match class {
         Class::Pedestrian => "walks",
-        Class::Bicycle => "rides",
-        Class::Car | Class::Truck => "drives",
+        Class::Bicycle | Class::Motorcycle => "rides",
+        Class::Car | Class::Van | Class::Truck | Class::Bus => "drives",
         Class::Building | Class::Tree | Class::Sign | Class::Prop => "comes",
     };
     let side = match face {

@@ -21,13 +21,16 @@ fn standing(body: Body, y: f64, speed: f64) -> BodyState {
 }
 
 /// Things side by side, and from how far they are looked at.
-fn sitters() -> [(Vec<BodyState>, f64); 9] {
+fn sitters() -> [(Vec<BodyState>, f64); 12] {
     let disc = |class, width, height, y| standing(Body::disc(class, width, height), y, 0.0);
     let block =
         |class, [length, width, height]: [f64; 3], y| standing(Body::block(class, length, width, height), y, 0.0);
     [
         (vec![standing(Body::car().coloured([170, 30, 30]), 0.0, 0.0)], 7.0),
         (vec![standing(Body::truck(), 0.0, 0.0)], 15.0),
+        (vec![standing(Body::van(), 0.0, 0.0)], 9.5),
+        (vec![standing(Body::bus(), 0.0, 0.0)], 17.0),
+        (vec![standing(Body::motorcycle().coloured([30, 60, 150]), 0.0, 0.0)], 4.2),
         (
             vec![
                 standing(Body::bicycle().coloured([20, 120, 60]), 0.0, 4.0),

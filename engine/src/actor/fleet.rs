@@ -2,10 +2,10 @@
 
 use crate::flaw::{Flaws, WorldFlaw};
 use crate::geometry::{Pose, Side};
-use crate::object::{Body, Class, Geometric, Input, InputError, Output, Outputs, Tick, Wiring};
+use crate::object::{Class, Geometric, Input, InputError, Output, Outputs, Tick, Wiring};
 use crate::scenario::{Place, Scenario, Streets};
 use crate::stream::{Datum, Stream};
-use crate::traffic::{CarState, Obstacle, Traffic, TrafficCar};
+use crate::traffic::{Obstacle, Traffic, TrafficCar};
 use nalgebra::Vector2;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -105,12 +105,11 @@ impl Place for EnvironmentCars {
         let mut fleet = Fleet { name, count, sound: false, wiring, flaws, told: told.clone() };
         // The mistake in a network that cannot be built has been reported already.
         let Some(network) = self.streets.network() else { return fleet };
-        let colours: Vec<_> = self.cars.iter().map(|car| car.colour).collect();
+        let bodies: Vec<_> = self.cars.iter().map(|car| car.body).collect();
         match Traffic::new(network.clone(), self.cars, self.seed) {
             Ok(traffic) => {
-                for (car, colour) in traffic.cars().zip(colours) {
-                    let body = body(&car);
-                    draft.body(body.coloured(colour.unwrap_or(body.colour)), car.pose);
+                for (car, body) in traffic.cars().zip(bodies) {
+                    draft.body(body, car.pose);
                 }
                 draft.geometric(Driving { traffic, obstacles: Vec::new(), told });
                 fleet.sound = true;
@@ -119,16 +118,6 @@ impl Place for EnvironmentCars {
         }
         fleet
     }
-}
-
-/// Returns the body of a traffic car, by its size.
-fn body(car: &CarState) -> Body {
-    let usual = match (car.length, car.width) {
-        (length, _) if length > 7.0 => Body::truck(),
-        (_, width) if width < 1.0 => Body::bicycle(),
-        _ => Body::car(),
-    };
-    Body::block(usual.class, car.length, car.width, usual.height)
 }
 
 /// If a program asks for a car that does not exist, the mistake is reported when the world is built.

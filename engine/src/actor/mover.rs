@@ -1,4 +1,4 @@
-//! Cars, lorries, bicycles and people that move along a path, at the speed of their input.
+//! Vehicles of all kinds and people that move along a path, at the speed of their input.
 //!
 //! They do not react to others: the scenario says what they do. For traffic that drives itself see
 //! [`traffic`](crate::traffic).
@@ -71,6 +71,21 @@ impl Mover {
     /// Makes a lorry called `truck`.
     pub fn truck(path: Path) -> Self {
         Self::new("truck", Body::truck(), path)
+    }
+
+    /// Makes a panel van called `van`.
+    pub fn van(path: Path) -> Self {
+        Self::new("van", Body::van(), path)
+    }
+
+    /// Makes a city bus called `bus`.
+    pub fn bus(path: Path) -> Self {
+        Self::new("bus", Body::bus(), path)
+    }
+
+    /// Makes a motorcycle called `motorcycle`.
+    pub fn motorcycle(path: Path) -> Self {
+        Self::new("motorcycle", Body::motorcycle(), path)
     }
 
     /// Makes a bicycle called `bicycle`.

@@ -1,5 +1,6 @@
 //! The appearance of objects to others: their outline on the ground, height, class and colour.
 
+use super::VehicleKind;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::fmt;
@@ -9,8 +10,14 @@ use std::fmt;
 pub enum Class {
     /// A passenger car.
     Car,
-    /// A lorry or a bus.
+    /// A panel van.
+    Van,
+    /// A lorry.
     Truck,
+    /// A bus.
+    Bus,
+    /// A motorcycle with its rider.
+    Motorcycle,
     /// A bicycle with its rider.
     Bicycle,
     /// A person on foot.
@@ -27,14 +34,33 @@ pub enum Class {
 
 impl Class {
     /// All classes of bodies.
-    pub const ALL: [Self; 8] =
-        [Self::Car, Self::Truck, Self::Bicycle, Self::Pedestrian, Self::Building, Self::Tree, Self::Sign, Self::Prop];
+    pub const ALL: [Self; 11] = [
+        Self::Car,
+        Self::Van,
+        Self::Truck,
+        Self::Bus,
+        Self::Motorcycle,
+        Self::Bicycle,
+        Self::Pedestrian,
+        Self::Building,
+        Self::Tree,
+        Self::Sign,
+        Self::Prop,
+    ];
+
+    /// Returns `true` if bodies of this class take part in traffic. All other bodies are scenery or things.
+    pub fn is_road_user(self) -> bool {
+        !matches!(self, Self::Building | Self::Tree | Self::Sign | Self::Prop)
+    }
 
     /// Returns the colour that a body of this class has by default.
     fn usual_colour(self) -> Colour {
         match self {
             Class::Car => [150, 155, 160],
+            Class::Van => [225, 225, 220],
             Class::Truck => [60, 90, 140],
+            Class::Bus => [190, 45, 40],
+            Class::Motorcycle => [40, 40, 45],
             Class::Bicycle => [30, 30, 30],
             Class::Pedestrian => [70, 75, 110],
             Class::Building => [190, 175, 155],
@@ -49,7 +75,10 @@ impl fmt::Display for Class {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Class::Car => "car",
+            Class::Van => "van",
             Class::Truck => "truck",
+            Class::Bus => "bus",
+            Class::Motorcycle => "motorcycle",
             Class::Bicycle => "bicycle",
             Class::Pedestrian => "pedestrian",
             Class::Building => "building",
@@ -153,24 +182,45 @@ impl Body {
         Self::disc(Class::Pedestrian, 0.15, 1.15)
     }
 
+    /// Makes the body of a kind of vehicle.
+    pub fn of(kind: &VehicleKind) -> Self {
+        let [length, width, height] = kind.size;
+        Self::block(kind.class, length, width, height)
+    }
+
     /// Makes the body of a passenger car of middle size.
     pub fn car() -> Self {
-        Self::block(Class::Car, 4.5, 1.8, 1.45)
+        Self::of(&VehicleKind::CAR)
+    }
+
+    /// Makes the body of a panel van.
+    pub fn van() -> Self {
+        Self::of(&VehicleKind::VAN)
     }
 
     /// Makes the body of a lorry.
     pub fn truck() -> Self {
-        Self::block(Class::Truck, 10.0, 2.5, 3.5)
+        Self::of(&VehicleKind::TRUCK)
+    }
+
+    /// Makes the body of a city bus.
+    pub fn bus() -> Self {
+        Self::of(&VehicleKind::BUS)
+    }
+
+    /// Makes the body of a motorcycle with its rider.
+    pub fn motorcycle() -> Self {
+        Self::of(&VehicleKind::MOTORCYCLE)
     }
 
     /// Makes the body of a bicycle with its rider.
     pub fn bicycle() -> Self {
-        Self::block(Class::Bicycle, 1.8, 0.6, 1.75)
+        Self::of(&VehicleKind::BICYCLE)
     }
 
     /// Makes the body of a bicycle without a rider. Sensors recognise it by its lower height.
     pub fn parked_bicycle() -> Self {
-        Self::block(Class::Bicycle, 1.8, 0.6, 1.05)
+        Self::of(&VehicleKind::PARKED_BICYCLE)
     }
 
     /// Returns the same body in another colour.

@@ -62,9 +62,11 @@
 mod behaviour;
 mod body;
 mod footprint;
+mod vehicle_kind;
 mod wiring;
 
 pub use body::{Body, BodyState, Class, Colour, Outline};
+pub use vehicle_kind::VehicleKind;
 pub use wiring::{Input, Output, Outputs, Tick};
 
 pub(crate) use behaviour::{Behaviour, ObjectSetup};

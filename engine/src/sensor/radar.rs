@@ -178,7 +178,9 @@ impl Sensor for Radar {
 fn cross_section(class: Class) -> f64 {
     match class {
         Class::Car => 10.0,
-        Class::Truck => 50.0,
+        Class::Van => 20.0,
+        Class::Truck | Class::Bus => 50.0,
+        Class::Motorcycle => 5.0,
         Class::Bicycle => 2.0,
         Class::Pedestrian => 0.5,
         Class::Building => 100.0,

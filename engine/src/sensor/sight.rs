@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 
 /// Returns `true` if bodies of this class are large enough to hide other bodies.
 pub(crate) fn hides(class: Class) -> bool {
-    matches!(class, Class::Car | Class::Truck | Class::Building)
+    matches!(class, Class::Car | Class::Van | Class::Truck | Class::Bus | Class::Building)
 }
 
 /// Returns `true` if a large body other than the car (the first body) and `target` is between two places.

@@ -3,13 +3,11 @@
 use super::error::TrafficError;
 use super::idm::Idm;
 use super::map::Map;
-use crate::object::Colour;
+use crate::object::{Body, Colour, Outline};
 use crate::road::{LaneId, LaneKind, RoadNetwork, Route, RoutePosition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The length and width of a usual car, in metres.
-const SIZE: [f64; 2] = [4.5, 1.8];
 /// The desired speed in m/s by default: 50 km/h.
 const TOWN: f64 = 50.0 / 3.6;
 /// The number of arms after which a car without a route leaves a roundabout.
@@ -25,12 +23,10 @@ pub struct TrafficCar {
     pub(super) desired: f64,
     pub(super) speed: f64,
     pub(super) idm: Idm,
-    pub(super) length: f64,
-    pub(super) width: f64,
+    pub(crate) body: Body,
     pub(super) offset: f64,
     pub(super) changes_lanes: bool,
     pub(super) heedless: bool,
-    pub(crate) colour: Option<Colour>,
 }
 
 /// The way of a car: without a goal, along a route, or round and round.
@@ -42,7 +38,7 @@ pub(super) enum Way {
 }
 
 impl TrafficCar {
-    /// Makes a car of 4.5 m by 1.8 m that stands with its middle at `start`. It drives at 50 km/h on a free road and
+    /// Makes a passenger car that stands with its middle at `start`. It drives at 50 km/h on a free road and
     /// turns at random.
     pub fn at(start: RoutePosition) -> Self {
         Self {
@@ -51,12 +47,10 @@ impl TrafficCar {
             desired: TOWN,
             speed: 0.0,
             idm: Idm::default(),
-            length: SIZE[0],
-            width: SIZE[1],
+            body: Body::car(),
             offset: 0.0,
             changes_lanes: false,
             heedless: false,
-            colour: None,
         }
     }
 
@@ -105,12 +99,26 @@ impl TrafficCar {
         self
     }
 
-    /// Sets the length and width of the car in metres. A car larger than a van of 7 m by 2.3 m reaches into the
-    /// neighbouring lane in a turn: its middle stays on its lane, and its rear does not cut the corner.
-    pub fn size(mut self, length: f64, width: f64) -> Self {
-        self.length = length;
-        self.width = width;
+    /// Sets the body of the car: its class, its size and its colour. The outline of the body should be a rectangle.
+    pub fn body(mut self, body: Body) -> Self {
+        self.body = body;
         self
+    }
+
+    /// Sets the length and width of the car in metres. The class and the height stay. A vehicle larger than 7 m by
+    /// 2.3 m reaches into the neighbouring lane in a turn: its middle stays on its lane, and its rear does not cut the
+    /// corner.
+    pub fn size(mut self, length: f64, width: f64) -> Self {
+        self.body.outline = Outline::Rectangle { length, width };
+        self
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        2.0 * self.body.outline.half_extent().x
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        2.0 * self.body.outline.half_extent().y
     }
 
     /// Sets the distance in metres at which the car drives to the right of the middle of its lane.
@@ -134,7 +142,7 @@ impl TrafficCar {
 
     /// Sets the colour of the car as an object of a scenario, instead of the usual colour.
     pub fn coloured(mut self, colour: Colour) -> Self {
-        self.colour = Some(colour);
+        self.body.colour = colour;
         self
     }
 
@@ -148,9 +156,8 @@ impl TrafficCar {
     pub fn varied(self, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
         let mut near = |value: f64, share: f64| value * random.random_range(1.0 - share..=1.0 + share);
+        let (length, width) = (near(self.length(), 0.1), near(self.width(), 0.04));
         Self {
-            length: near(self.length, 0.1),
-            width: near(self.width, 0.04),
             desired: near(self.desired, 0.16),
             idm: Idm {
                 acceleration: near(self.idm.acceleration, 0.2),
@@ -159,25 +166,36 @@ impl TrafficCar {
                 gap: near(self.idm.gap, 0.2),
                 ..self.idm
             },
-            ..self
+            ..self.size(length, width)
         }
     }
 
-    /// Makes a van of 6 m by 2.1 m that starts at a place.
+    /// Makes a panel van that starts at a place.
     pub fn van(start: RoutePosition) -> Self {
-        Self::at(start).size(6.0, 2.1)
+        Self::at(start).body(Body::van())
     }
 
-    /// Makes a lorry of 10 m by 2.5 m for routes that lead straight on. It accelerates about half as fast as a car.
-    pub fn lorry(start: RoutePosition) -> Self {
+    /// Makes a lorry for routes that lead straight on. It accelerates about half as fast as a car.
+    pub fn truck(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, ..Idm::default() };
-        Self::at(start).size(10.0, 2.5).idm(idm)
+        Self::at(start).body(Body::truck()).idm(idm)
     }
 
-    /// Makes a bicycle, 1.8 m long, that drives at up to 5 m/s at the right of its lane.
+    /// Makes a city bus for routes that lead straight on. It accelerates at up to 1 m/s², since passengers stand.
+    pub fn bus(start: RoutePosition) -> Self {
+        let idm = Idm { acceleration: 1.0, ..Idm::default() };
+        Self::at(start).body(Body::bus()).idm(idm)
+    }
+
+    /// Makes a motorcycle that starts at a place.
+    pub fn motorcycle(start: RoutePosition) -> Self {
+        Self::at(start).body(Body::motorcycle())
+    }
+
+    /// Makes a bicycle that drives at up to 5 m/s at the right of its lane.
     pub fn bicycle(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, deceleration: 1.5, gap: 1.5, ..Idm::default() };
-        Self::at(start).size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0).idm(idm)
+        Self::at(start).body(Body::bicycle()).desired_speed(5.0).keeping_right(1.0).idm(idm)
     }
 
     /// Returns `count` cars at different random places on the roads of a network, or fewer cars if there is no more
@@ -227,8 +245,8 @@ impl TrafficCar {
             return Err(TrafficError::UnknownLane { car: index, lane: lane.index(), lanes });
         }
         number("place in metres along its lane", self.start.s, 0.0, map.length(self.start.lane))?;
-        number("length in metres", self.length, 0.1, 30.0)?;
-        number("width in metres", self.width, 0.1, map.network.lane(self.start.lane).width)?;
+        number("length in metres", self.length(), 0.1, 30.0)?;
+        number("width in metres", self.width(), 0.1, map.network.lane(self.start.lane).width)?;
         number("desired speed in m/s", self.desired, 0.0, 100.0)?;
         number("speed in m/s", self.speed, 0.0, 100.0)?;
         number("offset in metres to the right", -self.offset, -5.0, 5.0)?;

@@ -102,8 +102,8 @@ impl Car {
     pub fn new(car: &TrafficCar, index: usize, seed: u64) -> Self {
         let (itinerary, end) = Itinerary::of(car, index, seed);
         Self {
-            half: 0.5 * car.length,
-            width: car.width,
+            half: 0.5 * car.length(),
+            width: car.width(),
             idm: car.idm,
             braking: hardest_braking(f64::INFINITY),
             grip: 1.0,

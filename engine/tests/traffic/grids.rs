@@ -31,8 +31,8 @@ fn they_do_where_the_streets_are_half_full() {
 fn they_do_with_bicycles_and_vans_among_them() {
     let net = grid_city(4, 4, 80.0, 2).build().unwrap();
     let mixed = |index: usize, car: TrafficCar| match index % 4 {
-        0 => car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0),
-        1 => car.size(7.0, 2.3).desired_speed(11.0),
+        0 => car.body(Body::bicycle()).desired_speed(5.0).keeping_right(1.0),
+        1 => car.body(Body::van()).size(7.0, 2.3).desired_speed(11.0),
         _ => car,
     };
     let way = drive_on(&mut scattered(&net, 60, 6, mixed), 600.0, 60.0);

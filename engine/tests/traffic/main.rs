@@ -9,6 +9,7 @@ mod obstacles;
 mod orders;
 
 use nalgebra::Vector2;
+use paracosm_engine::object::Body;
 use paracosm_engine::road::{
     Composite, CrossIntersection, LaneKind, RoadNetwork, RoadSegment, Roundabout, Route, RoutePosition, TIntersection,
     grid_city,

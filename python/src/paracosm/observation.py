@@ -70,7 +70,7 @@ class Body:
 
     id: int
     kind: str
-    """car, truck, bicycle, pedestrian, building, tree, sign or prop."""
+    """car, van, truck, bus, motorcycle, bicycle, pedestrian, building, tree, sign or prop."""
     position: np.ndarray
     """(2,), metres, as seen from the car."""
     velocity: np.ndarray

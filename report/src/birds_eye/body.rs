@@ -22,15 +22,15 @@ const CROWN: f64 = 0.25;
 
 /// Returns `true` if bodies of this class move about. Pictures show the ground around them.
 pub(super) fn is_actor(class: Class) -> bool {
-    matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian)
+    class.is_road_user()
 }
 
 /// Returns the colour of a class of bodies.
 pub(super) fn class_colour(class: Class) -> Colour {
     match class {
         Class::Car => [0x56, 0xb4, 0xe9],
-        Class::Truck => [0x00, 0x72, 0xb2],
-        Class::Bicycle => [0xf0, 0xe4, 0x42],
+        Class::Van | Class::Truck | Class::Bus => [0x00, 0x72, 0xb2],
+        Class::Motorcycle | Class::Bicycle => [0xf0, 0xe4, 0x42],
         Class::Pedestrian => [0xcc, 0x79, 0xa7],
         Class::Building => [0xc2, 0xae, 0x90],
         Class::Tree => [0x00, 0x9e, 0x73],
@@ -74,7 +74,7 @@ pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share:
                 Contour::polygon(corners.map(|(x, y)| view.at(seen_from(pose, x * l, y * w))))
             };
             match class {
-                Class::Car => {
+                Class::Car | Class::Van => {
                     let hull = hull(view, pose, l, w);
                     vec![rim(&hull, 1.5), fill(hull, solid), fill(block(0.1, 0.42, 0.76), WINDOW)]
                 }
@@ -85,7 +85,7 @@ pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share:
                     vec![rim(&load, 1.5), rim(&cab, 1.5), fill(load, solid), fill(cab, solid), window]
                 }
                 // A frame, and the rider's shoulders across it.
-                Class::Bicycle => {
+                Class::Motorcycle | Class::Bicycle => {
                     let (frame, rider) = (block(-1.0, 1.0, 0.3), hull(view, &turned(pose), w, 0.35 * w));
                     vec![rim(&frame, 1.5), rim(&rider, 1.5), fill(frame, solid), fill(rider, solid)]
                 }

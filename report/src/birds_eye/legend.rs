@@ -121,8 +121,9 @@ fn swatch_width(entry: &Entry) -> f64 {
 fn shown(body: &Body) -> Body {
     match body.class {
         Class::Car => Body::car(),
-        Class::Truck => Body::block(Class::Truck, 7.0, 2.2, 3.0),
-        Class::Bicycle => Body::block(Class::Bicycle, 2.8, 1.6, 1.7),
+        Class::Van => Body::van(),
+        class @ (Class::Truck | Class::Bus) => Body::block(class, 7.0, 2.2, 3.0),
+        class @ (Class::Motorcycle | Class::Bicycle) => Body::block(class, 2.8, 1.6, 1.7),
         Class::Pedestrian => Body::disc(Class::Pedestrian, 0.8, 1.8),
         Class::Building => Body::block(Class::Building, 4.5, 3.0, 3.0),
         Class::Tree => Body::disc(Class::Tree, 0.3, 7.0),

@@ -167,13 +167,12 @@ impl Film {
         Self { shots: self.shots.iter().map(sample).collect(), ..self.clone() }
     }
 
-    /// Gives random colours to all cars, trucks, bicycles and pedestrians except the ego vehicle. The colours follow
+    /// Gives random colours to all road users except the ego vehicle. The colours follow
     /// from the seed and the test. They should not matter to a driver.
     pub fn repaint(&mut self, seed: u64, trial: usize) {
-        let painted = |class| matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian);
         for shot in self.shots.iter_mut().flatten() {
             for (index, state) in shot.moment.bodies.iter_mut().enumerate().skip(1) {
-                if painted(state.body.class) {
+                if state.body.class.is_road_user() {
                     let mut chance = Chance::of(seed, &format!("colour of body {index}"), trial as u64);
                     state.body.colour = [0; 3].map(|_: u8| chance.between(0.0, 256.0) as u8);
                 }

@@ -78,8 +78,11 @@ fn load(file: &str, class: Class) -> Result<(String, Arc<Model>), ModelFlaw> {
 
 fn semantic(class: Class) -> Semantic {
     match class {
-        Class::Car => Semantic::Car,
+        // CARLA has no class for vans. Cityscapes counts them among the cars.
+        Class::Car | Class::Van => Semantic::Car,
         Class::Truck => Semantic::Truck,
+        Class::Bus => Semantic::Bus,
+        Class::Motorcycle => Semantic::Motorcycle,
         Class::Bicycle => Semantic::Bicycle,
         Class::Pedestrian => Semantic::Pedestrian,
         Class::Building => Semantic::Building,

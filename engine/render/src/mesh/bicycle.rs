@@ -6,10 +6,10 @@ use super::{Mesh, Semantic, SurfaceKind};
 
 /// Length, width and height of the model in metres, equal to the size of
 /// [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
-pub(crate) const SIZE: [f32; 3] = [1.8, 0.6, 1.75];
+pub(crate) const SIZE: [f32; 3] = [1.89, 0.5, 1.865];
 
 /// The size of a parked bicycle: that of [`Body::parked_bicycle`](paracosm_engine::object::Body::parked_bicycle).
-pub(crate) const PARKED: [f32; 3] = [1.8, 0.6, 1.05];
+pub(crate) const PARKED: [f32; 3] = [1.89, 0.5, 1.2];
 
 const WHEEL: f32 = 0.34;
 const FRONT: [f32; 3] = [0.56, 0.0, WHEEL];

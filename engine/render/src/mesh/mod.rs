@@ -1,15 +1,18 @@
 //! The shapes of objects: triangles with normals, texture coordinates and surface kinds.
 
 pub(crate) mod bicycle;
+pub(crate) mod bus;
 pub(crate) mod car;
 pub(crate) mod clay;
 mod colours;
 pub(crate) mod furniture;
 pub(crate) mod house;
 pub(crate) mod models;
+pub(crate) mod motorcycle;
 pub(crate) mod person;
 mod plant;
 pub(crate) mod truck;
+pub(crate) mod van;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

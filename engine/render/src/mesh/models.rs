@@ -2,7 +2,7 @@
 
 use super::furniture::{self, Plate};
 use super::house::Plan;
-use super::{Mesh, bicycle, car, person, plant, truck};
+use super::{Mesh, bicycle, bus, car, motorcycle, person, plant, truck, van};
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -10,7 +10,10 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 /// The built-in shapes.
 pub(crate) struct Models {
     pub car: Arc<Mesh>,
+    pub van: Arc<Mesh>,
     pub truck: Arc<Mesh>,
+    pub bus: Arc<Mesh>,
+    pub motorcycle: Arc<Mesh>,
     pub bicycle: Arc<Mesh>,
     pub parked_bicycle: Arc<Mesh>,
     pub adult: Arc<Mesh>,
@@ -49,7 +52,10 @@ impl Models {
     fn new() -> Self {
         Self {
             car: car::car().into(),
+            van: van::van().into(),
             truck: truck::truck().into(),
+            bus: bus::bus().into(),
+            motorcycle: motorcycle::motorcycle().into(),
             bicycle: bicycle::bicycle().into(),
             parked_bicycle: bicycle::parked().into(),
             adult: person::trunk(1.0).into(),

@@ -1,6 +1,6 @@
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::furniture::{self, Plate};
-use super::{Mesh, Semantic, SurfaceKind, bicycle, car, house, person, plant, truck};
+use super::{Mesh, Semantic, SurfaceKind, bicycle, bus, car, house, motorcycle, person, plant, truck, van};
 use std::collections::BTreeMap;
 
 fn plain() -> Matter {
@@ -22,7 +22,10 @@ fn all() -> Vec<(String, Mesh)> {
     let plates = [Plate::Limit, Plate::GiveWay, Plate::Stop, Plate::Hint];
     let named = [
         ("car", car::car()),
+        ("van", van::van()),
         ("truck", truck::truck()),
+        ("bus", bus::bus()),
+        ("motorcycle", motorcycle::motorcycle()),
         ("bicycle", bicycle::bicycle()),
         ("adult", person::trunk(1.0)),
         ("child", person::trunk(1.3)),
@@ -87,7 +90,10 @@ fn vehicles_houses_and_things_fill_their_boxes_and_stand_on_the_ground() {
     let one = [1.0; 3];
     let mut boxes = vec![
         (car::car(), car::SIZE),
+        (van::van(), van::SIZE),
         (truck::truck(), truck::SIZE),
+        (bus::bus(), bus::SIZE),
+        (motorcycle::motorcycle(), motorcycle::SIZE),
         (bicycle::bicycle(), bicycle::SIZE),
         (furniture::cone(), one),
         (furniture::barrel(), one),
@@ -107,7 +113,7 @@ fn vehicles_houses_and_things_fill_their_boxes_and_stand_on_the_ground() {
 
 #[test]
 fn the_wheels_of_vehicles_touch_the_ground() {
-    for (mesh, rings) in [(car::car(), 4), (truck::truck(), 6)] {
+    for (mesh, rings) in [(car::car(), 4), (van::van(), 4), (truck::truck(), 6), (bus::bus(), 4)] {
         let lowest = mesh.vertices().iter().filter(|vertex| vertex.position[2] < 0.01);
         let mut feet: Vec<[i32; 2]> =
             lowest.map(|vertex| [vertex.position[0].round() as i32, vertex.position[1].signum() as i32]).collect();
@@ -213,7 +219,10 @@ fn there_are_few_enough_triangles_to_draw_many() {
     let limbs = 2 * (count(&person::arm(1.0)) + count(&person::thigh()) + count(&person::shin()));
     for (what, found) in [
         ("car", count(&car::car())),
+        ("van", count(&van::van())),
         ("truck", count(&truck::truck())),
+        ("bus", count(&bus::bus())),
+        ("motorcycle", count(&motorcycle::motorcycle())),
         ("bicycle", count(&bicycle::bicycle())),
         ("person", count(&person::trunk(1.0)) + limbs),
     ] {

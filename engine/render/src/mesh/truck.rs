@@ -5,7 +5,7 @@ use super::colours::{BLACK, GLASS, GREY, LAMP, RED, RUBBER, STEEL, WHITE};
 use super::{Mesh, Semantic, SurfaceKind};
 
 /// Length, width and height of the model in metres: those of [`Body::truck`](paracosm_engine::object::Body::truck).
-pub(crate) const SIZE: [f32; 3] = [10.0, 2.5, 3.5];
+pub(crate) const SIZE: [f32; 3] = [10.1, 2.5, 3.8];
 
 const AXLES: [f32; 3] = [3.85, -2.5, -3.8];
 const WHEEL: f32 = 0.52;

@@ -7,7 +7,7 @@ mod gait;
 
 use super::Instance;
 use crate::mesh::models::{Models, linear};
-use crate::mesh::{Mesh, bicycle, car, furniture, house, truck};
+use crate::mesh::{Mesh, bicycle, bus, car, furniture, house, motorcycle, truck, van};
 use gait::walker;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use paracosm_engine::object::{Body, BodyState, Class, Outline};
@@ -62,7 +62,10 @@ impl<'a> Figure<'a> {
         let models = Models::shared();
         match self.state.body.class {
             Class::Car => scene.push(self.stretched(&models.car, car::SIZE)),
+            Class::Van => scene.push(self.stretched(&models.van, van::SIZE)),
             Class::Truck => scene.push(self.stretched(&models.truck, truck::SIZE)),
+            Class::Bus => scene.push(self.stretched(&models.bus, bus::SIZE)),
+            Class::Motorcycle => scene.push(self.stretched(&models.motorcycle, motorcycle::SIZE)),
             Class::Bicycle if self.size[2] < RIDDEN => {
                 scene.push(self.stretched(&models.parked_bicycle, bicycle::PARKED));
             }

@@ -5,18 +5,6 @@ use nalgebra::Vector2;
 use paracosm_engine::object::{Class, Outline};
 use paracosm_engine::{Ahead, Observation, Other, Pose, Way};
 
-/// All classes of bodies. The protocol sends their names.
-const CLASSES: [Class; 8] = [
-    Class::Car,
-    Class::Truck,
-    Class::Bicycle,
-    Class::Pedestrian,
-    Class::Building,
-    Class::Tree,
-    Class::Sign,
-    Class::Prop,
-];
-
 /// Reads an observation from a step. A field that is missing in the step is 0.
 pub fn read(step: &Step, observation: &mut Observation) {
     (observation.time, observation.speed, observation.travelled) = (step.time, step.speed, step.travelled);
@@ -40,7 +28,8 @@ impl From<&WireOther> for Other {
             Some(other::Outline::Radius(radius)) => Outline::Disc { radius },
             None => Outline::Disc { radius: 0.0 },
         };
-        let class = CLASSES.into_iter().find(|class| class.to_string() == other.class);
+        // The protocol sends the names of the classes.
+        let class = Class::ALL.into_iter().find(|class| class.to_string() == other.class);
         Self {
             id: other.id as usize,
             class: class.unwrap_or(Class::Prop),

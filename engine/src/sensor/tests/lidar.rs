@@ -1,5 +1,5 @@
 use super::*;
-use crate::object::Outline;
+use crate::object::{Outline, VehicleKind};
 use crate::sensor::{Chance, Lidar, LidarSettings, Mount, Scan, Sensor};
 use nalgebra::Vector3;
 use parry3d::query::{Ray, RayCast};
@@ -203,6 +203,31 @@ fn what_one_beam_hits_does_not_shift_the_noise_of_the_others() {
     assert!(seen.iter().all(|point| behind.contains(point)));
     assert_eq!(with, scan(settings, &world), "the same chance is the same scan");
     assert_ne!(with, scan_by_chance(settings, &world, 1));
+}
+
+#[test]
+fn a_vehicle_is_as_high_and_as_wide_for_a_lidar_as_its_kind_is() {
+    // 200 channels from 20 degrees below the horizon to 20 above: at 10 m, 3.5 cm between two of them.
+    let settings = LidarSettings { channels: 200, lowest: -0.35, highest: 0.35, columns: 4000, ..exact() };
+    for kind in VehicleKind::ALL {
+        let [length, width, height] = kind.size;
+        let rear = 10.0;
+        let world =
+            World::of(pose(0.0, 0.0, 0.0)).with(Body::of(&kind), pose(rear + 0.5 * length, 0.0, 0.0), Vector2::zeros());
+        let mount = settings.mount.position;
+        let points: Vec<_> = scan(settings, &world)
+            .points
+            .into_iter()
+            .filter(|point| point.id == 2)
+            .map(|point| point.position.cast::<f64>() + Vector3::new(mount.x, mount.y, mount.z))
+            .filter(|point| (point.x - rear).abs() < 1e-3)
+            .collect();
+        let most = |of: fn(&Vector3<f64>) -> f64| points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let top = height - most(|point| point.z);
+        let side = 0.5 * width - most(|point| point.y);
+        assert!((-1e-6..0.06).contains(&top), "{}: {top} m below the roof", kind.name);
+        assert!((-1e-6..0.03).contains(&side), "{}: {side} m inside of the left side", kind.name);
+    }
 }
 
 #[test]
