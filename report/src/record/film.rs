@@ -3,7 +3,6 @@
 use paracosm_campaign::reasons::ModelFlaw;
 use paracosm_campaign::study::Appearances;
 use paracosm_campaign::{Error, Reason, Study, Trial, Worker};
-use paracosm_engine::object::Class;
 use paracosm_engine::sensor::{Cameras, Chance, Moment, Sample, SensorError, Shutters};
 use paracosm_engine::{Control, Run};
 use paracosm_oracles::Verdict;

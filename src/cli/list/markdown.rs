@@ -4,6 +4,7 @@ use super::{ListKind, key, scenario_words};
 use crate::Lists;
 use crate::cli::Failure;
 use crate::cli::output::digits;
+use crate::engine::object::VehicleKind;
 use std::fmt::Write;
 
 /// The lists of these kinds, each under a heading.
@@ -20,7 +21,10 @@ pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Fail
             writeln!(text, "| `{name}` | {about} |")?;
         }
         match kind {
-            ListKind::Scenarios => parameters(lists, &mut text)?,
+            ListKind::Scenarios => {
+                parameters(lists, &mut text)?;
+                vehicles(&mut text)?;
+            }
             ListKind::Drivers => settings(lists, &mut text)?,
             ListKind::Cameras => cameras(lists, &mut text)?,
             ListKind::Strategies | ListKind::Measures | ListKind::Sensors => {}
@@ -50,6 +54,16 @@ fn parameters(lists: &Lists, text: &mut String) -> Result<(), Failure> {
             let [name, domain, unit, nominal] = scenario_words(declared);
             writeln!(text, "| `{}` | `{name}` | {domain} | {unit} | {nominal} |", program.name())?;
         }
+    }
+    Ok(())
+}
+
+fn vehicles(text: &mut String) -> Result<(), Failure> {
+    text.push_str("\n| vehicle | class | length, m | width, m | height, m | source of the dimensions |\n");
+    text.push_str("| --- | --- | --- | --- | --- | --- |\n");
+    for kind in VehicleKind::ALL {
+        let (name, class, [length, width, height], source) = (kind.name, kind.class, kind.size, kind.source);
+        writeln!(text, "| {name} | {class} | {length} | {width} | {height} | {source} |")?;
     }
     Ok(())
 }
