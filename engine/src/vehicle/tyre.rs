@@ -25,6 +25,11 @@ impl Tyre {
         }
     }
 
+    /// Returns the ratio of `theta` to the slip.
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
     /// Returns the side force in newtons at a slip (the tangent of the slip angle), and the force's derivative with
     /// respect to the slip. The force acts against the slip.
     pub fn side_force(&self, slip: f64) -> (f64, f64) {
