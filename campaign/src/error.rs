@@ -176,6 +176,7 @@ mod below {
     impl Reason for paracosm_engine::ProgramError {}
     impl Reason for paracosm_engine::sensor::SensorError {}
     impl Reason for paracosm_engine::vehicle::UnknownModel {}
+    impl Reason for paracosm_engine::vehicle::VehicleSettingFlaw {}
     impl Reason for paracosm_generators::GeneratorError {}
     impl Reason for paracosm_oracles::EvaluationError {}
     impl Reason for paracosm_oracles::ParseError {}

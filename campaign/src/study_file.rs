@@ -6,7 +6,7 @@ use crate::study::{
     check_scale,
 };
 use crate::{BlackBox, Catalogue, Extension, ExtensionRecord, Learned, Reason};
-use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::vehicle::{Resistance, VehicleModel, VehicleSetup};
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
 use paracosm_space::{Space, Values};
 use serde::{Deserialize, Serialize};
@@ -45,6 +45,8 @@ struct Entries {
     scenario: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     vehicle: Option<VehicleModel>,
+    #[serde(skip_serializing_if = "Resistance::is_none", default)]
+    resistance: Resistance,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     fixed: Option<Values>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -204,7 +206,7 @@ impl Entries {
             must_not("timeout", of, self.timeout.is_some())?;
             return Ok(Subject::Scenario(Box::new(Simulation {
                 scenario: self.scenario.take().ok_or(EntryFlaw::NoSubject)?,
-                vehicle: must("vehicle", of, self.vehicle)?,
+                vehicle: VehicleSetup { model: must("vehicle", of, self.vehicle)?, resistance: self.resistance },
                 fixed: must("fixed", of, self.fixed.take())?,
                 driver: must("driver", of, self.driver.take())?,
                 appearances: mem::take(&mut self.models),
@@ -216,6 +218,7 @@ impl Entries {
         };
         must_not("scenario", of, self.scenario.is_some())?;
         must_not("vehicle", of, self.vehicle.is_some())?;
+        must_not("resistance", of, !self.resistance.is_none())?;
         must_not("fixed", of, self.fixed.is_some())?;
         must_not("driver", of, self.driver.is_some())?;
         must_not("models", of, !self.models.is_empty())?;
@@ -230,7 +233,8 @@ impl Entries {
         match subject.clone() {
             Subject::Scenario(simulation) => Self {
                 scenario: Some(simulation.scenario),
-                vehicle: Some(simulation.vehicle),
+                vehicle: Some(simulation.vehicle.model),
+                resistance: simulation.vehicle.resistance,
                 fixed: Some(simulation.fixed),
                 driver: Some(simulation.driver),
                 models: simulation.appearances,
@@ -298,6 +302,7 @@ impl From<StudyFile> for Entries {
             target: made_by.target,
             scenario: None,
             vehicle: None,
+            resistance: Resistance::default(),
             fixed: None,
             driver: None,
             models: Appearances::default(),

@@ -15,7 +15,7 @@ use paracosm_space::Values;
 /// Runs a program in which the ego vehicle only rolls: the bodies of the others tick by tick, and how it ended.
 fn run(build: fn(&mut Scenario)) -> (Vec<Vec<BodyState>>, Outcome) {
     let program = Program::new("environment-cars", "environment cars", build);
-    let setup = Setup { model: VehicleModel::SingleTrack, ..Setup::asking_every(0.01) };
+    let setup = Setup { vehicle: VehicleModel::SingleTrack.into(), ..Setup::asking_every(0.01) };
     let mut run = Run::new(&program, &Values::default(), setup).unwrap_or_else(|error| panic!("{error}"));
     let mut seen = Vec::new();
     loop {

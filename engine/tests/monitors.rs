@@ -11,7 +11,7 @@ use paracosm_space::Values;
 /// Runs a program with throttle and steering over time.
 fn drive(build: fn(&mut Scenario), control: impl Fn(f64) -> (f64, f64)) -> Outcome {
     let program = Program::new("monitors", "monitors", build);
-    let setup = Setup { model: VehicleModel::SingleTrack, ..Setup::asking_every(0.01) };
+    let setup = Setup { vehicle: VehicleModel::SingleTrack.into(), ..Setup::asking_every(0.01) };
     let mut run = Run::new(&program, &Values::default(), setup).unwrap_or_else(|error| panic!("{error}"));
     loop {
         let time = match run.advance() {

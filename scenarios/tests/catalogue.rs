@@ -85,7 +85,7 @@ fn the_same_test_has_the_same_trace_in_every_run_and_on_every_thread() {
 fn in_turns(program: &Program, tests: &[Values], model: VehicleModel) -> Vec<Option<String>> {
     let kind = driver::find("aeb").unwrap();
     let mut drivers: Vec<_> = tests.iter().map(|_| kind.build(&[]).unwrap()).collect();
-    let setup = Setup { model, ..Setup::asking_every(drivers[0].period()) };
+    let setup = Setup { vehicle: model.into(), ..Setup::asking_every(drivers[0].period()) };
     let mut runs: Vec<_> = tests.iter().map(|test| Run::new(program, test, setup).ok()).collect();
     let mut hashes = vec![None; tests.len()];
     for (run, driver) in runs.iter().zip(&mut drivers) {

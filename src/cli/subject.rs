@@ -24,7 +24,8 @@ pub(super) struct Subject {
     /// per-tick, constant
     #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
     open: Vec<String>,
-    /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver: driver.NAME=VALUE
+    /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver or of the car:
+    /// driver.NAME=VALUE, vehicle.NAME=VALUE, vehicle=jointed
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// The driver under test: a name of `paracosm-fuzz list drivers`; `grpc://HOST:PORT` for a driver that listens
@@ -87,18 +88,18 @@ impl Subject {
         };
         for text in &self.set {
             let (name, value) = text.split_once('=').ok_or_else(|| {
-                usage(format!("--set {text}: expected NAME=VALUE, driver.NAME=VALUE or vehicle=MODEL"))
+                usage(format!(
+                    "--set {text}: expected NAME=VALUE, driver.NAME=VALUE, vehicle.NAME=VALUE or vehicle=MODEL"
+                ))
             })?;
-            study = match name.strip_prefix("driver.") {
-                None if name == "vehicle" => study.vehicle(VehicleModel::find(value)?),
-                None if value.contains(',') => study.fix(name, value.split(',').map(Value::parse).collect::<Value>()),
-                None => study.fix(name, Value::parse(value)),
-                Some(setting) => {
-                    let number = value.parse();
-                    let number =
-                        number.map_err(|_| usage(format!("--set {text}: found `{value}`, expected a number")))?;
-                    study.set_driver(setting, number)
-                }
+            let number =
+                || value.parse().map_err(|_| usage(format!("--set {text}: found `{value}`, expected a number")));
+            study = match name.split_once('.') {
+                Some(("driver", setting)) => study.set_driver(setting, number()?),
+                Some(("vehicle", setting)) => study.set_vehicle(setting, number()?),
+                _ if name == "vehicle" => study.vehicle(VehicleModel::find(value)?),
+                _ if value.contains(',') => study.fix(name, value.split(',').map(Value::parse).collect::<Value>()),
+                _ => study.fix(name, Value::parse(value)),
             };
         }
         for text in &self.open {

@@ -198,7 +198,7 @@ fn values_out_of_range_in_a_log_are_named_with_file_and_line() {
 }
 
 /// Entries of a `campaign.json`, wrong values for them, and words that the error has to have.
-const WRONG_ENTRIES: [(&str, &str, &[&str]); 33] = [
+const WRONG_ENTRIES: [(&str, &str, &[&str]); 35] = [
     ("/dt", "1e-12", &["`duration` is", "expected 1 to 10000000 ticks"]),
     ("/dt", "0.02", &["`dt` is 0.02 s, expected", "as in the scenario `pedestrian-crossing`"]),
     ("/dt", "\"x\"", &["`dt`: invalid type: string \"x\"", "line "]),
@@ -231,6 +231,8 @@ const WRONG_ENTRIES: [(&str, &str, &[&str]); 33] = [
     ("/driver/name", "\"cnn\"", &["driver `cnn` is a network, but the entry `network` is missing"]),
     ("/driver/settings/brking", "1.0", &["`driver`: driver `aeb` has no setting `brking`"]),
     ("/driver/colour", "1.0", &["unknown field `colour`"]),
+    ("/resistance", "{\"rolling\": 0.5}", &["`resistance`: vehicle.rolling is 0.5, expected a number from 0 to 0.1"]),
+    ("/resistance", "{\"drag\": 0.5}", &["unknown field `drag`", "`drag_area`"]),
     ("/k", "1000000000", &["`k` is 1000000000, expected a number from 1 to"]),
     ("/epsilon", "-0.5", &["`epsilon` is -0.5"]),
     ("/budget", "0", &["the budget is 0, expected at least 1 test"]),

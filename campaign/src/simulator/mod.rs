@@ -14,7 +14,7 @@ use crate::executor::Desk;
 use crate::study::{Appearances, Simulation};
 use crate::{Error, Problem};
 use paracosm_engine::sensor::{Cameras, Shutters};
-use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use paracosm_space::{Space, Values};
 use ride::{Ride, is_broken};
@@ -25,7 +25,7 @@ use std::sync::atomic::AtomicBool;
 /// A simulator of a scenario, with drivers and with a darkroom that draws the camera images for the drivers.
 pub struct Simulator<'a> {
     program: Program,
-    model: VehicleModel,
+    vehicle: VehicleSetup,
     drivers: Drivers<'a>,
     appearances: Appearances,
     darkroom: Option<Arc<Darkroom>>,
@@ -47,14 +47,14 @@ impl<'a> Simulator<'a> {
         Ok(Self { appearances: simulation.appearances().clone(), ..simulator })
     }
 
-    /// Makes a simulator of a program, in which these drivers drive a car that this model moves.
-    fn with(program: Program, model: VehicleModel, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
-        Self { program, model, drivers, appearances: Appearances::default(), darkroom }
+    /// Makes a simulator of a program, in which these drivers drive a car that moves by this setup.
+    fn with(program: Program, vehicle: VehicleSetup, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
+        Self { program, vehicle, drivers, appearances: Appearances::default(), darkroom }
     }
 
     /// Begins a test.
     fn begin(&mut self, place: usize, test: Test<'_>) -> Ride {
-        Ride::begin(place, &self.program, test, self.model, self.drivers.hire())
+        Ride::begin(place, &self.program, test, self.vehicle, self.drivers.hire())
     }
 
     /// Prepares a driver, and opens a darkroom if the driver uses cameras.

@@ -5,7 +5,7 @@ use crate::drivers::NoDriver;
 use crate::{Problem, ProblemKind};
 use paracosm_engine::driver::Driver;
 use paracosm_engine::sensor::{Image, Shutters};
-use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use paracosm_oracles::Verdict;
 use std::any::Any;
@@ -33,14 +33,14 @@ impl Ride {
         place: usize,
         program: &Program,
         test: Test<'_>,
-        model: VehicleModel,
+        vehicle: VehicleSetup,
         driver: Result<Box<dyn Driver>, NoDriver>,
     ) -> Self {
         let mut ride = Self { place, driver: None, run: None, images: Vec::new(), asked: false, outcome: None };
         match driver {
             Ok(driver) => {
                 let driver = ride.driver.insert(driver).as_mut();
-                let seated = || Run::seated(program, test, model, driver);
+                let seated = || Run::seated(program, test, vehicle, driver);
                 match catch_unwind(AssertUnwindSafe(seated)) {
                     Ok(Ok(run)) => ride.run = Some(run),
                     Ok(Err(outcome)) => ride.outcome = Some(Ok(*outcome)),

@@ -207,13 +207,13 @@ fn a_driver_that_breaks_breaks_its_own_test_alone() {
     let outcomes = |at_once: usize| {
         let lane_camera = || find("lane-camera").and_then(|kind| kind.build(&[])).expect("it comes with the engine");
         let make = || -> Result<Box<dyn Driver>, NoDriver> { Ok(Box::new(Fragile(lane_camera()))) };
-        let mut first = Simulator::with(QUIET, VehicleModel::default(), Drivers::made_by(make), None);
+        let mut first = Simulator::with(QUIET, VehicleSetup::default(), Drivers::made_by(make), None);
         first.start().unwrap();
         let darkroom = first.darkroom().cloned();
         let mut outcomes = Vec::new();
         let work = |desk: &Desk<Result<Outcome, Problem>>| {
             let mut simulator =
-                Simulator::with(QUIET, VehicleModel::default(), Drivers::made_by(make), darkroom.clone());
+                Simulator::with(QUIET, VehicleSetup::default(), Drivers::made_by(make), darkroom.clone());
             let test = |i: usize| tests[i].clone();
             simulator.run_in_lockstep(desk, at_once, (&test, study.space()), || false, |_, outcome| outcome);
         };
@@ -240,7 +240,7 @@ fn a_driver_that_breaks_breaks_its_own_test_alone() {
 fn where_nothing_draws_a_driver_that_sees_ends_its_test_with_an_error() {
     let mut driver = find("lane-camera").unwrap().build(&[]).unwrap();
     let test = QUIET.declare().unwrap().nominal();
-    let outcome = simulate(&QUIET, &test, VehicleModel::default(), driver.as_mut());
+    let outcome = simulate(&QUIET, &test, VehicleSetup::default(), driver.as_mut());
     assert_eq!(outcome.verdict(), Verdict::Error);
     assert!(outcome.ending.message().unwrap().contains("camera `front`"));
 }

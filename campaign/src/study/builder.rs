@@ -35,6 +35,7 @@ use std::path::{Path, PathBuf};
 pub struct StudyBuilder {
     subject: Wanted,
     vehicle: Option<VehicleModel>,
+    resistance: Vec<(String, f64)>,
     driver: Option<Wish>,
     driver_settings: Vec<(String, f64)>,
     driver_timeout: Option<f64>,
@@ -75,6 +76,7 @@ impl StudyBuilder {
         Self {
             subject,
             vehicle: None,
+            resistance: Vec::new(),
             driver: None,
             driver_settings: Vec::new(),
             driver_timeout: None,
@@ -128,6 +130,15 @@ impl StudyBuilder {
     /// Sets the vehicle model that computes the motion of the ego vehicle.
     pub fn vehicle(mut self, model: VehicleModel) -> Self {
         self.vehicle = Some(model);
+        self
+    }
+
+    /// Sets a resistance against the motion of the ego vehicle by its name in [`Resistance::SETTINGS`]. There are no
+    /// resistances by default.
+    ///
+    /// [`Resistance::SETTINGS`]: paracosm_engine::vehicle::Resistance::SETTINGS
+    pub fn set_vehicle(mut self, setting: &str, value: f64) -> Self {
+        self.resistance.push((setting.to_owned(), value));
         self
     }
 
@@ -249,7 +260,10 @@ impl StudyBuilder {
             simulation.driver = DriverChoice::new(&wish, settings, timeout, &simulation.scenario)?;
         }
         if let Some(model) = self.vehicle {
-            study.subject.scenario_mut()?.vehicle = model;
+            study.subject.scenario_mut()?.vehicle.model = model;
+        }
+        for (setting, value) in &self.resistance {
+            study.subject.scenario_mut()?.vehicle.resistance.set(setting, *value)?;
         }
         self.open_and_fix(&mut study)?;
         for (i, (name, distribution)) in self.distributions.iter().enumerate() {

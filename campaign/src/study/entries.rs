@@ -3,6 +3,7 @@
 use super::{DriverFlaw, FormulaFlaw, SamplingFlaw, Simulation, StatedRequirement, Study, Subject};
 use crate::black_box::{TimeoutFlaw, checked_timeout};
 use crate::{Error, Reason};
+use paracosm_engine::vehicle::VehicleSettingFlaw;
 use paracosm_space::{WordFlaw, word_flaw};
 use std::collections::HashSet;
 use std::fmt::Debug;
@@ -107,6 +108,9 @@ pub enum EntryFlaw {
     /// The study does not agree with the program of its scenario.
     #[error("{0} (the file or the scenario was changed after the campaign)")]
     Changed(Box<EntryFlaw>),
+    /// A resistance of the vehicle is out of range.
+    #[error("`resistance`: {0}")]
+    Resistance(#[from] VehicleSettingFlaw),
     /// The budget or the batch is 0.
     #[error(transparent)]
     Sampling(#[from] SamplingFlaw),
@@ -137,7 +141,7 @@ impl Study {
     /// Checks the entries of a study that was read from a file, without its program.
     pub(crate) fn check_entries(&self) -> Result<(), EntryFlaw> {
         match &self.subject {
-            Subject::Scenario(simulation) => simulation.check_times()?,
+            Subject::Scenario(simulation) => simulation.check_numbers()?,
             Subject::System(system) => drop(checked_timeout(Some(system.timeout))?),
         }
         let sampling = &self.sampling;
@@ -160,7 +164,8 @@ impl Study {
 }
 
 impl Simulation {
-    fn check_times(&self) -> Result<(), EntryFlaw> {
+    fn check_numbers(&self) -> Result<(), EntryFlaw> {
+        self.vehicle.resistance.check()?;
         let Self { dt, duration, .. } = *self;
         range("dt", dt, is_positive(dt), "a number of seconds above 0")?;
         range("duration", duration, is_positive(duration), "a number of seconds above 0")?;

@@ -170,7 +170,7 @@ impl Study {
     pub fn signals(&self) -> Result<Option<Vec<String>>, Error> {
         let Subject::Scenario(simulation) = &self.subject else { return Ok(None) };
         let (program, values) = (simulation.program()?, self.nominal()?);
-        let setup = Setup { model: simulation.vehicle(), ..Setup::asking_every(simulation.dt()) };
+        let setup = Setup { vehicle: simulation.vehicle(), ..Setup::asking_every(simulation.dt()) };
         Ok(Some(Run::new(program, Test::new(&values, &self.space), setup)?.signals().to_vec()))
     }
 

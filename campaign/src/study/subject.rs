@@ -2,7 +2,7 @@
 
 use super::{Appearances, DriverChoice, StatedRequirement};
 use crate::{BlackBox, Catalogue, Error, Reason};
-use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Declaration, Program};
 use paracosm_space::{Space, Values};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub enum Subject {
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(crate) scenario: String,
-    pub(crate) vehicle: VehicleModel,
+    pub(crate) vehicle: VehicleSetup,
     pub(crate) fixed: Values,
     pub(crate) driver: DriverChoice,
     pub(crate) appearances: Appearances,
@@ -116,7 +116,7 @@ impl Simulation {
         let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
         let simulation = Self {
             scenario: program.name().to_owned(),
-            vehicle: VehicleModel::default(),
+            vehicle: VehicleSetup::default(),
             fixed: fixed.collect(),
             driver: DriverChoice::usual(),
             appearances: Appearances::default(),
@@ -134,8 +134,8 @@ impl Simulation {
         &self.scenario
     }
 
-    /// Returns the vehicle model that computes the motion of the ego vehicle.
-    pub fn vehicle(&self) -> VehicleModel {
+    /// Returns the model that computes the motion of the ego vehicle, with the resistances against the motion.
+    pub fn vehicle(&self) -> VehicleSetup {
         self.vehicle
     }
 

@@ -11,7 +11,7 @@ use crate::program::{Program, ProgramError};
 use crate::scenario::ticks;
 use crate::sensor::{Image, Shutters};
 use crate::test::Test;
-use crate::vehicle::VehicleModel;
+use crate::vehicle::VehicleSetup;
 
 impl Run {
     /// Makes the run of a test with the given vehicle model, and [seats](Self::seat) the driver in the car.
@@ -21,10 +21,11 @@ impl Run {
     pub fn seated<'a>(
         program: &Program,
         test: impl Into<Test<'a>>,
-        model: VehicleModel,
+        vehicle: impl Into<VehicleSetup>,
         driver: &mut dyn Driver,
     ) -> Result<Self, Box<Outcome>> {
-        let mut run = match Self::new(program, test, Setup { model, ..Setup::asking_every(driver.period()) }) {
+        let setup = Setup { vehicle: vehicle.into(), ..Setup::asking_every(driver.period()) };
+        let mut run = match Self::new(program, test, setup) {
             Ok(run) => run,
             Err(error @ ProgramError::World { .. }) => return Err(Box::new(Outcome::broken(Invalid::World(error)))),
             Err(error) => return Err(Box::new(Outcome::broken(Breakdown::Program(error)))),
@@ -106,21 +107,21 @@ impl Run {
 pub fn simulate<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,
-    model: VehicleModel,
+    vehicle: impl Into<VehicleSetup>,
     driver: &mut dyn Driver,
 ) -> Outcome {
-    watch(program, test, model, driver, |_| ())
+    watch(program, test, vehicle, driver, |_| ())
 }
 
 /// Simulates a test like [`simulate`], and calls `see` at each question to the driver and at the end.
 pub fn watch<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,
-    model: VehicleModel,
+    vehicle: impl Into<VehicleSetup>,
     driver: &mut dyn Driver,
     see: impl FnMut(&Run),
 ) -> Outcome {
-    match Run::seated(program, test, model, driver) {
+    match Run::seated(program, test, vehicle, driver) {
         Ok(mut run) => run.finish(driver, see),
         Err(outcome) => *outcome,
     }

@@ -24,7 +24,7 @@ use crate::scenario::ticks;
 use crate::stream::{Clock, Graph, Slot};
 use crate::test::Test;
 use crate::upset::Upset;
-use crate::vehicle::VehicleModel;
+use crate::vehicle::VehicleSetup;
 use crate::weather::Weather;
 use paracosm_oracles::{Requirement, Semantics, Trace, Truth};
 use scene::Scene;
@@ -39,8 +39,8 @@ pub struct Setup {
     pub period: f64,
     /// The duration of a tick in seconds; `None` for the tick of the program.
     pub dt: Option<f64>,
-    /// The model that moves the ego vehicle.
-    pub model: VehicleModel,
+    /// The model that moves the ego vehicle, and the resistances against the motion.
+    pub vehicle: VehicleSetup,
 }
 
 /// The state of a paused run, which either needs a control or is over.
@@ -124,7 +124,7 @@ impl Run {
         }
         let (ticks, key) = (ticks(scenario.duration, dt), scenario.key.get());
         let beginning = scenario.beginning();
-        let mut scene = Scene::new(scenario, &graph, setup.model);
+        let mut scene = Scene::new(scenario, &graph, setup.vehicle);
         let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
         let overlap = scene.overlapping().map(Outcome::broken);
         let upset = begun.err().map(|cause| Outcome::broken(Breakdown::World { cause, time: 0.0 }));
@@ -325,8 +325,9 @@ impl Run {
 }
 
 impl Setup {
-    /// Makes a setup with a question every `period` seconds, the program's tick and the vehicle model `single-track`.
+    /// Makes a setup with a question every `period` seconds, the program's tick, the vehicle model `single-track` and no
+    /// resistances.
     pub fn asking_every(period: f64) -> Self {
-        Self { period, dt: None, model: VehicleModel::default() }
+        Self { period, dt: None, vehicle: VehicleSetup::default() }
     }
 }

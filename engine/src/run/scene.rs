@@ -8,7 +8,7 @@ use crate::scenario::Ego;
 use crate::scenario::Scenario;
 use crate::stream::{Clock, DatumSample, Graph, Slot};
 use crate::upset::Upset;
-use crate::vehicle::{GRAVITY, VehicleModel};
+use crate::vehicle::{GRAVITY, VehicleSetup};
 use crate::weather::{Weather, WeatherPart};
 use crate::world::{Touching, World, overlapping};
 use nalgebra::Vector2;
@@ -55,11 +55,11 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Makes the scene of a program that has been built and laid out, with the given vehicle model.
-    pub fn new(mut scenario: Scenario, graph: &Graph, model: VehicleModel) -> Self {
+    /// Makes the scene of a program that has been built and laid out, with the given setup of the ego vehicle.
+    pub fn new(mut scenario: Scenario, graph: &Graph, vehicle: VehicleSetup) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
         let weather: Vec<_> = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
-        let ego = Ego::new(&scenario.cars[0], model);
+        let ego = Ego::new(&scenario.cars[0], vehicle);
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
         let mut objects = Vec::new();

@@ -6,8 +6,8 @@
 //!
 //! The force of a tyre is at most `mu N`, and acceleration shifts load between the axles (`N_f = m (g l_r - a h) / L`,
 //! `N_r = m (g l_f + a h) / L`). The brakes act on all wheels in proportion to their loads, as a stability control
-//! does, so that the whole car decelerates at up to `mu g`. The engine acts on the driven wheels. There is neither drag
-//! nor rolling resistance, and no reverse gear.
+//! does, so that the whole car decelerates at up to `mu g`. The engine acts on the driven wheels. There is no reverse
+//! gear. Drag and rolling resistance are settings ([`Resistance`]), and are off unless a study sets them.
 //!
 //! The quality of the models, which the tests of this module check (with a [`Vehicle::BMW_320I`], steps of 2 to 10 ms):
 //!
@@ -32,6 +32,7 @@ mod flaw;
 mod jointed;
 mod motion;
 mod parameters;
+mod setup;
 mod single_track;
 mod tyre;
 
@@ -39,6 +40,7 @@ pub use flaw::VehicleFlaw;
 pub use jointed::Jointed;
 pub use motion::Motion;
 pub use parameters::{Drive, Vehicle};
+pub use setup::{Resistance, VehicleSetting, VehicleSettingFlaw, VehicleSetup};
 pub use single_track::SingleTrack;
 
 use crate::geometry::Pose;
@@ -138,14 +140,27 @@ impl VehicleModel {
         Self::ALL.into_iter().find(|model| model.name() == name).ok_or_else(|| UnknownModel { name: name.to_owned() })
     }
 
-    /// Makes a car with this motion model. Its middle has the pose `start`, and it goes straight ahead at `speed` m/s.
+    /// Makes a car with this motion model and without resistances. Its middle has the pose `start`, and it goes straight
+    /// ahead at `speed` m/s.
     ///
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
-        match self {
-            VehicleModel::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed)),
-            VehicleModel::Jointed => Box::new(Jointed::new(vehicle, start, speed)),
+        VehicleSetup::from(self).build(vehicle, start, speed)
+    }
+}
+
+impl VehicleSetup {
+    /// Makes a car with this model and these resistances. Its middle has the pose `start`, and it goes straight ahead at
+    /// `speed` m/s.
+    ///
+    /// # Panics
+    /// The vehicle has a [`Vehicle::flaw`].
+    pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
+        let resistance = self.resistance;
+        match self.model {
+            VehicleModel::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed).against(resistance)),
+            VehicleModel::Jointed => Box::new(Jointed::new(vehicle, start, speed).against(resistance)),
         }
     }
 }

@@ -11,7 +11,7 @@
 //! Below [`SLOW`] the side force of a tyre is viscous, and a sliding car comes to rest.
 
 use super::tyre::Tyre;
-use super::{Drive, Dynamics, Motion, Pedals, Vehicle, VehicleState, Wheel};
+use super::{Drive, Dynamics, Motion, Pedals, Resistance, Vehicle, VehicleState, Wheel};
 use crate::geometry::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -30,6 +30,7 @@ pub struct SingleTrack {
     /// The last inputs: the throttle, and the friction of the road.
     throttle: f64,
     friction: f64,
+    resistance: Resistance,
     straight: Straight,
 }
 
@@ -65,7 +66,13 @@ impl SingleTrack {
     /// The vehicle has a [`Vehicle::flaw`].
     pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
         let state = VehicleState::new(start, speed);
-        Self { vehicle: vehicle.checked(), straight: Straight::from(&state), state, throttle: 0.0, friction: 0.0 }
+        let (straight, resistance) = (Straight::from(&state), Resistance::default());
+        Self { vehicle: vehicle.checked(), straight, state, throttle: 0.0, friction: 0.0, resistance }
+    }
+
+    /// Returns the same car with resistances against its motion.
+    pub fn against(self, resistance: Resistance) -> Self {
+        Self { resistance, ..self }
     }
 
     /// Returns `true` if the car goes straight ahead and will continue to do so.
@@ -79,15 +86,20 @@ impl SingleTrack {
     }
 
     fn go_straight(&mut self, dt: f64) {
+        let speed = self.state.velocity.x;
+        let demand = self.vehicle.acceleration(self.throttle, speed, self.friction) - self.slowed(speed);
         let state = &mut self.state;
-        let speed = state.velocity.x;
-        let demand = self.vehicle.acceleration(self.throttle, speed, self.friction);
         let before = Motion { speed, acceleration: state.acceleration.x, travelled: state.travelled };
         let motion = before.after(demand, dt);
         state.velocity.x = motion.speed;
         state.acceleration = Vector2::new(motion.acceleration, 0.0);
         state.travelled = motion.travelled;
         state.position = self.straight.from + self.straight.along * (motion.travelled - self.straight.travelled);
+    }
+
+    /// Returns the deceleration in m/s² by the resistances. They never move a car that stands.
+    fn slowed(&self, speed: f64) -> f64 {
+        if speed > 0.0 { self.resistance.deceleration(&self.vehicle, speed) } else { 0.0 }
     }
 
     fn turn(&mut self, dt: f64) {
@@ -138,6 +150,8 @@ impl SingleTrack {
             force += axle.force.x * axle.forward + axle.force.y * axle.left;
             stiffness += axle.damping * axle.left * axle.left.transpose();
         }
+        let slowed = self.slowed(u.abs()).min(u.abs() / dt);
+        force.x -= mass * slowed.copysign(u);
         let inertia = Matrix3::from_diagonal(&Vector3::new(mass, mass, self.vehicle.yaw_inertia));
         let inverse = (inertia + dt * stiffness).try_inverse();
         inverse.map_or(Vector3::repeat(f64::NAN), |inverse| inverse * force * dt)

@@ -5,6 +5,7 @@ use crate::Lists;
 use crate::cli::Failure;
 use crate::cli::output::digits;
 use crate::engine::object::VehicleKind;
+use crate::engine::vehicle::{Resistance, VehicleSetting};
 use std::fmt::Write;
 
 /// The lists of these kinds, each under a heading.
@@ -24,6 +25,7 @@ pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Fail
             ListKind::Scenarios => {
                 parameters(lists, &mut text)?;
                 vehicles(&mut text)?;
+                resistances(&mut text)?;
             }
             ListKind::Drivers => settings(lists, &mut text)?,
             ListKind::Cameras => cameras(lists, &mut text)?,
@@ -64,6 +66,15 @@ fn vehicles(text: &mut String) -> Result<(), Failure> {
     for kind in VehicleKind::ALL {
         let (name, class, [length, width, height], source) = (kind.name, kind.class, kind.size, kind.source);
         writeln!(text, "| {name} | {class} | {length} | {width} | {height} | {source} |")?;
+    }
+    Ok(())
+}
+
+fn resistances(text: &mut String) -> Result<(), Failure> {
+    text.push_str("\n| setting of the ego vehicle | range | meaning |\n| --- | --- | --- |\n");
+    for VehicleSetting { name, unit, range: (low, high), about } in Resistance::SETTINGS {
+        let range = format!("{low} to {high} {unit}");
+        writeln!(text, "| `vehicle.{name}` | {} | {about} |", range.trim_end())?;
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use crate::observation::{Ahead, Briefing, Control, Way};
 use crate::road::{LaneId, Path, RoadNetwork};
 use crate::stream::Stream;
 use crate::upset::Upset;
-use crate::vehicle::{Dynamics, Pedals, Vehicle, VehicleModel};
+use crate::vehicle::{Dynamics, Pedals, Vehicle, VehicleSetup};
 use nalgebra::Vector2;
 use quantity::{Asked, Quantity};
 use std::rc::Rc;
@@ -273,10 +273,10 @@ impl Car {
 }
 
 impl Ego {
-    /// Makes the ego vehicle of a run with the given vehicle model.
-    pub fn new(setup: &EgoSetup, model: VehicleModel) -> Self {
+    /// Makes the ego vehicle of a run with the given model of its motion.
+    pub fn new(setup: &EgoSetup, vehicle: VehicleSetup) -> Self {
         let EgoSetup { car, shown } = setup.clone();
-        let dynamics = model.build(&car.vehicle, car.start(), car.speed);
+        let dynamics = vehicle.build(&car.vehicle, car.start(), car.speed);
         Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0, standing: 0.0 }
     }
 

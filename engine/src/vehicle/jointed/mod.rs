@@ -17,7 +17,7 @@
 
 mod corner;
 
-use super::{Drive, Dynamics, GRAVITY, Pedals, Vehicle, VehicleState, Wheel};
+use super::{Drive, Dynamics, GRAVITY, Pedals, Resistance, Vehicle, VehicleState, Wheel};
 use crate::geometry::Pose;
 use crate::geometry::wrapped;
 use corner::{Chassis, Corner, Step, Torque};
@@ -59,6 +59,7 @@ pub struct Jointed {
     origin: Pose,
     /// The velocity of the car's middle in the frame of the physics, in m/s.
     drift: Vector2<f64>,
+    resistance: Resistance,
 }
 
 impl Jointed {
@@ -95,7 +96,13 @@ impl Jointed {
             piece,
             origin: start,
             drift: Vector2::new(speed, 0.0),
+            resistance: Resistance::default(),
         }
+    }
+
+    /// Returns the same car with resistances against its motion.
+    pub fn against(self, resistance: Resistance) -> Self {
+        Self { resistance, ..self }
     }
 
     /// Turns the front wheels, each so that both roll about the same point on the line of the rear axle (Ackermann).
@@ -126,7 +133,19 @@ impl Jointed {
             force += push;
             torque += turn;
         }
-        apply(&mut bodies[self.chassis], force, torque);
+        let slowed = self.slowed(dt);
+        apply(&mut self.physics.bodies[self.chassis], force + slowed, torque);
+    }
+
+    /// Returns the force of the resistances on the chassis, at most the force that stops the car within `dt` seconds.
+    fn slowed(&self, dt: f64) -> Vector {
+        let speed = self.drift.norm();
+        if self.resistance.is_none() || speed == 0.0 {
+            return Vector::ZERO;
+        }
+        let deceleration = self.resistance.deceleration(&self.vehicle, speed).min(speed / dt);
+        let force = -self.vehicle.mass * deceleration / speed * self.drift;
+        vector(force.x, force.y, 0.0)
     }
 
     /// Returns the torques of engine or brakes on the wheels.

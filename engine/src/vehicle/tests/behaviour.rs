@@ -237,3 +237,59 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_car_that_rolls_slows_down_as_the_closed_form_says_and_stays_where_it_stops() {
+    let resistance = Resistance { rolling: 0.013, drag_area: 0.65 };
+    // dv/dt = -(a + b v²)
+    let (a, b) = (0.013 * GRAVITY, 0.5 * 1.225 * 0.65 / CAR.mass);
+    for model in VehicleModel::ALL {
+        // The wheels of the jointed car turn, and their inertia counts as mass.
+        let heavier = match model {
+            VehicleModel::SingleTrack => 1.0,
+            VehicleModel::Jointed => 1.0 + 4.0 * CAR.wheel_inertia / (CAR.wheel_radius * CAR.wheel_radius) / CAR.mass,
+        };
+        let (a, b) = (a / heavier, b / heavier);
+        let mut car = VehicleSetup { model, resistance }.build(&CAR, ORIGIN, 30.0);
+        for i in 1..=6000 {
+            car.step(pedals(0.0, 0.0), 0.8, DT);
+            let expected =
+                (a / b).sqrt() * libm::tan(libm::atan(30.0 * (b / a).sqrt()) - (a * b).sqrt() * 0.01 * f64::from(i));
+            let speed = car.state().velocity.x;
+            assert!((speed - expected.max(0.0)).abs() < 0.02, "{model} after {i} ticks: {speed}, expected {expected}");
+        }
+        let rest = car.state().speed();
+        let mut car = VehicleSetup { model, resistance }.build(&CAR, ORIGIN, 0.3);
+        (0..1000).for_each(|_| car.step(pedals(0.0, 0.0), 0.8, DT));
+        let stopped = car.state().position;
+        (0..1000).for_each(|_| car.step(pedals(0.0, 0.0), 0.8, DT));
+        assert!(rest > 5.0 && (car.state().position - stopped).norm() < 1e-3, "{model}: {:?}", car.state());
+    }
+}
+
+#[test]
+fn a_car_that_rolls_slows_down_in_a_bend_too_and_without_resistance_nothing_slows_it_down_on_a_straight_line() {
+    for model in VehicleModel::ALL {
+        let after = |resistance: Resistance, steering: f64| {
+            let mut car = VehicleSetup { model, resistance }.build(&CAR, ORIGIN, 20.0);
+            (0..500).for_each(|_| car.step(pedals(0.0, steering), 0.8, DT));
+            car.state().speed()
+        };
+        let (none, some) = (Resistance::default(), Resistance { rolling: 0.013, drag_area: 0.65 });
+        assert!((after(none, 0.0) - 20.0).abs() < 1e-3, "{model}");
+        let lost = after(none, 0.02) - after(some, 0.02);
+        assert!((1.0..1.5).contains(&lost), "{model}: {lost} m/s in five seconds");
+    }
+}
+
+#[test]
+fn a_setting_of_the_vehicle_that_does_not_exist_or_is_out_of_range_is_named() {
+    let mut resistance = Resistance::default();
+    assert_eq!(
+        resistance.set("drag", 1.0).unwrap_err().to_string(),
+        "the vehicle has no setting `drag`; it has rolling, drag_area"
+    );
+    let wrong = resistance.set("rolling", 0.5).unwrap_err().to_string();
+    assert_eq!(wrong, "vehicle.rolling is 0.5, expected a number from 0 to 0.1");
+    assert!(resistance.set("rolling", f64::NAN).is_err());
+}
