@@ -19,13 +19,14 @@
 //! - Only a leader that brakes with 5 m/s² or more counts as braking: set `leader_deceleration`. The published model
 //!   reacts to any deceleration. A car that slows down by no more than 0.4 m/s² has only let go of the pedal.
 //!
-//! Our reading: The model tells the cases apart by the other's way across the lane, and not by a scenario. Who is
-//! outside the path when first seen, and comes in, comes from the side until its sideways motion has ended; after that
-//! it is a leader. Who comes over and brakes is a leader, too. `horizon` limits what "at once" means: a collision that is more than 10 s ahead is no risk yet, also
-//! if the other goes on braking. In the published encounters nothing depends on this limit. All conditions of step 1
-//! must hold at the same moment; after that the driver does not change its mind. The danger is over when the other is
-//! no longer ahead and in the way, or the gap no longer shrinks and the other does not brake. The 0.85 g in the table's
-//! row for vehicles that overlap wholly belong to an emergency brake (UN R152) and are left out.
+//! Our reading: The model tells the cases apart by the other's way across the lane, and not by a scenario. A body that is
+//! outside the path when first seen, and comes in, comes from the side until its sideways motion has ended. After that it
+//! is a leader. A body that comes over and brakes in the path is a leader, too. `horizon` limits what "at once" means: a
+//! collision that is more than 10 s ahead is no risk yet, also if the other goes on braking. In the published encounters
+//! nothing depends on this limit. The conditions of step 1 must hold at the same moment; after that the driver does not
+//! change its mind. The danger is over when the other is no longer ahead and in the way, or the gap no longer shrinks and
+//! the other does not brake. The 0.85 g in the table's row for vehicles that overlap wholly belong to an emergency brake
+//! (UN R152) and are left out.
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
