@@ -13,8 +13,8 @@
 //! The numbers are those that the Joint Research Centre of the European Commission uses with UN R157's scenarios
 //! (`JRC-FSM`, version 01b05c2): rho 0.75 s, a 3 m/s², `b_min` and `b_max` 6 m/s², mu 0.3 m, `a_lat` and `b_lat` 1 m/s².
 //! The car brakes harder than the `b_min` on which the distance counts: with 0.774 g, reached with 12.65 m/s³. The car
-//! itself does not speed up sideways; the paper has both road users do so. `own_lateral_acceleration` sets this, and
-//! 0.2 and 0.8 m/s² are in wide use for the lateral accelerations and `b_lat`.
+//! itself does not speed up sideways; in the paper both road users do, and `own_lateral` sets this. Others use 0.2 m/s²
+//! for the lateral accelerations and 0.8 m/s² for `b_lat`.
 //!
 //! Our reading: The ego vehicle keeps its speed during rho and never answers sideways. It has no speed across the road.
 //! Another is ahead as long as its middle is ahead of the car's. Another that comes towards the car counts as standing
@@ -46,7 +46,7 @@ pub struct Rss {
     /// The lateral acceleration `a_lat` of the other road user during the response time, in m/s².
     pub lateral_acceleration: f64,
     /// The lateral acceleration of the car during the response time, in m/s².
-    pub own_lateral_acceleration: f64,
+    pub own_lateral: f64,
     /// The lateral deceleration `b_lat` of both road users after the response time, in m/s².
     pub lateral_deceleration: f64,
     danger: Held,
@@ -62,7 +62,7 @@ const STANDARD: Rss = Rss {
     leader_deceleration: 6.0,
     lateral_margin: 0.3,
     lateral_acceleration: 1.0,
-    own_lateral_acceleration: 0.0,
+    own_lateral: 0.0,
     lateral_deceleration: 1.0,
     danger: Held::NEVER,
     brake: 0.0,
@@ -82,7 +82,7 @@ pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
             leader_deceleration: settings.get("leader_deceleration"),
             lateral_margin: settings.get("lateral_margin"),
             lateral_acceleration: settings.get("lateral_acceleration"),
-            own_lateral_acceleration: settings.get("own_lateral_acceleration"),
+            own_lateral: settings.get("own_lateral"),
             lateral_deceleration: settings.get("lateral_deceleration"),
             ..STANDARD
         })
@@ -129,8 +129,8 @@ const SETTINGS: [Setting; 10] = [
         "lateral acceleration of the other road user during the response time",
     ),
     setting(
-        "own_lateral_acceleration",
-        STANDARD.own_lateral_acceleration,
+        "own_lateral",
+        STANDARD.own_lateral,
         "m/s^2",
         (0.0, 20.0),
         "lateral acceleration of the car during the response time",
@@ -168,8 +168,7 @@ impl Rss {
             let coming_to_rest = fastest * fastest.abs() / (2.0 * self.lateral_deceleration);
             0.5 * (speed + fastest) * self.response + coming_to_rest
         };
-        self.lateral_margin
-            + (way(0.0, self.own_lateral_acceleration) + way(approach, self.lateral_acceleration)).max(0.0)
+        self.lateral_margin + (way(0.0, self.own_lateral) + way(approach, self.lateral_acceleration)).max(0.0)
     }
 }
 

@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn the_lateral_distance_of_rss_is_what_the_worst_case_uses_up(approach in 0.0..3.0, own in 0.0..1.0) {
         let mut rss = Rss::default();
-        rss.own_lateral_acceleration = own;
+        rss.own_lateral = own;
         let room = rss.lateral_distance(approach);
         let (mut u, mut v, mut left) = (0.0_f64, approach, room);
         let dt = 0.0005;

@@ -74,9 +74,8 @@ fn cc_sees_no_risk_in_a_collision_that_is_more_than_ten_seconds_ahead() {
 
 #[test]
 fn cc_collides_in_few_cut_outs_and_in_no_following_at_two_seconds_also_with_the_cars_of_this_engine() {
-    let speeds = || (60..=130).step_by(10).map(|kph: u32| f64::from(kph) / 3.6);
     let (mut cases, mut collisions) = (0, 0);
-    for speed in speeds() {
+    for speed in (60..=130).step_by(10).map(|kph: u32| f64::from(kph) / 3.6) {
         for distance in (2..=147).step_by(5).map(f64::from) {
             for lateral_speed in (1..30).step_by(2).map(|tenths| f64::from(tenths) * 0.1) {
                 // The leader is out of the way of the standing car before it reaches it.
