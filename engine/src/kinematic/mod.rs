@@ -12,8 +12,8 @@
 //! use paracosm_engine::driver::reference::{Cc, Ideal};
 //! use paracosm_engine::kinematic::{CutIn, Unbraked};
 //!
-//! // Another car, 10 m/s slower, comes over from the next lane 25 m ahead.
-//! let encounter = CutIn { speed: 15.0, other_speed: 5.0, gap: 25.0, lateral_speed: 1.0 }.encounter();
+//! // Another car, 10 m/s slower, comes over from the next lane 40 m ahead.
+//! let encounter = CutIn { speed: 15.0, other_speed: 5.0, gap: 40.0, lateral_speed: 1.5 }.encounter();
 //! assert!(encounter.run(&Unbraked).collision.is_some());
 //! assert!(encounter.run(&Cc::default()).collision.is_none());
 //! assert!(Ideal::default().best(&encounter).1.collision.is_none());

@@ -11,7 +11,8 @@
 //!
 //! One paper compares models of this kind in one world: Mattas et al., "Driver models for the definition of safety
 //! requirements of automated vehicles in international regulations. Application to motorway driving conditions",
-//! Accident Analysis and Prevention 174, 2022. If a source leaves something open, the model's page gives our reading.
+//! Accident Analysis and Prevention 174, 2022. The Joint Research Centre published its models as `JRC-FSM`; the page
+//! `docs/reference-drivers.md` compares our counts of collisions with theirs. If a source leaves something open, the model's page gives our reading.
 //!
 //! Each model is a [`BrakingModel`](crate::kinematic::BrakingModel) of one other road user. The kinematic world runs it
 //! as it is. An adapter lets it drive a whole simulated car, which has to go on again when the way is free. Both ask it
