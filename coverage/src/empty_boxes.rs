@@ -231,6 +231,11 @@ impl EmptyBoxes {
         Bracket { lower, upper: upper.min(1.0) }
     }
 
+    /// Returns `true` if boxes go on beyond a face of the cube from the opposite face.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
     /// Returns the number of empty boxes that are kept, which is at least 1.
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
