@@ -5,6 +5,7 @@ use paracosm_coverage::dispersion::dispersion;
 use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
+use std::thread;
 
 const STRATEGIES: [Strategy; 4] = [Strategy::GREEDY, Strategy::GREEDY_PERIODIC, Strategy::HALTON, Strategy::RANDOM];
 
@@ -17,34 +18,40 @@ const MOST_TESTS: usize = 700;
 
 fn main() {
     println!("share of 500 points in the outermost 10 % of the volume, {SEEDS_OF_SHARES} seeds");
-    for dims in [2, 4] {
-        for strategy in STRATEGIES {
-            let shares = (0..SEEDS_OF_SHARES).map(|seed| {
-                let points = points(strategy, dims, seed, 500);
-                points.iter().filter(|point| is_outermost(point)).count() as f64 / 5.0
-            });
-            println!("{dims} {:16} {}", strategy.name(), quartiles(shares.collect()));
-        }
-    }
+    for_all(&[2, 4], |strategy, dims| {
+        let shares = (0..SEEDS_OF_SHARES).map(|seed| {
+            let points = points(strategy, dims, seed, 500);
+            points.iter().filter(|point| is_outermost(point)).count() as f64 / 5.0
+        });
+        format!("{} %", quartiles(shares.collect()))
+    });
     println!("dispersion of 100 points, {SEEDS} seeds");
-    for dims in [2, 3] {
-        for strategy in STRATEGIES {
-            let volumes = (0..SEEDS).map(|seed| {
-                let set = PointSet::new(dims, points(strategy, dims, seed, 100)).expect("points of the cube");
-                100.0 * dispersion(&set, Deadline::never()).volume.lower
-            });
-            println!("{dims} {:16} {} %", strategy.name(), quartiles(volumes.collect()));
-        }
-    }
-    println!(
-        "tests to the first in a corner with 1 % of the volume in 4 dimensions, {SEEDS} seeds, each of 16 corners"
-    );
-    for strategy in STRATEGIES {
+    for_all(&[2, 3], |strategy, dims| {
+        let volumes = (0..SEEDS).map(|seed| {
+            let set = PointSet::new(dims, points(strategy, dims, seed, 100)).expect("points of the cube");
+            100.0 * dispersion(&set, Deadline::never()).volume.lower
+        });
+        format!("{} %", quartiles(volumes.collect()))
+    });
+    println!("tests to the first in a corner with 1 % of the volume, {SEEDS} seeds, each of 16 corners");
+    for_all(&[4], |strategy, _| {
         let (found, missed): (Vec<_>, Vec<_>) =
             (0..SEEDS).flat_map(|seed| tests_to_corners(strategy, seed)).partition(Option::is_some);
         let tests = found.into_iter().flatten().chain(missed.iter().map(|_| MOST_TESTS)).map(|tests| tests as f64);
-        println!("4 {:16} {}, {} not within {MOST_TESTS}", strategy.name(), quartiles(tests.collect()), missed.len());
-    }
+        format!("{}, {} not within {MOST_TESTS}", quartiles(tests.collect()), missed.len())
+    });
+}
+
+/// Prints a line for each strategy and number of dimensions. They are computed side by side.
+fn for_all(dims: &[usize], line: impl Fn(Strategy, usize) -> String + Sync) {
+    thread::scope(|scope| {
+        let line = &line;
+        let cases = dims.iter().flat_map(|&dims| STRATEGIES.map(|strategy| (strategy, dims)));
+        let lines: Vec<_> = cases.map(|case| (case, scope.spawn(move || line(case.0, case.1)))).collect();
+        for ((strategy, dims), line) in lines {
+            println!("{dims} {:16} {}", strategy.name(), line.join().expect("no thread panics"));
+        }
+    });
 }
 
 fn points(strategy: Strategy, dims: usize, seed: u64, n: usize) -> Vec<Vec<f64>> {

@@ -50,9 +50,7 @@ impl Holes {
         }
         sum
     }
-}
 
-impl Holes {
     /// The place of a coordinate in a side, as a share of the side.
     ///
     /// A point cuts a circle open, and leaves one part of the same width. The part is divided only by the next point.
