@@ -159,11 +159,11 @@ fn stream_nodes(bencher: Bencher) {
         .bench_local_values(|mut run| black_box(run.drive(driver.as_mut())));
 }
 
-/// Points in five dimensions, including the construction of the generator. `greedy` takes milliseconds for each point,
-/// so it is asked for fewer points.
+/// Points in five dimensions, including the construction of the generator. Strategies that fill holes take milliseconds for each point,
+/// so they are asked for fewer points.
 #[divan::bench(args = Strategy::all().filter(|s| s.dims().contains(&5) && !s.is_adaptive()), sample_count = 20)]
 fn points(bencher: Bencher, strategy: Strategy) {
-    let points = if strategy == Strategy::GREEDY { 100 } else { 10_000 };
+    let points = if strategy.fills_holes() { 100 } else { 10_000 };
     let space = Space::unit_cube(5);
     bencher.counter(ItemsCount::new(points)).bench(|| {
         let request = Request { seed: Some(1), ..Request::new(&space, points) };

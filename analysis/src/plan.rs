@@ -241,6 +241,10 @@ enum Enough {
 fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) -> Result<Enough, Error> {
     let space = Space::unit_cube(dims);
     let most = MOST_MEASURED.min(MOST_COORDINATES / dims);
+    if points::needed_by_any_set(dims, epsilon).is_none_or(|least| least > most as u64) {
+        // It is proved that no measurement can end well.
+        return Ok(Enough::Over(most as u64));
+    }
     let mut generator = strategy.build(&Request::new(&space, most))?;
     let mut all = Vec::new();
     let mut is_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
@@ -333,6 +337,18 @@ mod tests {
         let points = points_needed(5, 0.1, 0.05, Deadline::never()).unwrap();
         assert_eq!(tests_of(&points, "halton, a-priori bound"), Some(739_200));
         assert_eq!(tests_of(&points, "halton"), Some(141));
+    }
+
+    #[test]
+    fn an_epsilon_that_needs_more_points_than_are_measured_is_not_measured() {
+        // Without a deadline: each strategy would make a million points, and greedy takes milliseconds for each.
+        for epsilon in [1e-300, 1e-7] {
+            let points = points_needed(3, epsilon, 0.05, Deadline::never()).unwrap();
+            for strategy in MEASURED {
+                let need = points.iter().find(|need| need.of == strategy.name()).unwrap();
+                assert_eq!((need.tests, need.over), (None, Some(MOST_MEASURED as u64)), "{strategy}");
+            }
+        }
     }
 
     #[test]

@@ -18,6 +18,11 @@
 //! found in the ring of the points that share this coordinate. The method only compares coordinates and computes
 //! nothing, so that ties, duplicates and points on faces are treated exactly.
 //!
+//! The boxes may also be *periodic*: they go on beyond a face of the cube from the opposite face, as if these faces were
+//! glued together. Then there are no walls. All of the above holds for sides that are arcs of circles, with one
+//! difference. A side that goes all the way round has no faces, and a point leaves one part of it, whose two faces both
+//! lie at the point.
+//!
 //! To find the boxes that hold a point, all boxes are looked at in blocks, with an array for each end of each axis.
 //! For tens of thousands of boxes that costs less than a tree.
 //!
@@ -34,11 +39,13 @@
 //! A box takes `24 d + 8` bytes. Up to about four dimensions that is little. In more dimensions, use
 //! [`EmptyBoxes::at_most`]: it keeps only the larger boxes, and the bracket shows whether that was enough.
 
-use crate::dispersion::LargestEmptyBox;
+mod side;
+
 use crate::{Bracket, PointSetError};
+use side::Side;
 use std::collections::{BTreeMap, btree_map::Entry};
 
-/// Marks a face that lies in a wall of the cube.
+/// Marks a face that lies in a wall of the cube, or the missing faces of a side that goes all the way round.
 const WALL: u32 = u32::MAX;
 
 /// The number of boxes that are looked at together.
@@ -52,7 +59,7 @@ const BLOCK: usize = 128;
 /// let mut boxes = EmptyBoxes::new(2)?;
 /// assert_eq!(boxes.dispersion().lower, 1.0);
 /// boxes.add(&[0.25, 0.5])?;
-/// assert_eq!(boxes.largest().lower, [0.25, 0.0]);
+/// assert_eq!((boxes.largest().side(0), boxes.largest().side(1)), ((0.25, 1.0), (0.0, 1.0)));
 /// assert_eq!(boxes.dispersion().lower, 0.75);
 /// assert_eq!(boxes.len(), 4);
 /// # Ok::<(), paracosm_coverage::PointSetError>(())
@@ -60,6 +67,8 @@ const BLOCK: usize = 128;
 #[derive(Debug, Clone)]
 pub struct EmptyBoxes {
     dims: usize,
+    /// `true` if boxes go on beyond a face of the cube from the opposite face.
+    periodic: bool,
     /// The coordinates of the points, one point after the other.
     points: Vec<f64>,
     /// For each coordinate of each point, the next point with the same coordinate; the last of them leads to the
@@ -75,7 +84,8 @@ pub struct EmptyBoxes {
     /// The greatest number of boxes to keep, and the volume of the largest box that was forgotten.
     most: usize,
     forgotten: f64,
-    largest: LargestEmptyBox,
+    /// The index of the largest box.
+    largest: usize,
 }
 
 /// A view of a single maximal empty box among the points.
@@ -86,10 +96,11 @@ pub struct EmptyBox<'a> {
 }
 
 impl EmptyBox<'_> {
-    /// Returns the lower and the upper end of the box along `axis`.
+    /// Returns the lower and the upper end of the box along `axis`. If a periodic box goes on beyond 1, the upper end is
+    /// above 1. If it goes all the way round, the ends are infinite.
     pub fn side(&self, axis: usize) -> (f64, f64) {
-        let [lower, upper] = &self.boxes.ends[axis];
-        (lower[self.at], upper[self.at])
+        let Side { lower, upper } = self.boxes.side(self.at, axis);
+        (lower, if lower < upper { upper } else { upper + 1.0 })
     }
 
     /// Returns the volume of the box, as a share of the volume of the unit cube.
@@ -116,20 +127,47 @@ impl EmptyBoxes {
     /// # Errors
     /// `dims` is 0.
     pub fn at_most(dims: usize, most: usize) -> Result<Self, PointSetError> {
+        Self::with(dims, most, false)
+    }
+
+    /// Makes the periodic empty boxes of a set without points, with the same limit as [`EmptyBoxes::at_most`]. Periodic
+    /// boxes go on beyond a face of the cube from the opposite face, and the coordinates 0 and 1 are the same. Along an
+    /// axis, a box that a single point stops has the width 1.
+    ///
+    /// ```
+    /// use paracosm_coverage::empty_boxes::EmptyBoxes;
+    ///
+    /// let mut boxes = EmptyBoxes::periodic_at_most(1, 100)?;
+    /// boxes.add(&[0.25])?;
+    /// assert_eq!(boxes.largest().side(0), (0.25, 1.25));
+    /// boxes.add(&[0.75])?;
+    /// assert_eq!(boxes.dispersion().lower, 0.5);
+    /// # Ok::<(), paracosm_coverage::PointSetError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// `dims` is 0.
+    pub fn periodic_at_most(dims: usize, most: usize) -> Result<Self, PointSetError> {
+        Self::with(dims, most, true)
+    }
+
+    fn with(dims: usize, most: usize, periodic: bool) -> Result<Self, PointSetError> {
         if dims == 0 {
             return Err(PointSetError::NoDimension);
         }
+        let Side { lower, upper } = if periodic { Side::ROUND } else { Side::WALL_TO_WALL };
         Ok(Self {
             dims,
+            periodic,
             points: Vec::new(),
             rings: Vec::new(),
             alike: vec![BTreeMap::new(); dims],
-            ends: vec![[vec![0.0], vec![1.0]]; dims],
+            ends: vec![[vec![lower], vec![upper]]; dims],
             volumes: vec![1.0],
             supports: vec![WALL; 2 * dims],
             most: most.max(1),
             forgotten: 0.0,
-            largest: LargestEmptyBox { lower: vec![0.0; dims], upper: vec![1.0; dims] },
+            largest: 0,
         })
     }
 
@@ -145,6 +183,8 @@ impl EmptyBoxes {
         if let Some(axis) = point.iter().position(|x| !(0.0..=1.0).contains(x)) {
             return Err(PointSetError::OutsideCube { index, axis, value: point[axis] });
         }
+        let point: Vec<f64> = point.iter().map(|&x| if self.periodic && x == 1.0 { 0.0 } else { x }).collect();
+        let point = &point[..];
         let split = self.holding(point);
         let index = index as u32;
         self.join_rings(point, index);
@@ -175,20 +215,25 @@ impl EmptyBoxes {
     }
 
     /// Returns the largest empty box among the points added so far.
-    pub fn largest(&self) -> &LargestEmptyBox {
-        &self.largest
+    pub fn largest(&self) -> EmptyBox<'_> {
+        EmptyBox { boxes: self, at: self.largest }
     }
 
     /// Returns the dispersion of the points added so far. It is exact unless a box was forgotten that is larger than
     /// all boxes that are left.
     pub fn dispersion(&self) -> Bracket {
-        let lower = self.largest.volume();
+        let lower = self.largest().volume();
         if self.forgotten <= lower {
             return Bracket::exact(lower);
         }
         // Each factor and each product may have lost half an ulp.
         let upper = self.forgotten * (1.0 + 2.0 * self.dims as f64 * f64::EPSILON);
         Bracket { lower, upper: upper.min(1.0) }
+    }
+
+    /// Returns `true` if boxes go on beyond a face of the cube from the opposite face.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
     }
 
     /// Returns the number of empty boxes that are kept, which is at least 1.
@@ -203,9 +248,9 @@ impl EmptyBoxes {
         found.map(|(at, _)| EmptyBox { boxes: self, at })
     }
 
-    fn get(&self, at: usize) -> LargestEmptyBox {
-        let end = |which: usize| self.ends.iter().map(|ends| ends[which][at]).collect();
-        LargestEmptyBox { lower: end(0), upper: end(1) }
+    fn side(&self, at: usize, axis: usize) -> Side {
+        let [lower, upper] = &self.ends[axis];
+        Side { lower: lower[at], upper: upper[at] }
     }
 
     /// Enters the point that will have this index into the rings of the points that share a coordinate with it.
@@ -231,8 +276,16 @@ impl EmptyBoxes {
             let mut inside = [u64::MAX; BLOCK];
             for ([lower, upper], x) in self.ends.iter().zip(point) {
                 let ends = lower[start..][..size].iter().zip(&upper[start..][..size]);
-                for (inside, (lower, upper)) in inside.iter_mut().zip(ends) {
-                    *inside &= if (lower < x) & (x < upper) { u64::MAX } else { 0 };
+                // As in `Side::holds`, without a jump.
+                if self.periodic {
+                    for (inside, (lower, upper)) in inside.iter_mut().zip(ends) {
+                        let is_inside = ((lower < x) == (x < upper)) == (lower < upper);
+                        *inside &= if is_inside { u64::MAX } else { 0 };
+                    }
+                } else {
+                    for (inside, (lower, upper)) in inside.iter_mut().zip(ends) {
+                        *inside &= if (lower < x) & (x < upper) { u64::MAX } else { 0 };
+                    }
                 }
             }
             found.extend((0..size).filter(|i| inside[*i] != 0).map(|i| start + i));
@@ -243,33 +296,32 @@ impl EmptyBoxes {
     /// Appends the parts of a box that the point at `index` leaves: all parts if `all`, otherwise the maximal parts.
     fn push_parts(&mut self, at: usize, point: &[f64], index: u32, all: bool) {
         let dims = self.dims;
-        let mut part = self.get(at);
+        let mut part: Vec<Side> = (0..dims).map(|axis| self.side(at, axis)).collect();
         let first = 2 * dims * at;
         for (axis, &x) in point.iter().enumerate() {
-            let whole = (part.lower[axis], part.upper[axis]);
-            for end in [0, 1] {
-                let side = if end == 0 { (x, whole.1) } else { (whole.0, x) };
-                (part.lower[axis], part.upper[axis]) = side;
+            let whole = part[axis];
+            for (side, moved) in whole.without(x) {
+                part[axis] = side;
                 let start = self.supports.len();
                 self.supports.extend_from_within(first..first + 2 * dims);
-                self.supports[start + 2 * axis + end] = index;
+                self.supports[start + 2 * axis..][moved].fill(index);
                 if self.keep_supports(start, axis, &part) || all {
-                    for ((ends, lower), upper) in self.ends.iter_mut().zip(&part.lower).zip(&part.upper) {
-                        ends[0].push(*lower);
-                        ends[1].push(*upper);
+                    for ([lower, upper], side) in self.ends.iter_mut().zip(&part) {
+                        lower.push(side.lower);
+                        upper.push(side.upper);
                     }
-                    self.volumes.push(part.volume());
+                    self.volumes.push(part.iter().map(|side| side.width()).product());
                 } else {
                     self.supports.truncate(start);
                 }
             }
-            (part.lower[axis], part.upper[axis]) = whole;
+            part[axis] = whole;
         }
     }
 
     /// Checks that all faces of a part are supported after its side along `axis` was cut. Replaces supports that were
     /// cut away.
-    fn keep_supports(&mut self, start: usize, axis: usize, part: &LargestEmptyBox) -> bool {
+    fn keep_supports(&mut self, start: usize, axis: usize, part: &[Side]) -> bool {
         let dims = self.dims;
         for face in (0..2 * dims).filter(|face| face / 2 != axis) {
             let support = self.supports[start + face];
@@ -277,7 +329,7 @@ impl EmptyBoxes {
                 continue;
             }
             let x = self.points[support as usize * dims + axis];
-            if part.lower[axis] < x && x < part.upper[axis] {
+            if part[axis].holds(x) {
                 continue;
             }
             match self.other_support(support, face / 2, part) {
@@ -289,14 +341,14 @@ impl EmptyBoxes {
     }
 
     /// Another point in the same plane across `axis` as `support` that lies within the part's other sides.
-    fn other_support(&self, support: u32, axis: usize, part: &LargestEmptyBox) -> Option<u32> {
+    fn other_support(&self, support: u32, axis: usize, part: &[Side]) -> Option<u32> {
         let dims = self.dims;
         let next = |point: &u32| Some(self.rings[*point as usize * dims + axis]);
         let others = std::iter::successors(next(&support), next).take_while(|point| *point != support);
         let supports = |point: &u32| {
             let coordinates = &self.points[*point as usize * dims..][..dims];
-            let sides = part.lower.iter().zip(&part.upper).zip(coordinates).enumerate();
-            sides.filter(|(other, _)| *other != axis).all(|(_, ((lower, upper), x))| lower < x && x < upper)
+            let sides = part.iter().zip(coordinates).enumerate();
+            sides.filter(|(other, _)| *other != axis).all(|(_, (side, x))| side.holds(*x))
         };
         others.into_iter().find(supports)
     }
@@ -335,6 +387,6 @@ impl EmptyBoxes {
         }
         let largest = largest.into_iter().fold(0.0, f64::max);
         let at = self.volumes.iter().position(|volume| *volume == largest);
-        self.largest = self.get(at.expect("one of the volumes"));
+        self.largest = at.expect("one of the volumes");
     }
 }

@@ -46,12 +46,12 @@ impl Strategy {
         match self.kind() {
             MethodKind::Search { build, .. } => return build(self.descriptor(), request, rules),
             MethodKind::Own(build) => return build(request),
-            MethodKind::Sequence(_) | MethodKind::Sets { .. } | MethodKind::Holes => {}
-        }
-        if !self.has_rows(request) {
-            let k = k.unwrap_or(2.min(dims + rules.levels().len()));
-            let rng = seeded(seed_or_0, Purpose::Greedy, 0);
-            return Ok(Box::new(KwiseGreedy::new(dims, &rules, k, rng, existing)?));
+            MethodKind::Holes(make) if !self.has_rows(request) => {
+                let k = k.unwrap_or(2.min(dims + rules.levels().len()));
+                let rng = seeded(seed_or_0, Purpose::Greedy, 0);
+                return Ok(Box::new(KwiseGreedy::new(make, dims, &rules, k, rng, existing)?));
+            }
+            MethodKind::Sequence(_) | MethodKind::Sets { .. } | MethodKind::Holes(_) => {}
         }
         let family = Family::new(&rules, request)?;
         if dims == 0 {
@@ -71,8 +71,8 @@ impl Strategy {
         let sequence = match self.kind() {
             MethodKind::Sequence(endless) => (endless.build)(dims, seed),
             MethodKind::Sets { build, .. } => build(dims, seed, deal)?,
-            MethodKind::Holes => {
-                Box::new(PerRow::new(deal, GreedyRows::new(dims, seed_or_0, family.points_of_rows(existing))))
+            MethodKind::Holes(make) => {
+                Box::new(PerRow::new(deal, GreedyRows::new(make, dims, seed_or_0, family.points_of_rows(existing))))
             }
             MethodKind::Search { .. } | MethodKind::Own(_) => unreachable!("such generators were built above"),
         };

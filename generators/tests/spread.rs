@@ -7,13 +7,14 @@ use paracosm_space::{Point, Space};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-const STRATEGIES: [Strategy; 6] = [
+const STRATEGIES: [Strategy; 7] = [
     Strategy::HALTON,
     Strategy::HALTON_SCRAMBLED,
     Strategy::SOBOL,
     Strategy::KRONECKER,
     Strategy::RANDOM,
     Strategy::GREEDY,
+    Strategy::GREEDY_PERIODIC,
 ];
 
 /// A space of that many continuous parameters and discrete ones with these many levels.
@@ -54,7 +55,7 @@ proptest! {
     ) {
         let space = mixed(dims, &levels);
         // Greedy has rows only where it is to make each of them good.
-        let aim = (strategy == Strategy::GREEDY).then_some(Aim::Dispersion);
+        let aim = strategy.fills_holes().then_some(Aim::Dispersion);
         let equal = Request { seed, discrete, aim, ..Request::new(&space, budget) };
         let spread = Request { epsilon: Some(1e-9), ..equal };
         let (dealt, spread) = (tests(strategy, &equal), tests(strategy, &spread));

@@ -164,7 +164,10 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
         "found no `:`, expected a `:` between the name of a parameter and its values, or a constraint that begins with IF, [ or (",
     );
     check(" : 1, 2", (1, 2), "found no name before `:`, expected the name of a parameter");
-    check("A:  \nB: 1", (1, 3), "found no values, expected the values of parameter `A`, with commas between them");
+    for text in ["A:  \nB: 1", "A: ,\nB: 1", "A: , ,"] {
+        let end = text.lines().next().unwrap().trim_end().len() + 1;
+        check(text, (1, end), "found no values, expected the values of parameter `A`, with commas between them");
+    }
     check("A: 1\nB: ~x, ~2", (2, 4), "every value of parameter `B` is negative (`~`), expected a value without `~`");
     check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
     check(

@@ -43,6 +43,9 @@ use std::io::{self, Write};
 use std::panic;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 use thiserror::Error;
 
 /// The options that decide how much is printed to standard error.
@@ -63,13 +66,28 @@ impl Verbosity {
             complain(&message);
         }
     }
+
+    /// Does some work. Prints the note if the work takes more than two seconds.
+    fn noting_if_slow<T>(self, note: &str, work: impl FnOnce() -> T) -> T {
+        let (working, ended) = mpsc::channel::<()>();
+        thread::scope(|scope| {
+            scope.spawn(move || {
+                if ended.recv_timeout(Duration::from_secs(2)) == Err(RecvTimeoutError::Timeout) {
+                    self.note(note);
+                }
+            });
+            let result = work();
+            drop(working);
+            result
+        })
+    }
 }
 
-/// The option that refuses a file of a space if reading the file gives notes.
+/// The option that refuses a file of a space if reading the file gives notes, and groups that give notes.
 #[derive(Debug, Clone, Copy, Args)]
 struct Strict {
-    /// Refuse a file of a space for which notes would be printed, such as a PICT model with an unknown parameter in a
-    /// constraint
+    /// Refuse a file of a space, or --strength, if notes on it would be printed: for example a PICT model with an
+    /// unknown parameter in a constraint, or a group that adds nothing
     #[arg(long, requires = "space")]
     strict: bool,
 }
@@ -81,14 +99,21 @@ impl Strict {
     /// The file cannot be read or is not valid; or the file has notes and `--strict` is given.
     fn read(self, path: &Path, verbosity: Verbosity) -> Result<SpaceFile, Error> {
         let file = SpaceFile::read(path)?;
-        if self.strict && !file.notes.is_empty() {
-            return Err(usage(format!(
-                "--strict refuses a file with notes; repair the file, or leave out --strict:\n{}",
-                file.notes.join("\n")
-            )));
-        }
-        file.notes.iter().for_each(|note| verbosity.note(note));
+        self.accept(&file.notes, "a file with notes; repair the file", verbosity)?;
         Ok(file)
+    }
+
+    /// Prints notes.
+    ///
+    /// # Errors
+    /// There are notes, and `--strict` is given. `refused` says what is refused, and how to repair it.
+    fn accept(self, notes: &[String], refused: &str, verbosity: Verbosity) -> Result<(), Error> {
+        if self.strict && !notes.is_empty() {
+            let notes = notes.join("\n");
+            return Err(usage(format!("--strict refuses {refused}, or leave out --strict:\n{notes}")));
+        }
+        notes.iter().for_each(|note| verbosity.note(note));
+        Ok(())
     }
 }
 

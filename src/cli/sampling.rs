@@ -49,7 +49,7 @@ impl Sampling {
     /// the measure.
     pub fn aim(&self, strategy: Strategy) -> Result<Option<Aim>, GeneratorError> {
         let said = self.measure.as_deref().map(str::parse).transpose()?;
-        let wants_rows = self.discrete.is_some() && strategy == Strategy::GREEDY;
+        let wants_rows = self.discrete.is_some() && strategy.fills_holes();
         Ok(said.or(wants_rows.then_some(Aim::Dispersion)))
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::common::{cover, golden, refused, stderr, stdout, succeeds};
 use std::fs;
+use std::time::{Duration, Instant};
 
 const SPACE: &str = "\
 [[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
@@ -49,6 +50,24 @@ fn beyond_three_dimensions_one_is_told_to_rely_on_what_was_measured() {
     let plan = |dims: &str| succeeds(cover(dir.path(), &["plan", "--dims", dims, "--epsilon", "0.2"]));
     assert_eq!(stderr(&plan("3")), "");
     assert!(stderr(&plan("4")).contains("rely on the measured numbers"));
+}
+
+#[test]
+fn an_epsilon_far_too_small_to_measure_is_answered_at_once() {
+    let dir = tempfile::tempdir().unwrap();
+    let started = Instant::now();
+    let plan = ["plan", "--dims", "3", "--epsilon", "1e-300", "--format", "table"];
+    let plan = stdout(&succeeds(cover(dir.path(), &plan)));
+    assert!(plan.contains("over 10^19  needed by any set") && plan.contains("over 1048576  measured until"), "{plan}");
+    assert!(started.elapsed() < Duration::from_secs(5), "{:?}", started.elapsed());
+}
+
+#[test]
+fn a_plan_that_takes_long_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let plan = ["plan", "--dims", "3", "--epsilon", "1e-5", "--time-limit", "3"];
+    let notes = stderr(&succeeds(cover(dir.path(), &plan)));
+    assert!(notes.contains("measuring points, at most 3 s (--time-limit)"), "{notes}");
 }
 
 #[test]

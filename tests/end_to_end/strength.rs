@@ -114,6 +114,13 @@ fn groups_that_add_nothing_are_said_to() {
     assert!(notes.contains("1-wise among lanes, sky adds nothing: all parameters are covered 2-wise\n"), "{notes}");
     let (_, notes) = run(dir.path(), "generate --space MODEL.pict --k 3");
     assert!(notes.contains("3-wise among Lanes, Sky, Wet adds nothing"), "{notes}");
+    for command in ["plan", "generate"] {
+        let strict =
+            |more: &[&str]| cover(dir.path(), &[&[command, "--space", "SPACE.toml", "--strict"], more].concat());
+        let says = ["--strict refuses groups that add nothing", "1-wise among lanes, sky adds nothing"];
+        refused(&strict(&["--strength", "lanes,sky=1"]), &says);
+        succeeds(strict(&["--strength", "lanes,sky,wet=3"]));
+    }
 }
 
 #[test]

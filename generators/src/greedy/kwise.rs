@@ -9,7 +9,9 @@
 //! On a discrete space alone this is the greedy covering array of Cohen, Dalal, Fredman and Patton (The AETG system,
 //! IEEE Trans. Softw. Eng. 23, 1997).
 
-use super::{Holes, room};
+use super::Holes;
+use super::room::{Room, wrap};
+use crate::strategy::MakeBoxes;
 use crate::{Generator, GeneratorError};
 use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::kwise_dispersion::{Projection, projections};
@@ -65,6 +67,7 @@ enum Hole {
 /// The holes of all views that count now.
 struct LargeHoles<'a> {
     dims: usize,
+    periodic: bool,
     rules: &'a Rules,
     holes: Vec<(&'a Projection, Hole)>,
     /// For each coordinate, the positions of its holes.
@@ -74,17 +77,20 @@ struct LargeHoles<'a> {
 /// The greedy choice of tests for k-wise dispersion, with the holes in any k parameters that the tests so far leave.
 pub(crate) struct KwiseGreedy {
     dims: usize,
+    periodic: bool,
     rules: Rules,
     views: Vec<View>,
     rng: Pcg64,
 }
 
 impl KwiseGreedy {
-    /// Makes the greedy choice of tests that fill the holes of `existing` tests in any `k` parameters.
+    /// Makes the greedy choice of tests that fill the holes of `existing` tests in any `k` parameters. `make` makes the
+    /// kind of holes that count.
     ///
     /// # Errors
     /// `k` is not in 1 to the number of parameters, or there are too many views.
     pub(crate) fn new(
+        make: MakeBoxes,
         dims: usize,
         rules: &Rules,
         k: usize,
@@ -100,15 +106,16 @@ impl KwiseGreedy {
         let most = (MOST_BOXES / chosen.len()).max(100);
         let kept = |projection: &Projection| match projection.axes.len() {
             0 => Kept::Covered(false),
-            axes => Kept::Boxes(EmptyBoxes::at_most(axes, most).expect("there is an axis")),
+            axes => Kept::Boxes(make(axes, most).expect("there is an axis")),
         };
         let view = |projection: Projection| View {
             holes: kept(&projection),
             coordinates: coordinates(&projection, dims),
             projection,
         };
-        let views = chosen.into_iter().map(view).collect();
-        let mut greedy = Self { dims, rules: rules.clone(), views, rng };
+        let views: Vec<View> = chosen.into_iter().map(view).collect();
+        let periodic = views.iter().any(|view| matches!(&view.holes, Kept::Boxes(boxes) if boxes.is_periodic()));
+        let mut greedy = Self { dims, periodic, rules: rules.clone(), views, rng };
         for test in existing {
             greedy.add(test);
         }
@@ -129,15 +136,16 @@ impl KwiseGreedy {
 
     /// The next test.
     fn next(&mut self) -> Point {
-        let Self { dims, rules, views, rng } = self;
+        let Self { dims, periodic, rules, views, rng } = self;
         let largest = views.iter().map(View::largest).fold(0.0, f64::max);
         let worst: Vec<&View> = views.iter().filter(|view| view.largest() == largest).collect();
-        let holes = LargeHoles::of(views, largest, *dims, rules);
+        let holes = LargeHoles::of(views, largest, *dims, *periodic, rules);
         let beginnings = (0..BEGINNINGS).map(|_| {
             let test = holes.begin(worst[rng.random_range(0..worst.len())], rng);
             (holes.left_by(None, &test), test)
         });
-        let (_, best) = beginnings.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are beginnings");
+        let (_, mut best) = beginnings.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are beginnings");
+        best.continuous.iter_mut().for_each(|x| *x = wrap(*x));
         self.add(&best);
         best
     }
@@ -151,9 +159,9 @@ fn coordinates(projection: &Projection, dims: usize) -> Vec<usize> {
 
 impl<'a> LargeHoles<'a> {
     /// Collects the holes that count beside the largest hole of all views.
-    fn of(views: &'a [View], largest: f64, dims: usize, rules: &'a Rules) -> Self {
+    fn of(views: &'a [View], largest: f64, dims: usize, periodic: bool, rules: &'a Rules) -> Self {
         let of_coordinate = vec![Vec::new(); dims + rules.levels().len()];
-        let mut large = Self { dims, rules, holes: Vec::new(), of_coordinate };
+        let mut large = Self { dims, periodic, rules, holes: Vec::new(), of_coordinate };
         for view in views {
             let Some(hole) = view.hole(largest) else { continue };
             for &coordinate in &view.coordinates {
@@ -185,11 +193,11 @@ impl<'a> LargeHoles<'a> {
             discrete: self.random_row(&projection.fixed, rng),
         };
         // Along the axes of the view the test stays in the hole, and it keeps the hole's values.
-        let mut rooms = vec![(0.0, 1.0); self.dims];
+        let mut rooms = vec![Room::anywhere(self.periodic); self.dims];
         if let Kept::Boxes(boxes) = kept {
-            for (&axis, (lower, width)) in projection.axes.iter().zip(room(boxes.largest())) {
-                rooms[axis] = (lower, width);
-                test.continuous[axis] = lower + width * test.continuous[axis];
+            for (of_view, &axis) in projection.axes.iter().enumerate() {
+                rooms[axis] = Room::within(boxes.largest().side(of_view));
+                test.continuous[axis] = rooms[axis].at(test.continuous[axis]);
             }
         }
         let mut free: Vec<usize> = (0..self.dims + self.rules.levels().len()).collect();
@@ -225,13 +233,13 @@ impl<'a> LargeHoles<'a> {
     }
 
     /// Moves a test along an axis to the place where it breaks most.
-    fn choose_number(&self, axis: usize, (lower, width): (f64, f64), round: usize, test: &mut Point, rng: &mut Pcg64) {
+    fn choose_number(&self, axis: usize, room: Room, round: usize, test: &mut Point, rng: &mut Pcg64) {
         let now = test.continuous[axis];
         let mut best = (self.left_by(Some(axis), test), now);
         for _ in 0..CANDIDATES {
             let random: f64 = rng.random();
-            let candidate = if round == 0 { lower + width * random } else { now + NEAR * width * (2.0 * random - 1.0) };
-            if !(lower..lower + width).contains(&candidate) {
+            let candidate = if round == 0 { room.at(random) } else { now + NEAR * room.width * (2.0 * random - 1.0) };
+            if !room.holds(candidate) {
                 continue;
             }
             test.continuous[axis] = candidate;
@@ -276,7 +284,7 @@ impl View {
         match &self.holes {
             Kept::Covered(covered) => (!covered).then_some(Hole::Row),
             Kept::Boxes(boxes) => {
-                let anywhere = vec![(0.0, 1.0); self.projection.axes.len()];
+                let anywhere = vec![Room::anywhere(boxes.is_periodic()); self.projection.axes.len()];
                 Some(Holes::around(boxes, &anywhere, largest)).filter(|holes| !holes.is_empty()).map(Hole::Boxes)
             }
         }

@@ -29,18 +29,19 @@
 
 mod holes;
 mod kwise;
+mod room;
 mod rows;
 
 pub(crate) use kwise::KwiseGreedy;
 pub(crate) use rows::GreedyRows;
 
-use crate::strategy::{Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
+use crate::strategy::{Descriptor, Look, MakeBoxes, MarkShape, Method, MethodKind, Strategy};
 use holes::Holes;
 use paracosm_coverage::PointSetError;
-use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::empty_boxes::EmptyBoxes;
 use rand::Rng;
 use rand_pcg::Pcg64;
+use room::{Room, wrap};
 
 impl Strategy {
     /// The strategy "greedy", which puts each test into the largest empty boxes.
@@ -49,7 +50,17 @@ impl Strategy {
         about: "puts every test into the largest holes: the lowest dispersion, for some milliseconds a test",
         dims: 1..=MOST_DIMS,
         look: Look::filled(0x00_0000, MarkShape::Triangle),
-        method: Method(MethodKind::Holes),
+        method: Method(MethodKind::Holes(EmptyBoxes::at_most)),
+    });
+
+    /// The strategy "greedy-periodic", which puts each test into the largest empty boxes that go on beyond the faces of
+    /// the space.
+    pub const GREEDY_PERIODIC: Self = Self::of(&Descriptor {
+        name: "greedy-periodic",
+        about: "greedy with holes that go on at the opposite border: corners and borders get their share of tests",
+        dims: 1..=MOST_DIMS,
+        look: Look::hollow(0x00_0000, MarkShape::Triangle),
+        method: Method(MethodKind::Holes(EmptyBoxes::periodic_at_most)),
     });
 }
 
@@ -66,9 +77,6 @@ const STEPS: usize = 60;
 const FIRST_STEP: f64 = 0.25;
 const SHORTER: f64 = 0.93;
 
-/// The share of the largest box, around its middle, in which points are placed.
-const ROOM: f64 = 0.7;
-
 /// The greedy choice of points, with the empty boxes between the points so far.
 pub(crate) struct Greedy {
     dims: usize,
@@ -77,16 +85,18 @@ pub(crate) struct Greedy {
 }
 
 impl Greedy {
-    /// Makes the greedy choice of points in `[0,1)^dims` that fill the holes of the `existing` points.
+    /// Makes the greedy choice of points in `[0,1)^dims` that fill the holes of the `existing` points. `make` makes the
+    /// kind of holes that count.
     ///
     /// # Errors
     /// `dims` is 0, or an existing point has another number of coordinates or a coordinate that is not in `[0,1]`.
     pub(crate) fn new(
+        make: MakeBoxes,
         dims: usize,
         rng: Pcg64,
         existing: impl IntoIterator<Item = impl AsRef<[f64]>>,
     ) -> Result<Self, PointSetError> {
-        let mut boxes = EmptyBoxes::at_most(dims, most_boxes(dims))?;
+        let mut boxes = make(dims, most_boxes(dims))?;
         for point in existing {
             boxes.add(point.as_ref())?;
         }
@@ -96,18 +106,18 @@ impl Greedy {
     /// Chooses the next point, and adds the point to the points so far.
     pub(crate) fn next(&mut self) -> Vec<f64> {
         let largest = self.boxes.largest();
-        let room = room(largest);
+        let room: Vec<Room> = (0..self.dims).map(|axis| Room::within(largest.side(axis))).collect();
         let holes = Holes::around(&self.boxes, &room, largest.volume());
         let mut best = (f64::INFINITY, vec![0.0; self.dims]);
         let mut candidate = vec![0.0; self.dims];
         let mut step = FIRST_STEP;
         for number in 0..CANDIDATES + STEPS {
-            for ((x, from), (lower, width)) in candidate.iter_mut().zip(&best.1).zip(&room) {
+            for ((x, from), room) in candidate.iter_mut().zip(&best.1).zip(&room) {
                 let random: f64 = self.rng.random();
                 *x = if number < CANDIDATES {
-                    lower + width * random
+                    room.at(random)
                 } else {
-                    reflect(from + width * step * (2.0 * random - 1.0), *lower, lower + width)
+                    room.reflect(from + room.width * step * (2.0 * random - 1.0))
                 };
             }
             let left = holes.left_by(&candidate);
@@ -118,35 +128,15 @@ impl Greedy {
                 step *= SHORTER;
             }
         }
-        self.boxes.add(&best.1).expect("a point of the cube");
-        best.1
+        let point: Vec<f64> = best.1.into_iter().map(wrap).collect();
+        self.boxes.add(&point).expect("a point of the cube");
+        point
     }
-}
-
-/// The room in a box where a point may be placed: along each axis the lower end and the width.
-fn room(hole: &LargestEmptyBox) -> Vec<(f64, f64)> {
-    let sides = hole.lower.iter().zip(&hole.upper);
-    let middle = |(lower, upper): (&f64, &f64)| {
-        let width = ROOM * (upper - lower);
-        (0.5 * (lower + upper) - 0.5 * width, width)
-    };
-    sides.map(middle).collect()
 }
 
 /// The number of boxes that can be handled in some milliseconds: a box has `2d` parts with `2d` faces each.
 fn most_boxes(dims: usize) -> usize {
     (2_500_000 / dims.saturating_mul(dims).max(1)).clamp(100, 100_000)
-}
-
-/// A number that is mirrored at the end that it exceeds. If it were moved to the end, coordinates would collide.
-fn reflect(x: f64, lower: f64, upper: f64) -> f64 {
-    if x < lower {
-        2.0 * lower - x
-    } else if x > upper {
-        2.0 * upper - x
-    } else {
-        x
-    }
 }
 
 #[cfg(test)]
@@ -159,7 +149,8 @@ mod tests {
     use paracosm_space::Space;
 
     fn points(dims: usize, seed: u64, n: usize) -> Vec<Vec<f64>> {
-        let mut greedy = Greedy::new(dims, seeded(seed, Purpose::Greedy, 0), [[0.0; 0]; 0]).unwrap();
+        let mut greedy =
+            Greedy::new(EmptyBoxes::at_most, dims, seeded(seed, Purpose::Greedy, 0), [[0.0; 0]; 0]).unwrap();
         (0..n).map(|_| greedy.next()).collect()
     }
 
@@ -217,7 +208,7 @@ mod tests {
     #[test]
     fn existing_points_are_built_upon() {
         let existing: Vec<Vec<f64>> = points(2, 5, 200).into_iter().filter(|point| point[0] < 0.5).collect();
-        let mut greedy = Greedy::new(2, seeded(6, Purpose::Greedy, 0), &existing).unwrap();
+        let mut greedy = Greedy::new(EmptyBoxes::at_most, 2, seeded(6, Purpose::Greedy, 0), &existing).unwrap();
         let more: Vec<Vec<f64>> = (0..100).map(|_| greedy.next()).collect();
         let right = more.iter().filter(|point| point[0] > 0.45).count();
         assert!(right >= 90, "{right}");
@@ -226,8 +217,8 @@ mod tests {
 
     #[test]
     fn existing_points_that_are_none_are_refused() {
-        assert!(Greedy::new(0, seeded(0, Purpose::Greedy, 0), [[0.0; 0]; 0]).is_err());
-        assert!(Greedy::new(2, seeded(0, Purpose::Greedy, 0), vec![vec![0.5]]).is_err());
-        assert!(Greedy::new(1, seeded(0, Purpose::Greedy, 0), vec![vec![1.5]]).is_err());
+        assert!(Greedy::new(EmptyBoxes::at_most, 0, seeded(0, Purpose::Greedy, 0), [[0.0; 0]; 0]).is_err());
+        assert!(Greedy::new(EmptyBoxes::at_most, 2, seeded(0, Purpose::Greedy, 0), vec![vec![0.5]]).is_err());
+        assert!(Greedy::new(EmptyBoxes::at_most, 1, seeded(0, Purpose::Greedy, 0), vec![vec![1.5]]).is_err());
     }
 }

@@ -3,11 +3,13 @@
 use super::Greedy;
 use crate::seeded::{Purpose, seeded};
 use crate::sequence::RowSet;
+use crate::strategy::MakeBoxes;
 use std::collections::HashMap;
 use std::sync::Mutex;
 
 /// The greedy points of every discrete row. A point is computed at its first request, and then remembered.
 pub(crate) struct GreedyRows {
+    make: MakeBoxes,
     dims: usize,
     seed: u64,
     existing: HashMap<u64, Vec<Vec<f64>>>,
@@ -21,10 +23,10 @@ struct Row {
 }
 
 impl GreedyRows {
-    /// Makes the greedy points of all rows, without computing a point. `existing` holds the existing points of each
-    /// row, by the row's number.
-    pub(crate) fn new(dims: usize, seed: u64, existing: HashMap<u64, Vec<Vec<f64>>>) -> Self {
-        Self { dims, seed, existing, rows: Mutex::default() }
+    /// Makes the greedy points of all rows, without computing a point. `make` makes the kind of holes that count.
+    /// `existing` holds the existing points of each row, by the row's number.
+    pub(crate) fn new(make: MakeBoxes, dims: usize, seed: u64, existing: HashMap<u64, Vec<Vec<f64>>>) -> Self {
+        Self { make, dims, seed, existing, rows: Mutex::default() }
     }
 }
 
@@ -34,7 +36,10 @@ impl RowSet for GreedyRows {
         let Row { greedy, points } = rows.entry(row).or_insert_with(|| {
             let rng = seeded(self.seed, Purpose::Greedy, row);
             let existing = self.existing.get(&row).into_iter().flatten();
-            Row { greedy: Greedy::new(self.dims, rng, existing).expect("points of the cube"), points: Vec::new() }
+            Row {
+                greedy: Greedy::new(self.make, self.dims, rng, existing).expect("points of the cube"),
+                points: Vec::new(),
+            }
         });
         while points.len() as u64 <= index {
             points.push(greedy.next());

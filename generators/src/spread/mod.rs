@@ -21,6 +21,7 @@ mod row;
 use crate::deal::Deal;
 use crate::seeded::mix;
 use crate::sequence::{PerRow, Sequence};
+use crate::strategy::MethodKind;
 use crate::{Generator, GeneratorError, Request, Strategy, family::Family, greedy::GreedyRows};
 use paracosm_space::Point;
 use row::{Limits, Row, Set};
@@ -163,13 +164,16 @@ impl Sets {
     fn new(strategy: Strategy, request: &Request, family: &Family, first: u64) -> Self {
         let (dims, seed) = (request.space.dims(), request.seed.unwrap_or(0));
         let long = Deal { rows: family.len(), block: LONG, budget: u64::MAX };
-        let (plain, deal): (Arc<dyn Sequence>, Deal) = match strategy.sequence(dims, request.seed) {
-            Some(sequence) if request.budget == usize::MAX => (sequence.into(), long),
-            Some(sequence) => (sequence.into(), Deal::new(family.len(), request.budget as u64)),
+        let (plain, deal): (Arc<dyn Sequence>, Deal) = match strategy.kind() {
             // Greedy points belong to one row, whose number selects it.
-            None => {
-                let rows = GreedyRows::new(dims, seed, family.points_of_rows(request.existing));
+            MethodKind::Holes(make) => {
+                let rows = GreedyRows::new(make, dims, seed, family.points_of_rows(request.existing));
                 (Arc::new(PerRow::new(long, rows)), long)
+            }
+            _ => {
+                let sequence = strategy.sequence(dims, request.seed).expect("strategies that go on have a sequence");
+                let deal = Deal::new(family.len(), request.budget as u64);
+                (sequence.into(), if request.budget == usize::MAX { long } else { deal })
             }
         };
         // One greedy set is about as good as another, and takes long.

@@ -10,6 +10,8 @@ pub use look::{Look, MarkShape};
 use crate::Aim;
 use crate::deal::Deal;
 use crate::{Generator, GeneratorError, Request};
+use paracosm_coverage::PointSetError;
+use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_space::rules::Rules;
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -46,6 +48,9 @@ pub(crate) const ANY: RangeInclusive<usize> = 1..=usize::MAX;
 /// row.
 pub(crate) type BuildSets = fn(usize, Option<u64>, Deal) -> Result<Box<dyn Sequence>, GeneratorError>;
 
+/// A function that makes the empty boxes without points, from the number of dimensions and the greatest number of boxes.
+pub(crate) type MakeBoxes = fn(usize, usize) -> Result<EmptyBoxes, PointSetError>;
+
 /// A function that builds a generator that learns from results. `Rules` are the rules of the request's space.
 pub(crate) type BuildSearch = fn(&Descriptor, &Request, Rules) -> Result<Box<dyn Generator>, GeneratorError>;
 
@@ -64,8 +69,9 @@ pub(crate) enum MethodKind {
         /// The function that builds the sets of all rows, one set after the other.
         build: BuildSets,
     },
-    /// The method puts points into the largest holes between the existing points.
-    Holes,
+    /// The method puts points into the largest holes between the existing points. The function makes the kind of holes
+    /// that count.
+    Holes(MakeBoxes),
     /// The method is a search, which follows the robustness of the tests so far.
     Search {
         /// `true` if the search looks for a single failure of any requirement.
@@ -149,7 +155,7 @@ impl Strategy {
         let is_dispersion = parameters == 0 && k.unwrap_or(2.min(dims)) == dims;
         match self.kind() {
             MethodKind::Sequence(_) | MethodKind::Sets { .. } => true,
-            MethodKind::Holes => {
+            MethodKind::Holes(_) => {
                 dims == 0 || request.epsilon.is_some() || is_dispersion || aim.unwrap_or(default) == Aim::Dispersion
             }
             MethodKind::Search { .. } | MethodKind::Own(_) => false,
@@ -169,7 +175,7 @@ impl Strategy {
 
     /// Returns `true` if the strategy puts new tests into the largest holes between the existing tests.
     pub fn fills_holes(self) -> bool {
-        matches!(self.kind(), MethodKind::Holes)
+        matches!(self.kind(), MethodKind::Holes(_))
     }
 
     /// Returns the default index of the strategy's first point; `None` if the strategy cannot skip points.
@@ -199,7 +205,7 @@ impl Strategy {
     /// Returns `true` if the strategy makes points one by one, without a known number of points, and leaves no hole in
     /// the end.
     pub(crate) fn goes_on(self) -> bool {
-        matches!(self.kind(), MethodKind::Sequence(Endless { fills: true, .. }) | MethodKind::Holes)
+        matches!(self.kind(), MethodKind::Sequence(Endless { fills: true, .. }) | MethodKind::Holes(_))
     }
 }
 

@@ -96,7 +96,7 @@ fn a_budget_below_the_number_of_rows_gives_its_first_rows_one_test_each() {
     let space = mixed(2, &[10, 10]);
     let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 7) };
     for strategy in Strategy::all().filter(|strategy| !strategy.is_adaptive()) {
-        let aim = (strategy == Strategy::GREEDY).then_some(Aim::Dispersion);
+        let aim = strategy.fills_holes().then_some(Aim::Dispersion);
         let discrete: Vec<_> =
             tests(strategy, &Request { aim, ..request }).into_iter().map(|test| test.discrete).collect();
         assert_eq!(discrete, (0..7).map(|level| vec![0, level]).collect::<Vec<_>>(), "{strategy}");

@@ -221,7 +221,8 @@ impl Parameters {
         if let Ok(known) = self.declared.find(name) {
             return fail(at, PictFlaw::Twice { name: self.declared[known].name.clone() });
         }
-        if list.trim().is_empty() {
+        // PICT makes a test of each empty value, and prints empty lines.
+        if list.split(',').all(|piece| piece.trim().is_empty()) {
             return fail(offset + line.len(), PictFlaw::NoValues { name: name.to_owned() });
         }
         let mut values = Values::default();

@@ -3,7 +3,7 @@
 use super::{strength, time_limit};
 use crate::cli::interrupt::Interruptible;
 use crate::cli::output::plural;
-use crate::cli::{Verbosity, complain};
+use crate::cli::{Strict, Verbosity, complain};
 use crate::coverage::Deadline;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
 use crate::generators::{GeneratorError, Request};
@@ -19,6 +19,7 @@ use std::time::Duration;
 
 /// The options for making a covering array.
 pub(super) struct ArrayOptions {
+    pub strict: Strict,
     pub k: Option<usize>,
     pub seed: Option<u64>,
     /// The time in seconds for making the covering array smaller.
@@ -38,9 +39,7 @@ impl ArrayOptions {
         let limit = self.optimise.map(|seconds| time_limit("--optimise", seconds)).transpose()?;
         let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
         let k = Request { k: self.k, ..Request::new(space, 1) }.discrete_strength()?;
-        for note in strength::pointless(k, &demand.groups, space) {
-            verbosity.note(note);
-        }
+        strength::note_pointless(k, &demand.groups, space, self.strict, verbosity)?;
         let mut places: BTreeMap<PartialRow, String> = BTreeMap::new();
         for (place, row) in existing {
             places.entry(row).or_insert(place);

@@ -116,7 +116,8 @@ impl Options {
         let limit = time_limit("--time-limit", self.time_limit.unwrap_or(TIME_LIMIT))?;
         let uses_array =
             request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && strategy.has_rows(&request);
-        let options = ArrayOptions { k: self.sampling.k, seed: self.sampling.seed, optimise: self.optimise };
+        let options =
+            ArrayOptions { strict: self.strict, k: self.sampling.k, seed: self.sampling.seed, optimise: self.optimise };
         // Errors of the rest are reported before an array is made, which may take long.
         let any_row = [vec![0; space.levels().len()]];
         strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;

@@ -3,10 +3,11 @@
 use super::{strength, time_limit};
 use crate::cli::output::{Format, Table, json, plural};
 use crate::cli::{Failure, Strict, Verbosity, print};
+use crate::generators::Request;
 use crate::space::Space;
 use clap::{ArgGroup, Args};
 use paracosm_analysis::{Guarantee, Need, Plan};
-use paracosm_campaign::{SpaceFile, TestSet};
+use paracosm_campaign::{Error, SpaceFile, TestSet};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -60,11 +61,15 @@ impl Options {
         };
         demand.groups.extend(strength::groups(&self.strength, &space)?);
         let limit = time_limit("--time-limit", self.time_limit)?;
-        let plan = Plan::of(&space, self.k, &demand, self.epsilon, self.delta, limit)?;
-        strength::capped(self.k, &space).into_iter().for_each(|note| verbosity.note(note));
-        for note in plan.k.iter().flat_map(|&k| strength::pointless(k, &demand.groups, &space)) {
-            verbosity.note(note);
+        if !space.levels().is_empty() {
+            let k = Request { k: self.k, ..Request::new(&space, 1) }.discrete_strength().map_err(Error::from)?;
+            strength::note_pointless(k, &demand.groups, &space, self.strict, verbosity)?;
         }
+        let note =
+            format!("making a covering array and measuring points, at most {} s (--time-limit)", limit.as_secs_f64());
+        let plan =
+            verbosity.noting_if_slow(&note, || Plan::of(&space, self.k, &demand, self.epsilon, self.delta, limit))?;
+        strength::capped(self.k, &space).into_iter().for_each(|note| verbosity.note(note));
         if space.dims() > 3 {
             verbosity.note("above three dimensions the a-priori bounds are useless: rely on the measured numbers");
         }

@@ -1,7 +1,7 @@
 //! The option `--strength`: groups of discrete parameters that are covered with a strength of more than k.
 
 use crate::cli::output::plural;
-use crate::cli::usage;
+use crate::cli::{Strict, Verbosity, usage};
 use crate::space::Space;
 use paracosm_campaign::Error;
 
@@ -58,13 +58,24 @@ pub(super) fn capped(k: Option<usize>, space: &Space) -> Option<String> {
     ))
 }
 
-/// Returns a note for each group that adds nothing.
-pub(super) fn pointless<'a>(k: usize, groups: &'a [Group], space: &'a Space) -> impl Iterator<Item = String> + 'a {
-    let lower = groups.iter().filter(move |(_, strength)| *strength <= k);
-    lower.map(move |(members, strength)| {
+/// Prints a note for each group that adds nothing.
+///
+/// # Errors
+/// A group adds nothing, and `--strict` is given.
+pub(super) fn note_pointless(
+    k: usize,
+    groups: &[Group],
+    space: &Space,
+    strict: Strict,
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    let lower = groups.iter().filter(|(_, strength)| *strength <= k);
+    let note = |(members, strength): &Group| {
         let names = names(members, space);
         format!("{strength}-wise among {names} adds nothing: all parameters are covered {k}-wise")
-    })
+    };
+    let notes: Vec<String> = lower.map(note).collect();
+    strict.accept(&notes, "groups that add nothing; leave out the groups", verbosity)
 }
 
 fn names(members: &[usize], space: &Space) -> String {
