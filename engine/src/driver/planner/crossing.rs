@@ -2,12 +2,10 @@
 //!
 //! Positions count [along the way](super::super::frenet). Everybody is expected to keep the present velocity. A road
 //! user who comes over counts as in the way, unless the car passes before or the road user has gone by when the car
-//! arrives. The driver ignores a body until the line from the car's front to the body's middle has been free of large
-//! bodies once, as the reference drivers do.
+//! arrives.
 
 use super::super::Settings;
 use super::super::frenet::Frenet;
-use super::super::perception::hidden;
 use crate::object::Class;
 use crate::observation::{Briefing, Observation, Other};
 
@@ -29,10 +27,10 @@ pub(super) struct Room {
 pub(super) struct Crossing {
     horizon: f64,
     margin: f64,
+    /// The deceleration in m/s² with which the car can come to rest at most.
+    braking: f64,
     half_length: f64,
     half_width: f64,
-    /// `true` for each body that the driver has seen.
-    seen: Vec<bool>,
 }
 
 impl Crossing {
@@ -40,35 +38,23 @@ impl Crossing {
         Self {
             horizon: settings.get("horizon"),
             margin: settings.get("margin"),
+            braking: settings.get("braking"),
             half_length: 0.0,
             half_width: 0.0,
-            seen: Vec::new(),
         }
     }
 
     pub fn reset(&mut self, briefing: &Briefing) {
         self.half_length = 0.5 * briefing.vehicle.length;
         self.half_width = 0.5 * briefing.vehicle.width;
-        self.seen.clear();
     }
 
-    /// Notes which bodies the driver has seen by now.
-    pub fn look(&mut self, observation: &Observation) {
-        let bodies = observation.others.iter().map(|other| other.id + 1).max().unwrap_or(0);
-        self.seen.resize(bodies.max(self.seen.len()), false);
-        for other in &observation.others {
-            if !self.seen[other.id] {
-                self.seen[other.id] = !hidden(other, observation, self.half_length);
-            }
-        }
-    }
-
-    /// Returns the room up to each road user in the way.
-    pub fn rooms(&self, observation: &Observation) -> impl Iterator<Item = Room> {
+    /// Returns the room up to each of the given bodies that is in the way.
+    pub fn rooms(&self, observation: &Observation, bodies: &[Other]) -> impl Iterator<Item = Room> {
         let way = Frenet::of(observation);
-        let seen = observation.others.iter().filter(|other| self.seen[other.id]);
-        let road_users = seen.filter(|other| !matches!(other.class, Class::Building | Class::Tree | Class::Sign));
-        road_users.filter_map(move |other| self.room(&way.straightened(other, 0.0), observation.speed))
+        let road_users =
+            bodies.iter().filter(|body| !matches!(body.class, Class::Building | Class::Tree | Class::Sign));
+        road_users.filter_map(move |body| self.room(&way.straightened(body, 0.0), observation.speed))
     }
 
     /// Returns the room up to a body; `None` if the body does not get in the way.
@@ -96,7 +82,10 @@ impl Crossing {
         } else {
             (if gap > 0.0 { f64::INFINITY } else { 0.0 }, f64::INFINITY)
         };
-        let clear = passed + BEFORE < enters || comes > leaves + AFTER;
+        // If the car can no longer stop, it goes on if it just passes before.
+        let stops = gap > 0.5 * closing * closing.abs() / self.braking;
+        let before = if stops { enters - BEFORE } else { enters + self.margin / approach };
+        let clear = passed < before || comes > leaves + AFTER;
         (!clear).then_some(room)
     }
 }

@@ -10,6 +10,9 @@
 //! - road users who come into the way, if both keep their velocities ([`crossing`]);
 //! - conflicts with other lanes, by gap acceptance ([`junction`]).
 //!
+//! The driver ignores a body until the line from the car's front to the body's middle has been free of large bodies
+//! once, as the reference drivers do.
+//!
 //! The sources of the numbers:
 //!
 //! | setting | source |
@@ -24,12 +27,14 @@
 
 mod crossing;
 mod junction;
+mod passage;
 #[cfg(test)]
 mod tests;
 
 use super::cruise::{Cruise, PERIOD};
+use super::perception::hidden;
 use super::{Descriptor, Driver, Fault, Setting, Settings, setting};
-use crate::observation::{Briefing, Control, Observation, Way};
+use crate::observation::{Briefing, Control, Observation, Other, Way};
 use crate::traffic::Idm;
 use crossing::{Crossing, Room};
 use junction::Junctions;
@@ -42,7 +47,7 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
 };
 
 const SETTINGS: [Setting; 11] = [
-    setting("acceleration", 1.5, "m/s^2", (0.1, 10.0), "acceleration from standstill on a free road"),
+    setting("acceleration", 2.0, "m/s^2", (0.1, 10.0), "acceleration from standstill on a free road"),
     setting("deceleration", 2.0, "m/s^2", (0.1, 10.0), "comfortable deceleration"),
     setting("headway", 1.5, "s", (0.0, 10.0), "time headway to a road user ahead"),
     setting("gap", 2.0, "m", (0.5, 20.0), "gap to a road user ahead when both stand"),
@@ -50,7 +55,13 @@ const SETTINGS: [Setting; 11] = [
     setting("braking", 9.0, "m/s^2", (1.0, 20.0), "greatest deceleration that the driver asks for"),
     setting("critical_gap", 5.0, "s", (0.0, 20.0), "least time until the next road user with the right of way arrives"),
     setting("spare", 1.5, "s", (0.0, 10.0), "time before that arrival at which the car has left the conflict"),
-    setting("patience", 4.0, "s", (0.0, 60.0), "waiting time after which the driver no longer lets standing cars go first"),
+    setting(
+        "patience",
+        4.0,
+        "s",
+        (0.0, 60.0),
+        "waiting time after which the driver no longer lets standing cars go first",
+    ),
     setting("horizon", 3.0, "s", (0.0, 10.0), "time for which the driver predicts who comes into its way"),
     setting("margin", 0.3, "m", (0.0, 5.0), "room that the driver wants beside the car"),
 ];
@@ -64,8 +75,13 @@ struct Planner {
     idm: Idm,
     lateral: f64,
     braking: f64,
+    half_length: f64,
     crossing: Crossing,
     junctions: Junctions,
+    /// `true` for each body that the driver has seen.
+    seen: Vec<bool>,
+    /// The present states of these bodies.
+    bodies: Vec<Other>,
 }
 
 impl Planner {
@@ -82,8 +98,23 @@ impl Planner {
             },
             lateral: settings.get("lateral"),
             braking: settings.get("braking"),
+            half_length: 0.0,
             crossing: Crossing::new(settings),
             junctions: Junctions::new(settings),
+            seen: Vec::new(),
+            bodies: Vec::new(),
+        }
+    }
+
+    /// Takes in the bodies that the driver can see, or has seen before.
+    fn look(&mut self, observation: &Observation) {
+        let bodies = observation.others.iter().map(|other| other.id + 1).max().unwrap_or(0);
+        self.seen.resize(bodies.max(self.seen.len()), false);
+        self.bodies.clear();
+        for other in &observation.others {
+            let seen = &mut self.seen[other.id];
+            *seen = *seen || !hidden(other, observation, self.half_length);
+            self.bodies.extend(seen.then_some(*other));
         }
     }
 
@@ -109,6 +140,8 @@ impl Driver for Planner {
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
         self.set_speed = briefing.cruise_speed;
         self.cruise.reset(briefing)?;
+        self.half_length = 0.5 * briefing.vehicle.length;
+        self.seen.clear();
         self.crossing.reset(briefing);
         self.junctions.reset(briefing, &self.idm, self.lateral);
         Ok(())
@@ -116,16 +149,16 @@ impl Driver for Planner {
 
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         let free = self.idm.free(observation.speed, self.set_speed);
-        self.crossing.look(observation);
+        self.look(observation);
         let mut acceleration = free.min(self.for_bends(observation));
         let mut least = f64::INFINITY;
-        for Room { gap, speed } in self.crossing.rooms(observation) {
+        for Room { gap, speed } in self.crossing.rooms(observation, &self.bodies) {
             let following = self.idm.following(observation.speed, self.set_speed, gap, speed);
             acceleration = acceleration.min(following);
             // A body that brakes as hard as it can still needs this way.
             least = least.min(gap + 0.5 * speed.max(0.0) * speed / self.braking);
         }
-        if let Some(gap) = self.junctions.stop(observation, least) {
+        if let Some(gap) = self.junctions.stop(observation, &self.bodies, least) {
             let stopping = self.idm.following(observation.speed, self.set_speed, gap + self.idm.gap, 0.0);
             acceleration = acceleration.min(stopping);
         }
