@@ -13,14 +13,14 @@ use std::path::Path;
 
 /// The tests of each driver in each scenario.
 const TESTS: usize = 200;
-const VERDICTS: [Verdict; 5] =
-    [Verdict::Pass, Verdict::Fail, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
+const VERDICTS: [Verdict; 5] = [Verdict::Pass, Verdict::Fail, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
 
 /// Runs the study and writes `drivers.csv` to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let scenarios: Vec<&str> = paracosm::scenarios::ALL.iter().map(|program| program.name()).collect();
     bar.set_length((scenarios.len() * driver::ALL.len() * TESTS) as u64);
-    let header = ["driver", "scenario"].map(str::to_owned).into_iter().chain(VERDICTS.map(|verdict| verdict.to_string()));
+    let header =
+        ["driver", "scenario"].map(str::to_owned).into_iter().chain(VERDICTS.map(|verdict| verdict.to_string()));
     let header = header.chain(["preventable", "violated"].map(str::to_owned));
     let mut rows: Vec<Vec<String>> = vec![header.collect()];
     for name in scenarios {
@@ -33,7 +33,8 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     }
     bar.finish_and_clear();
     write_csv(&out.join("drivers.csv"), &rows)?;
-    let lines = rows.iter().skip(1).map(|row| format!("{:<12} {:<20} {:>3} fail  {}\n", row[0], row[1], row[3], row[8]));
+    let lines =
+        rows.iter().skip(1).map(|row| format!("{:<12} {:<20} {:>3} fail  {}\n", row[0], row[1], row[3], row[8]));
     print(&lines.collect::<String>())
 }
 

@@ -10,9 +10,10 @@
 //! 3. at every other conflict, nobody comes who can no longer stop.
 //!
 //! Where four roads cross, each of four cars can have another at its right, and on a busy road no gap may be as long as
-//! the driver wants. So the driver has patience for some time only. Then it goes before others who stand, expects others
-//! to go on as they do, and accepts every gap that suffices for its way. Within a passage, the car stops only for others
-//! who are there before it.
+//! the driver wants. So the driver has patience for some time only. Then it sets out before others who stand, expects
+//! others to go on as they do, and accepts every gap that suffices for its way. As soon as it rolls, it is patient again
+//! until it can no longer stop. So it inches forward, and others who find it in their way let it go. Within a passage,
+//! the car stops only for others who are there before it.
 
 use super::super::Settings;
 use super::passage::{Conflict, Passage, passages};
