@@ -57,7 +57,7 @@ pub use contact::{Contact, ContactMotion, Face};
 pub use flaw::{ObjectFlaw, WorldFlaw};
 pub use geometry::{Line, Pose, Side};
 pub use monitor::Monitor;
-pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
+pub use observation::{Ahead, Briefing, Control, Navigation, Observation, Other, Way};
 pub use outcome::{Breakdown, Ending, Invalid, Judgement, Measurements, Outcome, Violation};
 pub use paracosm_space::Shape;
 pub use program::{Declaration, Program, ProgramError};

@@ -2,16 +2,31 @@
 
 use crate::geometry::Pose;
 use crate::object::{Class, Outline};
+use crate::road::{Path, RoadNetwork};
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// The facts that a driver gets before a run begins.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Briefing {
     /// The speed in m/s that the driver is to keep if nothing is in the way.
     pub cruise_speed: f64,
     /// The car that the driver drives.
     pub vehicle: Vehicle,
+    /// The map of the roads and the way of the car; `None` for a driver in another process, which is not told them.
+    pub navigation: Option<Navigation>,
+}
+
+/// The map of the roads with the way that a car is to go over them, cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Navigation {
+    /// The roads of the world.
+    pub network: Arc<RoadNetwork>,
+    /// The way of the car over the roads.
+    pub way: Path,
+    /// The place where the car's middle starts, in metres along the way.
+    pub start: f64,
 }
 
 /// The true state of a body, as seen from the car. A driver may derive its own perception from the true state.

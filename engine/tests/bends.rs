@@ -40,7 +40,7 @@ fn brakes_at(name: &str, curvature: f64, other: OnCircle) -> Option<f64> {
     // What comes of the noise of a sensor is no matter of bends.
     let exact = if name == "aeb" { vec![("noise".to_owned(), 0.0)] } else { vec![] };
     let mut driver = find(name).unwrap().build(&exact).unwrap();
-    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
+    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     let period = driver.period();
     (0..(4.0 / period).round() as usize).map(|i| i as f64 * period).find(|time| {
         let travelled = SPEED * time;

@@ -9,6 +9,7 @@ mod boundary;
 mod cloning;
 #[cfg(feature = "neural")]
 mod crossing;
+mod drivers;
 #[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
@@ -76,6 +77,12 @@ const STUDIES: &[Study] = &[
         about: "how much of the pedestrian study's map is known after 25 to 400 tests, by boundary and by sampling",
         time: "2 min",
         run: boundary::run,
+    },
+    Study {
+        name: "drivers",
+        about: "every driver that comes with the software in 200 Halton tests of every scenario",
+        time: "1 h",
+        run: drivers::run,
     },
     Study {
         name: "fig9",

@@ -57,7 +57,7 @@ fn session() -> Session {
     };
     let terms = Terms { seed: 0, settings: Vec::new(), timeout: Duration::from_secs(10) };
     let mut session = Session::open(&Address::from(address), &terms, Arc::default()).expect("a driver");
-    session.reset(&Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I }).expect("it is ready");
+    session.reset(&Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I, navigation: None }).expect("it is ready");
     session
 }
 

@@ -9,6 +9,7 @@ mod expert;
 mod frenet;
 mod lane_camera;
 mod perception;
+mod planner;
 pub mod reference;
 
 use crate::observation::{Briefing, Control, Observation};
@@ -211,6 +212,7 @@ pub const ALL: &[&Descriptor] = &[
     &cruise::DESCRIPTOR,
     &expert::DESCRIPTOR,
     &lane_camera::DESCRIPTOR,
+    &planner::DESCRIPTOR,
     &reference::CC,
     &reference::RSS,
     &reference::FSM,

@@ -29,7 +29,7 @@ fn person(x: f64, y: f64) -> Other {
 fn drive(changes: &[(&str, f64)], others: impl Fn(f64) -> Option<(f64, f64)>, seconds: f64) -> Vec<(f64, f64)> {
     let changes: Vec<_> = changes.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     let mut driver = find("aeb").unwrap().build(&changes).unwrap();
-    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
+    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     let steps = (seconds / driver.period()).round() as usize;
     let at = |i: usize| i as f64 * 0.05;
     (0..steps)
@@ -108,7 +108,7 @@ fn aeb_goes_on_when_the_way_is_clear_and_not_before() {
 fn a_driver_that_was_reset_does_the_same_again() {
     let mut driver = find("aeb").unwrap().build(&[]).unwrap();
     let mut runs = (0..2).map(|_| {
-        driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
+        driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
         (0..80)
             .map(|i| {
                 let time = f64::from(i) * 0.05;
@@ -147,7 +147,7 @@ fn unknown_drivers_and_settings_are_named_with_the_nearest() {
 /// What `expert` gives at its cruise speed when one body is there.
 fn expert_with(body: Other) -> f64 {
     let mut driver = find("expert").unwrap().build(&[]).unwrap();
-    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
+    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     let observation = Observation { speed: SPEED, others: vec![body], ..Observation::default() };
     driver.step(&observation).unwrap().throttle
 }

@@ -80,6 +80,13 @@ impl Path {
         range.map(move |index| lanes.as_ref().expect("it is of lanes")[index])
     }
 
+    /// Returns the lanes of the path in order, each with the place where its piece begins, in metres along the path;
+    /// nothing if the path was not made from lanes.
+    pub(crate) fn lane_pieces(&self) -> impl Iterator<Item = (f64, LaneId)> {
+        let lanes = self.lanes.iter().flat_map(|lanes| lanes.iter().copied());
+        self.pieces.iter().map(|(from, _)| *from).zip(lanes)
+    }
+
     /// Makes the straight path from one place to another place. If both places are equal, the path faces along x.
     pub fn straight(from: Vector2<f64>, to: Vector2<f64>) -> Self {
         let way = to - from;

@@ -4,8 +4,11 @@ use super::bounds::Bounds;
 use super::lane::{Lane, LaneId};
 use super::network::RoadNetwork;
 use super::route::RoutePosition;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, wrapped};
 use nalgebra::Vector2;
+
+/// A body is on a lane whose middle is this near, in metres, and whose direction differs by at most this, in radians.
+const ON_LANE: (f64, f64) = (1.2, 0.6);
 
 /// A position relative to a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +64,17 @@ impl RoadNetwork {
         let at = curve.at(s);
         let beyond = position - at.position;
         LanePosition { lane, s, offset: curve.forward(s).perp(&beyond), heading: at.heading, distance: beyond.norm() }
+    }
+
+    /// Returns the place in metres along a lane of a body that drives along the lane; `None` if the body is elsewhere or
+    /// points in another direction.
+    pub(crate) fn place_on_lane(&self, lane: LaneId, body: &Pose) -> Option<f64> {
+        if self.lane(lane).curve.is_beyond(body.position, ON_LANE.0) {
+            return None;
+        }
+        let seen = self.project_onto(lane, body.position);
+        let turned = wrapped(body.heading - seen.heading).abs();
+        (seen.distance <= ON_LANE.0 && turned <= ON_LANE.1).then_some(seen.s)
     }
 
     /// Visits all lanes that meet a box and some lanes that are only near it, in no particular order. `open` is the

@@ -156,7 +156,7 @@ impl Run {
 
     /// Returns the facts that the driver gets before the run begins.
     pub fn briefing(&self) -> Briefing {
-        self.scene.ego.briefing()
+        self.scene.ego.briefing(&self.scene.network)
     }
 
     /// Returns the names of the signals in the trace.

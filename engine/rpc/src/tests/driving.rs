@@ -132,7 +132,7 @@ fn cameras_and_images_arrive_as_they_are() {
     let kept = Arc::clone(&seen);
     let mut session = open(&served(move || Box::new(Watcher(Arc::clone(&kept))))).unwrap();
     assert_eq!(session.equipment().cameras, cameras());
-    session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I }).unwrap();
+    session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     let image = |camera, number| Image {
         camera,
         number,
@@ -229,7 +229,7 @@ fn a_driver_with_a_rig_and_one_that_panics_are_no_loss_to_others() {
     let address = served(|| Box::new(Bad(false)));
     for _ in 0..2 {
         let mut session = open(&address).unwrap();
-        let fault = session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I }).unwrap_err();
+        let fault = session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap_err();
         assert_eq!(fault.message, "the driver panicked: no brakes");
     }
 }

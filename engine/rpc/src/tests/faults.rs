@@ -14,7 +14,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use tonic::Status;
 
-const BRIEFING: Briefing = Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I };
+const BRIEFING: Briefing = Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I, navigation: None };
 
 #[track_caller]
 fn refuses(session: Result<Session, OpenError>, says: &str) {

@@ -105,6 +105,6 @@ impl From<&Reset> for Briefing {
             switch_speed: vehicle.switch_speed,
             max_speed: vehicle.max_speed,
         };
-        Self { cruise_speed: reset.cruise_speed, vehicle }
+        Self { cruise_speed: reset.cruise_speed, vehicle, navigation: None }
     }
 }

@@ -24,7 +24,7 @@ fn image(edge: impl Fn(f64) -> Option<f64>) -> Image {
 
 fn driver(changes: &[(String, f64)]) -> Box<dyn Driver> {
     let mut driver = find("lane-camera").unwrap().build(changes).unwrap();
-    driver.reset(&Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I }).unwrap();
+    driver.reset(&Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     driver
 }
 

@@ -244,7 +244,7 @@ const NAMES: [&str; 5] = ["cc", "rss", "fsm", "reg157", "ideal"];
 /// Whether the driver brakes for this body at any time, while the car drives past it at a constant 15 m/s.
 fn brakes(driver: &str, mut other: Other) -> bool {
     let mut driver = find(driver).unwrap().build(&[]).unwrap();
-    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();
+    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     let mut braked = false;
     for i in 0..100 {
         let time = f64::from(i) * DT;
@@ -287,7 +287,7 @@ fn a_car_that_stands_across_the_road_counts_with_its_length() {
 /// away at 20 m/s between the two.
 fn brakes_behind(driver: &str, leader: bool) -> bool {
     let mut driver = find(driver).unwrap().build(&[]).unwrap();
-    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();
+    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
     (0..22).map(|i| f64::from(i) * DT).any(|time| {
         let standing = Other { class: Class::Car, ..car(58.0 - 15.0 * time, 0.0, Vector2::zeros()) };
         let leader =
@@ -313,7 +313,7 @@ fn a_reference_driver_that_was_reset_does_the_same_again() {
     for name in NAMES {
         let mut driver = find(name).unwrap().build(&[]).unwrap();
         let mut runs = (0..2).map(|_| {
-            driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();
+            driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap();
             (0..60)
                 .map(|i| {
                     let time = f64::from(i) * DT;

@@ -8,7 +8,7 @@ use crate::flaw::ObjectFlaw;
 use crate::geometry::wrapped;
 use crate::geometry::{Line, Pose};
 use crate::object::{Body, BodyState, Class, Output, Outputs};
-use crate::observation::{Ahead, Briefing, Control, Way};
+use crate::observation::{Ahead, Briefing, Control, Navigation, Way};
 use crate::road::{LaneId, Path, RoadNetwork};
 use crate::stream::Stream;
 use crate::upset::Upset;
@@ -16,6 +16,7 @@ use crate::vehicle::{Dynamics, Pedals, Vehicle, VehicleSetup};
 use nalgebra::Vector2;
 use quantity::{Asked, Quantity};
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// The speed in m/s below which the car counts as standing.
 const STANDING: f64 = 0.1;
@@ -280,9 +281,11 @@ impl Ego {
         Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0, standing: 0.0 }
     }
 
-    /// Returns the briefing of the car's driver.
-    pub fn briefing(&self) -> Briefing {
-        Briefing { cruise_speed: self.car.speed, vehicle: self.car.vehicle }
+    /// Returns the briefing of the car's driver, with the map of the given roads.
+    pub fn briefing(&self, network: &Arc<RoadNetwork>) -> Briefing {
+        let AutonomousVehicle { vehicle, speed, start, .. } = self.car;
+        let navigation = Navigation { network: network.clone(), way: self.car.way.clone(), start };
+        Briefing { cruise_speed: speed, vehicle, navigation: Some(navigation) }
     }
 
     /// Returns the state of the car's body.

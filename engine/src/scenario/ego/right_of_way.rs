@@ -1,12 +1,8 @@
 //! Finds the time until a road user with the right of way reaches the car's place in an intersection.
 
 use super::Ego;
-use crate::geometry::wrapped;
 use crate::object::BodyState;
 use crate::road::{LaneId, RoadNetwork};
-
-/// A body is on a lane whose middle is this near, in metres, and whose direction differs by at most this, in radians.
-const ON_LANE: (f64, f64) = (1.2, 0.6);
 
 /// Returns the seconds until the first road user with the right of way comes to the car's place in an intersection;
 /// infinite if none comes, 0 if one is there already.
@@ -42,14 +38,7 @@ pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 
 
 /// Returns the metres of a body along a lane; negative on a lane that leads to the given lane, `None` elsewhere.
 fn along(other: &BodyState, lane: LaneId, network: &RoadNetwork) -> Option<f64> {
-    let on = |lane: LaneId| {
-        if network.lane(lane).curve.is_beyond(other.pose.position, ON_LANE.0) {
-            return None;
-        }
-        let seen = network.project_onto(lane, other.pose.position);
-        let turned = wrapped(other.pose.heading - seen.heading).abs();
-        (seen.distance <= ON_LANE.0 && turned <= ON_LANE.1).then_some(seen.s)
-    };
+    let on = |lane: LaneId| network.place_on_lane(lane, &other.pose);
     let before = || {
         let predecessors = network.lane(lane).predecessors.iter();
         predecessors.filter_map(|&before| Some(on(before)? - network.lane(before).length())).next()
