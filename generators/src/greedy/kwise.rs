@@ -48,7 +48,6 @@ struct View {
 }
 
 /// The state of a view.
-#[expect(clippy::large_enum_variant, reason = "nearly all are the large one")]
 enum Kept {
     /// The empty boxes over its continuous parameters.
     Boxes(EmptyBoxes),
