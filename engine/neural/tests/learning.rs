@@ -145,7 +145,9 @@ fn a_pilot_mounts_a_camera_of_its_models_size_and_does_nothing_until_it_sees() {
     let mut pilot = Pilot::new(model.clone());
     let cameras = pilot.equipment().cameras;
     assert_eq!(cameras.all["front"].resolution, [SIZE, SIZE]);
-    pilot.reset(&Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I, navigation: None }).expect("it drives any car");
+    pilot
+        .reset(&Briefing { cruise_speed: 10.0, vehicle: Vehicle::BMW_320I, navigation: None })
+        .expect("it drives any car");
     let observation = Observation { speed: 12.0, ..Observation::default() };
     let control = pilot.step(&observation).expect("an answer");
     assert_eq!((control.steering, control.throttle), (0.0, 0.0));

@@ -229,7 +229,8 @@ fn a_driver_with_a_rig_and_one_that_panics_are_no_loss_to_others() {
     let address = served(|| Box::new(Bad(false)));
     for _ in 0..2 {
         let mut session = open(&address).unwrap();
-        let fault = session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap_err();
+        let fault =
+            session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I, navigation: None }).unwrap_err();
         assert_eq!(fault.message, "the driver panicked: no brakes");
     }
 }

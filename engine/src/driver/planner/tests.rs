@@ -85,13 +85,14 @@ fn it_does_not_wait_for_a_car_from_the_left_that_can_still_stop_nor_for_one_far_
 }
 
 #[test]
-fn it_waits_for_its_patience_and_then_goes_before_a_car_that_stands_at_its_right() {
+fn it_waits_for_its_patience_and_then_inches_forward_before_a_car_that_stands_at_its_right() {
     for patience in [2.0, 6.0] {
         let outcome = driven(&[("patience", patience)], meeting(("south", "north"), 5.0, 0.0, 60.0));
         assert_eq!(outcome.ending, Ending::Pass, "{:?}", outcome.judgements);
         let speeds = signal(&outcome, "car.speed");
         let standing = speeds.iter().filter(|speed| **speed < 0.3).count() as f64 * outcome.trace.unwrap().dt();
-        assert!((patience..patience + 16.0).contains(&standing), "{standing} s, patience {patience} s");
+        // It needs several attempts, each after its patience.
+        assert!((patience..5.0 * patience.max(3.0)).contains(&standing), "{standing} s, patience {patience} s");
     }
 }
 
