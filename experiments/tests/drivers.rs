@@ -64,10 +64,7 @@ fn overview(cells: &[Cell]) -> String {
         let invalid = row.iter().map(|cell| cell.invalid).max().unwrap();
         write!(table, "| `{scenario}` | {invalid} |").unwrap();
         for driver in &drivers {
-            let Some(cell) = row.iter().find(|cell| cell.driver == *driver) else {
-                table.push_str(" not run |");
-                continue;
-            };
+            let cell = row.iter().find(|cell| cell.driver == *driver).unwrap();
             let open = cell.inconclusive + cell.error;
             let open = if open > 0 { format!(" ({open})") } else { String::new() };
             write!(table, " {}{open} |", cell.fail).unwrap();
@@ -128,19 +125,13 @@ fn the_tables_of_the_page_are_those_of_the_csv_and_every_large_number_has_a_reas
 #[test]
 fn every_driver_drives_every_scenario_and_the_counts_add_up() {
     let cells = cells();
-    let drivers: Vec<&str> = driver::ALL.iter().map(|driver| driver.name).collect();
+    // The images of a driver with a camera would take hours.
+    let sees = |driver: &driver::Descriptor| !driver.build(&[]).unwrap().equipment().cameras.all.is_empty();
+    let drivers: Vec<&str> = driver::ALL.iter().filter(|driver| !sees(driver)).map(|driver| driver.name).collect();
     let scenarios: Vec<&str> = paracosm::scenarios::ALL.iter().map(|program| program.name()).collect();
     assert_eq!(names(&cells, |cell| &cell.driver), drivers);
     assert_eq!(names(&cells, |cell| &cell.scenario), scenarios);
-    // The images of a driver with cameras take so much time that it may miss some scenarios.
-    let seeing = |name: &str| {
-        let mut driver = driver::find(name).unwrap().build(&[]).unwrap();
-        !driver.equipment().cameras.all.is_empty()
-    };
-    for driver in drivers.into_iter().filter(|driver| !seeing(driver)) {
-        let driven = cells.iter().filter(|cell| cell.driver == driver).count();
-        assert_eq!(driven, scenarios.len(), "scenarios of {driver}");
-    }
+    assert_eq!(cells.len(), drivers.len() * scenarios.len());
     for Cell { driver, scenario, pass, fail, inconclusive, invalid, error, preventable, .. } in &cells {
         assert_eq!(pass + fail + inconclusive + invalid + error, 200, "{driver} in {scenario}");
         assert!(preventable <= fail && *error == 0, "{driver} in {scenario}");

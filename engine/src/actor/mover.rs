@@ -73,21 +73,6 @@ impl Mover {
         Self::new("truck", Body::truck(), path)
     }
 
-    /// Makes a panel van called `van`.
-    pub fn van(path: Path) -> Self {
-        Self::new("van", Body::van(), path)
-    }
-
-    /// Makes a city bus called `bus`.
-    pub fn bus(path: Path) -> Self {
-        Self::new("bus", Body::bus(), path)
-    }
-
-    /// Makes a motorcycle called `motorcycle`.
-    pub fn motorcycle(path: Path) -> Self {
-        Self::new("motorcycle", Body::motorcycle(), path)
-    }
-
     /// Makes a bicycle called `bicycle`.
     pub fn bicycle(path: Path) -> Self {
         Self::new("bicycle", Body::bicycle(), path)

@@ -1,6 +1,5 @@
 //! The appearance of objects to others: their outline on the ground, height, class and colour.
 
-use super::VehicleKind;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::fmt;
@@ -180,47 +179,6 @@ impl Body {
     /// Makes the body of a child. The Euro NCAP child dummy is 0.3 m wide and 1.15 m tall.
     pub fn child() -> Self {
         Self::disc(Class::Pedestrian, 0.15, 1.15)
-    }
-
-    /// Makes the body of a kind of vehicle.
-    pub fn of(kind: &VehicleKind) -> Self {
-        let [length, width, height] = kind.size;
-        Self::block(kind.class, length, width, height)
-    }
-
-    /// Makes the body of a passenger car of middle size.
-    pub fn car() -> Self {
-        Self::of(&VehicleKind::CAR)
-    }
-
-    /// Makes the body of a panel van.
-    pub fn van() -> Self {
-        Self::of(&VehicleKind::VAN)
-    }
-
-    /// Makes the body of a lorry.
-    pub fn truck() -> Self {
-        Self::of(&VehicleKind::TRUCK)
-    }
-
-    /// Makes the body of a city bus.
-    pub fn bus() -> Self {
-        Self::of(&VehicleKind::BUS)
-    }
-
-    /// Makes the body of a motorcycle with its rider.
-    pub fn motorcycle() -> Self {
-        Self::of(&VehicleKind::MOTORCYCLE)
-    }
-
-    /// Makes the body of a bicycle with its rider.
-    pub fn bicycle() -> Self {
-        Self::of(&VehicleKind::BICYCLE)
-    }
-
-    /// Makes the body of a bicycle without a rider. Sensors recognise it by its lower height.
-    pub fn parked_bicycle() -> Self {
-        Self::of(&VehicleKind::PARKED_BICYCLE)
     }
 
     /// Returns the same body in another colour.

@@ -1,6 +1,6 @@
 //! The kinds of vehicles on a road, with their dimensions and the sources of the dimensions.
 
-use super::Class;
+use super::{Body, Class};
 
 /// A kind of vehicle: its class and its dimensions. A bicycle and a motorcycle include their rider.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,4 +71,47 @@ impl VehicleKind {
     /// All kinds of vehicles.
     pub const ALL: [Self; 7] =
         [Self::CAR, Self::VAN, Self::TRUCK, Self::BUS, Self::MOTORCYCLE, Self::BICYCLE, Self::PARKED_BICYCLE];
+}
+
+impl Body {
+    /// Makes the body of a kind of vehicle.
+    pub fn of(kind: &VehicleKind) -> Self {
+        let [length, width, height] = kind.size;
+        Self::block(kind.class, length, width, height)
+    }
+
+    /// Makes the body of a passenger car of middle size.
+    pub fn car() -> Self {
+        Self::of(&VehicleKind::CAR)
+    }
+
+    /// Makes the body of a panel van.
+    pub fn van() -> Self {
+        Self::of(&VehicleKind::VAN)
+    }
+
+    /// Makes the body of a lorry.
+    pub fn truck() -> Self {
+        Self::of(&VehicleKind::TRUCK)
+    }
+
+    /// Makes the body of a city bus.
+    pub fn bus() -> Self {
+        Self::of(&VehicleKind::BUS)
+    }
+
+    /// Makes the body of a motorcycle with its rider.
+    pub fn motorcycle() -> Self {
+        Self::of(&VehicleKind::MOTORCYCLE)
+    }
+
+    /// Makes the body of a bicycle with its rider.
+    pub fn bicycle() -> Self {
+        Self::of(&VehicleKind::BICYCLE)
+    }
+
+    /// Makes the body of a bicycle without a rider. Sensors recognise it by its lower height.
+    pub fn parked_bicycle() -> Self {
+        Self::of(&VehicleKind::PARKED_BICYCLE)
+    }
 }

@@ -44,7 +44,7 @@ impl Tyre {
         // The slip along the wheel at which a tyre that slides everywhere has this share of its force along the wheel.
         let across = (1.0 - share * share).max(0.0).sqrt();
         let sliding = share * tangent / (across - grows * share * tangent);
-        let stiffness = self.stiffness();
+        let stiffness = self.stiffness;
         if across == 0.0 || stiffness * sliding >= share {
             return (share, across, 0.0);
         }

@@ -12,7 +12,7 @@ pub(super) struct Tyre {
     /// The greatest force of the tyre in newtons, which is `mu N`.
     pub limit: f64,
     /// The ratio of `theta` to the slip, which is `C / (3 mu)`.
-    stiffness: f64,
+    pub(super) stiffness: f64,
 }
 
 impl Tyre {
@@ -23,11 +23,6 @@ impl Tyre {
         } else {
             Self::default()
         }
-    }
-
-    /// Returns the ratio of `theta` to the slip.
-    pub(super) fn stiffness(&self) -> f64 {
-        self.stiffness
     }
 
     /// Returns the side force in newtons at a slip (the tangent of the slip angle), and the force's derivative with

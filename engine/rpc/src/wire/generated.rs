@@ -402,7 +402,7 @@ pub struct Other {
     /// The number of the body, which stays the same during a test.
     #[prost(uint32, tag = "1")]
     pub id: u32,
-    /// The class of the body: car, truck, bicycle, pedestrian, building, tree, sign or prop.
+    /// The class of the body: car, van, truck, bus, motorcycle, bicycle, pedestrian, building, tree, sign or prop.
     #[prost(string, tag = "2")]
     pub class: ::prost::alloc::string::String,
     /// The position of the body's middle as seen from the car, and its velocity over the ground along the car's axes.

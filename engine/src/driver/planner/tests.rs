@@ -149,7 +149,7 @@ fn behind_a_leader_it_keeps_the_gap_of_the_intelligent_driver_model() {
             s.duration(60.0);
             s.monitor(Monitor::no_collision(&car));
         });
-        let expected = (2.0 + 10.0 * headway) / (1.0 - (10.0_f64 / 15.0).powi(4)).sqrt();
+        let expected = (2.0 + 10.0 * headway) / (1.0 - libm::pow(10.0 / 15.0, 4.0)).sqrt();
         let gap = *signal(&outcome, "car.clearance").last().unwrap();
         assert!((gap - expected).abs() < 0.2, "{gap} m, expected {expected} m");
     }
