@@ -18,16 +18,15 @@
 //! | 6 m/s² commanded from 50 km/h | 16.08 m | 16.08 m | 16.07 to 16.94 m over the CommonRoad models |
 //! | radius of the path of the middle at 0.03 rad, 5 to 20 m/s, mu 1.05 | 85.9 to 86.4 m | 85.9 to 86.7 m | 85.9 m |
 //! | the same, mu 0.6 | 85.9 to 87.2 m | 85.9 to 87.1 m | |
-//! | understeer gradient over these speeds, mu 1.05 | 0.008 mrad s²/m | 0.040 mrad s²/m | nearly neutral |
+//! | understeer gradient over these speeds, mu 1.05 | 0.014 mrad s²/m | 0.040 mrad s²/m | nearly neutral |
 //! | greatest side acceleration at 20 m/s, mu 0.2 to 0.8 | 0.983 to 0.999 mu g | 0.990 to 0.999 mu g | mu g |
 //! | drift in 60 s at rest | none | less than 1 nm | none |
 //! | time to 40, 60, 80, 100 km/h, mu 0.6 to 1.05 | at most 0.1 % longer | 0.4 to 1.6 % longer | traction, then constant power |
 //!
-//! In degrees per g of side acceleration, the understeer gradients are 0.005 and 0.023. Real cars have about 1 to 3.
+//! In degrees per g of side acceleration, the understeer gradients are 0.008 and 0.023. Real cars have about 1 to 3.
 //! The tyres of the source have the same stiffness by load on both axles, which makes the car neutral. The small rest
 //! comes from the slip angle: a part of the side acceleration is along the car and loads the rear axle.
 
-mod combined;
 mod flaw;
 mod jointed;
 mod motion;

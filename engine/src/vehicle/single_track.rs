@@ -2,7 +2,8 @@
 //!
 //! The state is the velocity of the centre of gravity ahead (`u`) and to the left (`v`) and the yaw rate (`r`) in
 //! Newton's and Euler's equations in the plane (Rajamani, "Vehicle Dynamics and Control", 2012, chapter 2). The forces
-//! are the longitudinal forces that the [`Vehicle`] allows, and the side forces that a brush tyre has beside them.
+//! are the longitudinal forces that the [`Vehicle`] allows and the side forces of a brush tyre, limited to the friction
+//! circle of the axle's load.
 //!
 //! Straight ahead, none of this is needed and the motion is exact ([`Motion`]). In a bend, a step consists of pieces of
 //! at most [`PIECE`] seconds. Each is a linearly implicit Euler step: the slip angle is a speed across divided by a
@@ -177,7 +178,8 @@ impl SingleTrack {
             let (forward, left) = (Vector3::new(cos, sin, arm * sin), Vector3::new(-sin, cos, arm * cos));
             let speed = Vector2::new(forward.dot(motion), left.dot(motion));
             let rolling = speed.x.abs().max(SLOW);
-            let (force, slope) = tyre.combined(share * total, speed.y / rolling);
+            let (side, slope) = tyre.side_force(speed.y / rolling);
+            let force = tyre.cut(Vector2::new(share * total, -side));
             Axle { load, tyre, forward, left, speed, force, damping: slope / rolling }
         };
         [

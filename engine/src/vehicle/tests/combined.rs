@@ -44,14 +44,15 @@ fn published_at(share: f64, angle: f64) -> Vector2<f64> {
     best
 }
 
-/// The forces of our tyre as shares of its greatest force.
-fn ours(share: f64, angle: f64) -> Vector2<f64> {
+/// The forces of the brush model as shares of its greatest force.
+fn brush(share: f64, angle: f64) -> Vector2<f64> {
     let tyre = Tyre::new(CAR.cornering_stiffness, FRICTION, LOAD);
     let force = tyre.combined(-share * tyre.limit, libm::tan(angle)).0 / tyre.limit;
     force.abs()
 }
 
-/// The forces of a tyre of which the demanded forces are cut to the friction circle, as shares of the greatest force.
+/// The forces of the single-track model, which cuts the demanded forces to the friction circle, as shares of the
+/// greatest force.
 fn cut(share: f64, angle: f64) -> Vector2<f64> {
     let tyre = Tyre::new(CAR.cornering_stiffness, FRICTION, LOAD);
     let side = tyre.side_force(libm::tan(angle)).0;
@@ -67,19 +68,19 @@ fn apart(model: fn(f64, f64) -> Vector2<f64>) -> Vector2<f64> {
 }
 
 #[test]
-fn the_side_force_beside_brakes_is_nearer_to_the_published_tyre_than_a_cut_of_the_demands() {
-    let (ours, cut) = (apart(ours), apart(cut));
-    assert!((ours.x - 0.082).abs() < 1e-3 && (cut.x - 0.188).abs() < 1e-3, "along: {} and {}", ours.x, cut.x);
-    assert!((ours.y - 0.159).abs() < 1e-3 && (cut.y - 0.265).abs() < 1e-3, "across: {} and {}", ours.y, cut.y);
+fn a_cut_of_the_demands_is_as_far_from_the_published_tyre_as_the_document_says() {
+    let (brush, cut) = (apart(brush), apart(cut));
+    assert!((brush.x - 0.082).abs() < 1e-3 && (cut.x - 0.188).abs() < 1e-3, "along: {} and {}", brush.x, cut.x);
+    assert!((brush.y - 0.159).abs() < 1e-3 && (cut.y - 0.265).abs() < 1e-3, "across: {} and {}", brush.y, cut.y);
 }
 
 fn table() -> String {
     let mut text = String::from(
-        "| slip angle | brakes ask for | this tyre | published tyre | cut of the demands |\n| --- | --- | --- | --- | --- |\n",
+        "| slip angle | brakes ask for | this car | brush with combined slip | published tyre |\n| --- | --- | --- | --- | --- |\n",
     );
     for angle in ANGLES {
         for share in SHARES {
-            let cells = [ours, published_at, cut].map(|model| {
+            let cells = [cut, brush, published_at].map(|model| {
                 let force = model(share, angle.to_radians());
                 format!("{:.2}, {:.2}", force.x, force.y)
             });

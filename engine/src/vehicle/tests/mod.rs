@@ -1,6 +1,7 @@
 //! Both models of the car against closed forms and published figures, and what must hold of both.
 
 mod behaviour;
+mod brush;
 mod combined;
 mod validation;
 
