@@ -68,7 +68,7 @@ struct Study {
 const STUDIES: &[Study] = &[
     Study {
         name: "automatic-transmission",
-        about: "after how many simulations each strategy falsifies the automatic transmission benchmark",
+        about: "after how many simulations each strategy falsifies a model of an automatic transmission",
         time: "1 min",
         run: automatic_transmission::run,
     },

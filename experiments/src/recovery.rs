@@ -85,6 +85,8 @@ pub fn straight_line(tests: &[Mark]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use paracosm::generators::{Request, Strategy};
+    use paracosm::space::Space;
 
     #[test]
     fn a_straight_line_explains_what_lies_on_two_sides_and_not_what_lies_between() {
@@ -104,5 +106,70 @@ mod tests {
         let map = [([0.1, 0.0], false), ([0.4, 0.0], true), ([0.9, 0.5], true), ([0.6, 0.0], false)];
         let found = recovery(&sample, &map);
         assert_eq!(found, Recovery { accuracy: 0.5, recall: 0.5, precision: 0.5 });
+    }
+
+    /// The recalls of 400 sets of each size on the map of Figure 9 with a network: medians of shifted Halton sets and of
+    /// random sets in percent, and the probability that a Halton set has the larger recall.
+    #[test]
+    fn the_page_of_figure_9_with_a_network_has_the_recalls_of_400_shifted_halton_sets() {
+        let rows = include_str!("../data/fig9-cnn-reference.csv").lines().skip(1);
+        let map: Vec<Mark> = rows
+            .enumerate()
+            .map(|(row, line)| {
+                let share = |place: usize| (place as f64 + 0.5) / 50.0;
+                ([share(row % 50), share(row / 50)], line.contains(",fail,"))
+            })
+            .collect();
+        let space = Space::unit_cube(2);
+        let recalls = |strategy: Strategy, n: usize| -> Vec<f64> {
+            let recall = |seed: u64| {
+                let request = Request { seed: Some(seed), ..Request::new(&space, n) };
+                let points = strategy.build(&request).unwrap().ask(n).into_iter().map(|point| point.continuous);
+                let sample: Vec<Mark> = points
+                    .map(|at| {
+                        let [column, row] = [at[0], at[1]].map(|share| (share * 50.0) as usize);
+                        ([at[0], at[1]], map[50 * row + column].1)
+                    })
+                    .collect();
+                recovery(&sample, &map).recall
+            };
+            let mut recalls: Vec<f64> = (0..400).map(recall).collect();
+            recalls.sort_by(f64::total_cmp);
+            recalls
+        };
+        let percent = |recalls: &[f64]| format!("{:.0}", 50.0 * (recalls[199] + recalls[200]));
+        let better = |halton: &[f64], random: &[f64]| {
+            let wins = |h: &f64| {
+                random
+                    .iter()
+                    .map(|r| {
+                        if h > r {
+                            1.0
+                        } else if h == r {
+                            0.5
+                        } else {
+                            0.0
+                        }
+                    })
+                    .sum::<f64>()
+            };
+            format!("{:.2}", halton.iter().map(wins).sum::<f64>() / (400.0 * 400.0))
+        };
+        let found = [25, 50, 100].map(|n| {
+            let (halton, random) = (recalls(Strategy::HALTON, n), recalls(Strategy::RANDOM, n));
+            (percent(&halton), percent(&random), better(&halton, &random))
+        });
+        let list = |of: fn(&(String, String, String)) -> &String| {
+            let [a, b, c] = found.each_ref().map(|found| of(found).as_str());
+            format!("{a}, {b} and {c}")
+        };
+        let page = include_str!("../fig9-cnn.md");
+        let said = [
+            format!("400 shifted Halton sets have median recalls of {} %", list(|found| &found.0)),
+            format!("400 random sets {} %", list(|found| &found.1)),
+            format!("with a probability of {}", list(|found| &found.2)),
+        ];
+        let missing: Vec<&String> = said.iter().filter(|said| !page.contains(said.as_str())).collect();
+        assert!(missing.is_empty(), "expected on the page: {missing:#?}");
     }
 }

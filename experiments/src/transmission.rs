@@ -1,8 +1,9 @@
-//! The automatic transmission benchmark: a car with four automatic gears, whose inputs are throttle and brake.
+//! A model of an automatic transmission: a car with four automatic gears, whose inputs are throttle and brake.
 //!
 //! Hoxha, Abbas and Fainekos, "Benchmarks for temporal logic requirements for automotive systems", ARCH 2014, took the
-//! model from the Simulink example "Modeling an Automatic Transmission Controller". It is the benchmark AT of the
-//! yearly comparison of falsification tools (ARCH-COMP). This module implements the following equations anew:
+//! model from the Simulink example "Modeling an Automatic Transmission Controller". The benchmark AT of the
+//! yearly comparison of falsification tools (ARCH-COMP) comes from the same example. This module is a model of our own with
+//! these equations; its results are not those of the benchmark:
 //!
 //! | what | equation |
 //! | --- | --- |

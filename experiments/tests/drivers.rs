@@ -3,6 +3,8 @@
 //! With UPDATE_GOLDEN=1, the tables of the page are written again from the CSV. The reasons of the page stay.
 
 use paracosm::engine::driver;
+use paracosm::oracles::Verdict;
+use paracosm::{Campaign, Study};
 use std::collections::BTreeMap;
 use std::env;
 use std::fmt::Write;
@@ -135,6 +137,20 @@ fn every_driver_drives_every_scenario_and_the_counts_add_up() {
     for Cell { driver, scenario, pass, fail, inconclusive, invalid, error, preventable, .. } in &cells {
         assert_eq!(pass + fail + inconclusive + invalid + error, 200, "{driver} in {scenario}");
         assert!(preventable <= fail && *error == 0, "{driver} in {scenario}");
+    }
+}
+
+#[test]
+fn the_planner_of_today_has_the_counts_of_the_csv_where_it_must_not_fail() {
+    let cells = cells();
+    let catalogue = paracosm::catalogue();
+    for scenario in TAKEN {
+        let cell = cells.iter().find(|cell| cell.driver == "planner" && cell.scenario == scenario).unwrap();
+        let study = Study::of(catalogue.find(scenario).unwrap()).driver("planner").budget(200).build().unwrap();
+        let log = Campaign::new(&study).unwrap().into_log().unwrap();
+        let count = |verdict| log.trials().iter().filter(|trial| trial.verdict == verdict).count();
+        let found = [Verdict::Pass, Verdict::Fail, Verdict::Invalid].map(count);
+        assert_eq!(found, [cell.pass, cell.fail, cell.invalid], "{scenario}: passes, failures, invalid tests");
     }
 }
 

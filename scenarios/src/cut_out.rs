@@ -1,8 +1,10 @@
 //! The cut-out of UN Regulation No. 157: the leader changes to the next lane and reveals somebody who stands in the way.
 //!
-//! The ranges are those of the public variations of the regulation's scenarios (OSC-ALKS-scenarios, 4.5_1). The leader
-//! keeps the same speed, at a time headway ahead of the ego vehicle, and changes lanes when it is `gap` metres before
-//! the obstacle. A test is invalid if the leader would move to the side faster than it drives.
+//! The ranges of the speed, the gap and the lateral speed are those of the public variations of the regulation's scenarios
+//! (OSC-ALKS-scenarios, 4.5_1). These files fix `headway` at 2 s. The leader keeps the same speed, at a time headway ahead
+//! of the ego vehicle, and changes lanes when it is `gap` metres before the obstacle. In the files, `lateral_speed` is the
+//! greatest speed of a sinusoidal lane change. Here the leader keeps this speed, so it changes lanes in 2/π of the time. A
+//! test is invalid if the leader would move to the side faster than it drives.
 
 use crate::surroundings::{later_weather, roadside};
 use crate::{LANE, checked_lateral, kind, middles};

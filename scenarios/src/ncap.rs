@@ -9,7 +9,7 @@
 
 use crate::middles;
 use crate::surroundings::{later_weather, roadside};
-use paracosm_engine::object::Body;
+use paracosm_engine::object::{Body, VehicleKind};
 use paracosm_engine::road::Path;
 use paracosm_engine::vehicle::Vehicle;
 use paracosm_engine::{
@@ -35,6 +35,8 @@ const TIME: f64 = 6.0;
 const SLOW: f64 = 20.0 / 3.6;
 /// The speed in m/s to which a target brakes (CCRb).
 const CRAWL: f64 = 2.0 / 3.6;
+/// The time at which a target begins to brake (CCRb), in seconds.
+const BRAKING: f64 = 3.0;
 /// The least speed of the ego vehicle in km/h with a target that drives.
 const SLOWEST_TO_MOVING: f64 = 30.0;
 /// The place where the ego vehicle starts, in metres along the road.
@@ -119,9 +121,10 @@ fn cpnco(s: &mut Scenario) {
     // Two cars are parked one after the other, a metre beside the way of the ego vehicle. The child comes out a metre
     // beyond the second of them.
     let line = START + speed.value() / 3.6 * TIME + 0.5 * Vehicle::BMW_320I.length;
-    for back in [1.0 + 0.5 * 4.5, 1.0 + 1.5 * 4.5 + 1.0] {
+    let [length, width, _] = VehicleKind::CAR.size;
+    for back in [1.0 + 0.5 * length, 1.0 + 1.5 * length + 1.0] {
         let lane = road.on_lane(1, line - back);
-        let position = lane.position - lane.left() * (0.5 * Vehicle::BMW_320I.width + 1.0 + 0.5 * 1.8);
+        let position = lane.position - lane.left() * (0.5 * Vehicle::BMW_320I.width + 1.0 + 0.5 * width);
         s.place(Fixture::parked_car(Pose { position, ..lane }));
     }
     roadside(s);
@@ -158,6 +161,7 @@ fn ccr(s: &mut Scenario) {
 fn ccrb(s: &mut Scenario) {
     let gap = s.interval("gap", 12.0..=40.0).unit("m").default(40.0);
     let brake = s.interval("deceleration", 2.0..=6.0).unit("m/s²").default(6.0);
+    // The protocol has 50 km/h only.
     let speed = s.nominal("ego_speed", 30.0..=80.0, 50.0).unit("km/h");
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let weather = later_weather(s);
@@ -165,7 +169,7 @@ fn ccrb(s: &mut Scenario) {
     let v = speed.value() / 3.6;
     s.place(weather.friction(friction));
     let road = s.place(RoadSegment::new(600.0));
-    let braking = (v - (Stream::time() - 1.0).max(0.0) * brake.value()).max(CRAWL);
+    let braking = (v - (Stream::time() - BRAKING).max(0.0) * brake.value()).max(CRAWL);
     behind(s, &road, v, Mover::car(road.path(1)).speed(braking), gap.value());
 }
 

@@ -3,10 +3,11 @@
 //!
 //! The pedestrian waits on the far sidewalk, starts when the car is nearer than `distance`, crosses both lanes at
 //! `speed`, and stops on the near sidewalk. With `side` = near the pedestrian walks the other way. As in the paper, the
-//! pedestrian has the speed at once. `acceleration` opens this: in the protocols of Euro NCAP an adult reaches 5 km/h
-//! within 1 m, with 0.96 m/s², and 8 km/h within 1.5 m, with 1.65 m/s². The car comes at 60 km/h. From the far side the driver has time to see the
-//! pedestrian. Whether it brakes early enough therefore depends on both parameters, and a slow pedestrian can be as
-//! dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
+//! pedestrian has the speed at once. `acceleration=0.96..1.65` opens realistic accelerations: in the protocols of Euro
+//! NCAP, an adult reaches 5 km/h within 1 m, with 0.96 m/s², and 8 km/h within 1.5 m, with 1.65 m/s². The car comes at
+//! 60 km/h. From the far side the driver has time to see the pedestrian. Whether it brakes early enough therefore depends
+//! on both parameters, and a slow pedestrian can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait
+//! and go on.
 //!
 //! Light and fog are the conditions for a camera; a driver without cameras drives as in broad daylight. Rain also makes
 //! the road slippery. Features that should not matter, beside the road and on it, can be added with `roadside` and

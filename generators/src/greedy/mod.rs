@@ -60,7 +60,9 @@ impl Strategy {
         about: "greedy with holes that go on at the opposite border: corners and borders get their share of tests",
         dims: 1..=MOST_DIMS,
         look: Look::hollow(0x00_0000, MarkShape::Triangle),
-        method: Method(MethodKind::Holes(EmptyBoxes::periodic_at_most)),
+        // A set has many more periodic boxes than boxes. A quarter of the limit takes a quarter of the time. With 200 points
+        // in four dimensions, the median dispersion of five seeds is 0.051 instead of 0.049, and 0.057 with an eighth.
+        method: Method(MethodKind::Holes(|dims, most| EmptyBoxes::periodic_at_most(dims, most / 4))),
     });
 }
 
