@@ -34,8 +34,10 @@ def unpacked(detector, packages):
         sys.exit(f"error: {archive} has the SHA-256 {found}, expected {detector.sha256}: delete the file and try again")
     folder = packages / detector.archive.removesuffix(".tgz")
     if not folder.exists():
+        unfinished = folder.with_suffix(".unfinished")
         with tarfile.open(archive) as tar:
-            tar.extractall(folder, filter="data")
+            tar.extractall(unfinished, filter="data")
+        unfinished.rename(folder)
     return folder / "package"
 
 
