@@ -16,6 +16,8 @@
 
 mod artefact;
 mod black_box;
+#[cfg(feature = "camera")]
+pub mod cameras;
 mod campaign;
 mod catalogue;
 #[cfg(feature = "camera")]
@@ -79,6 +81,8 @@ pub use worker::Worker;
 /// The error types that [`Error::Use`] and [`BadFile`] hold as reasons.
 pub mod reasons {
     pub use crate::black_box::{AnswerFlaw, NoSystem, NotStarted, TimeoutFlaw};
+    #[cfg(feature = "camera")]
+    pub use crate::cameras::CameraFileFlaw;
     pub use crate::campaign::ForeignTrial;
     pub use crate::catalogue::UnknownScenario;
     pub use crate::darkroom::Blind;

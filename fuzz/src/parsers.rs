@@ -4,9 +4,9 @@
 //! `cargo fuzz` and the tests of the workspace (`tests/parsers`) share this table. Each parser may refuse its input
 //! with an error. A parser must not panic, hang, or take more than 2 GiB of memory.
 
+use paracosm::campaign::cameras::read_cameras;
 use paracosm::campaign::{Answer, Log, Regression, SpaceFile, StudyFile, TestSet, Trust, read_tests, read_trace};
 use paracosm::oracles::Formula;
-use paracosm::report::record::read_cameras;
 use paracosm::space::constraint::Expression;
 use paracosm::space::{Distribution, Space};
 use paracosm::{Study, catalogue};

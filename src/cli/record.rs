@@ -6,10 +6,9 @@ use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras, standard_cameras_file};
 use paracosm_campaign::{Error, Trial, Worker};
-use paracosm_report::record::{
-    Dataset, Kept, Projector, VariedCameras, check_rates, read_cameras, standard_cameras, standard_cameras_file,
-};
+use paracosm_report::record::{Dataset, Kept, Projector, check_rates};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 

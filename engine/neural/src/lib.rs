@@ -1,4 +1,4 @@
-//! Drivers that learn: networks that drive by a camera, and the training of such networks.
+//! Networks: networks that drive by a camera, the training of such networks, and networks that see (`vision`).
 //!
 //! A network that drives is a file in the ONNX format, whoever made it. `Model` reads the file and `Pilot` drives with
 //! it (feature `onnx`). `learn::Learner` trains a network and writes such a file, too (feature `train`), so there is
@@ -44,6 +44,10 @@ mod model;
 mod network;
 #[cfg(feature = "onnx")]
 mod pilot;
+#[cfg(feature = "onnx")]
+mod plan;
+#[cfg(feature = "onnx")]
+pub mod vision;
 
 #[cfg(feature = "onnx")]
 pub use cloned::{CLONED, Cloned};

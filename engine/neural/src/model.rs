@@ -2,6 +2,7 @@
 
 use crate::limits::{Limit, MOST_MEBIBYTES, check, check_tensors};
 use paracosm_engine::sensor::Image;
+use paracosm_space::did_you_mean;
 use std::io::Cursor;
 use std::panic;
 use std::sync::Arc;
@@ -30,6 +31,34 @@ pub enum ModelError {
     /// The network is beyond a limit.
     #[error(transparent)]
     Limit(#[from] Limit),
+    /// The input of a perception network is not the input that its description states.
+    #[error("the input is {found}, expected {expected}")]
+    Input {
+        /// The type and the shape of the input in the file, or the number of inputs.
+        found: String,
+        /// The input that the description states.
+        expected: String,
+    },
+    /// An output of a perception network is not the output that its description states.
+    #[error("the output `{name}` is {found}, expected {expected}")]
+    Output {
+        /// The name of the output.
+        name: String,
+        /// The shape of the output in the file.
+        found: String,
+        /// The shape that the description states.
+        expected: String,
+    },
+    /// A perception network has no output with a name of its description.
+    #[error("the network has no output `{name}`, expected some of {expected}{}", did_you_mean(.nearest))]
+    NoOutput {
+        /// The name in the description.
+        name: String,
+        /// The names of the outputs.
+        expected: String,
+        /// The most similar name.
+        nearest: Option<String>,
+    },
     /// The inputs or outputs of the network are not the inputs and outputs of a driver.
     #[error("{what} is {found}, expected {expected}")]
     Shape {

@@ -6,7 +6,8 @@
 use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
 use super::missing::Missing;
-use super::{Film, Inside, Projector, Rendering, Shot, VariedCameras};
+use super::{Film, Inside, Projector, Rendering, Shot};
+use paracosm_campaign::cameras::VariedCameras;
 use paracosm_campaign::files::{Draft, read_text, write_whole_here};
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;

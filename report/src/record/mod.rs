@@ -6,8 +6,6 @@
 //! depends only on the values of the test and on the cameras' seed. So every test has its own noise and loses its own
 //! images.
 
-mod camera_file;
-mod cameras;
 mod clip;
 mod coco;
 mod dataset;
@@ -17,13 +15,10 @@ mod missing;
 mod projector;
 #[cfg(test)]
 pub mod tests;
-mod varied;
 mod video;
 
-pub use cameras::{cameras_for_people, read_cameras, standard_cameras, standard_cameras_file};
 pub use clip::Clip;
 pub use dataset::{Dataset, Kept, Recorded};
 pub use film::{Film, Shot, check_rates};
 pub use paracosm_render::Rendering;
 pub use projector::{Developed, Inside, Projector};
-pub use varied::VariedCameras;

@@ -1,7 +1,7 @@
-//! Cameras whose settings vary from test to test, and what is said of files that describe cameras badly.
+//! Cameras whose settings vary from test to test.
 
 use super::*;
-use crate::record::camera_file::parse;
+use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
 use paracosm_space::{Record, Value, Values};
 
 /// Four settings vary.
@@ -18,7 +18,9 @@ exposure = "-1.5,0,1.5"
 "#;
 
 fn varied() -> VariedCameras {
-    parse(VARIED).expect("sound cameras")
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    fs::write(file.path(), VARIED).expect("a file");
+    read_cameras(file.path()).expect("sound cameras")
 }
 
 #[test]
@@ -109,80 +111,6 @@ fn each_test_is_recorded_with_the_settings_that_it_gives_and_says_which_they_are
 }
 
 #[test]
-fn files_of_cameras_say_the_line_and_the_key_what_was_found_and_what_was_expected() {
-    let said = |from: &str, to: &str| {
-        assert!(VARIED.contains(from));
-        let flaw = parse(&VARIED.replace(from, to)).err().unwrap_or_else(|| panic!("{to} is taken"));
-        format!("{}: {}", flaw.line.map_or("-".to_owned(), |line| line.to_string()), flaw.flaw)
-    };
-    for (from, to, expected) in [
-        (
-            "seed = 5",
-            "sed = 5",
-            "2: unknown key `sed` in a file of cameras, expected `seed` or tables [camera.NAME] (did you mean `seed`?)",
-        ),
-        ("seed = 5", "seed = -1", "2: `seed` is -1, expected a whole number from 0 on"),
-        (
-            "[camera.front]",
-            "[cameras.front]",
-            "3: unknown key `cameras` in a file of cameras, expected `seed` or tables [camera.NAME] (did you mean `camera`?)",
-        ),
-        (
-            "exposure",
-            "exposre",
-            "10: camera `front`: a camera has no key `exposre` (did you mean `exposure`?); its keys are resolution, focal_mm",
-        ),
-        ("rate = 2\n", "", "3: camera `front` has no `rate`, expected images a second, such as `rate = 10.0`"),
-        (
-            "rate = 2",
-            "rate = \"2..9\"",
-            "9: camera `front`: `rate` is \"2..9\", expected one number of Hz, because this setting cannot vary from test to test",
-        ),
-        (
-            "rate = 2",
-            "rate = true",
-            "9: camera `front`: `rate` is true, expected a number of Hz, or a range such as \"1..2\"",
-        ),
-        (
-            "\"-2..2\"",
-            "\"2..-2\"",
-            "8: camera `front`: pitch in `yaw_pitch_roll` is \"2..-2\", expected \"LO..HI\" with the lower number first, or \"A,B,C\" with no number twice; all are numbers of degrees",
-        ),
-        ("\"-1.5,0,1.5\"", "\"dark\"", "10: camera `front`: `exposure` is \"dark\", expected \"LO..HI\""),
-        ("\"-1.5,0,1.5\"", "\"0,0\"", "10: camera `front`: `exposure` is \"0,0\", expected"),
-        ("\"-1.5,0,1.5\"", "\"0..nan\"", "10: camera `front`: `exposure` is \"0..nan\", expected"),
-        ("\"-1.5,0,1.5\"", "\"0..90\"", "10: camera `front`: `exposure` is 90, expected -20 to 20 stops"),
-        ("\"20..28\"", "\"0..28\"", "5: camera `front`: `focal_mm` is 0, expected 0.1 to 10000 mm"),
-        ("\"1.2..1.6\"", "\"-1..1.6\"", "7: camera `front`: `position` is [0.3, 0.0, -1.0], expected"),
-        (
-            "[0.3, 0.0, \"1.2..1.6\"]",
-            "1.35",
-            "7: camera `front`: `position` is 1.35, expected a list of 3 numbers: ahead, left, up",
-        ),
-        (
-            "[48, 32]",
-            "[48.5, 32]",
-            "4: camera `front`: `resolution` is [48.5, 32], expected two whole numbers, the width and the height in pixels",
-        ),
-        ("[48, 32]", "\"large\"", "4: camera `front`: `resolution` is \"large\", expected two whole numbers"),
-        (
-            "[camera.front]",
-            "[camera.\"front left\"]",
-            "3: camera `front left`: expected a name of letters, digits, - and _",
-        ),
-        (
-            "[camera.front]",
-            "[camera]\nrear = 5\n[camera.front]",
-            "4: camera `rear` is 5, expected a table [camera.rear]",
-        ),
-        ("= [48, 32]", "= [48, 32", "5: "),
-    ] {
-        let found = said(from, to);
-        assert!(found.starts_with(expected), "{found}\n{expected}");
-    }
-}
-
-#[test]
 fn cameras_are_written_with_all_settings_in_one_order_whatever_was_said_of_them() {
     let core = r#""resolution":[48,32],"focal_mm":24.0,"sensor_mm":36.0,"position":[0.3,0.0,1.35],"yaw_pitch_roll":[0.0,0.0,0.0],"rate":2.0,"latency":0.0,"dropped":0.0"#;
     let lens = r#""motion":0.0,"motion_angle":0.0,"defocus":0.0,"blur":0.5,"vignetting":0.0,"exposure":-1.0,"full_well":0.0,"read_noise":0.0"#;
@@ -191,17 +119,4 @@ fn cameras_are_written_with_all_settings_in_one_order_whatever_was_said_of_them(
     let written = serde_json::to_string(&said).expect("it is JSON");
     assert_eq!(written, format!(r#"{{"seed":0,"camera":{{"front":{{{core},{lens}}}}}}}"#));
     assert_eq!(serde_json::from_str::<Cameras>(&written).expect("cameras"), said);
-}
-
-#[test]
-fn every_setting_of_a_camera_can_be_said_in_a_file() {
-    let standard = standard_cameras_file();
-    let read = parse(&standard).expect("sound cameras");
-    assert_eq!(*read.nominal(), standard_cameras());
-    assert!(!read.vary());
-    let keys = paracosm_render::camera_settings().keys();
-    assert!(keys.iter().all(|key| standard.contains(&format!("\n{key} = "))), "{keys:?}");
-    let written = toml::Value::try_from(standard_cameras()).expect("TOML");
-    let known = written["camera"]["front"].as_table().expect("a table");
-    assert_eq!(known.keys().map(String::as_str).collect::<std::collections::BTreeSet<_>>(), keys.into_iter().collect());
 }

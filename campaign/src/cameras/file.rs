@@ -2,7 +2,7 @@
 
 use super::VariedCameras;
 use super::varied::middle;
-use paracosm_campaign::Reason;
+use crate::Reason;
 use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
 use paracosm_render::{CameraFlaw, NoCamera, RESOLUTION, camera_settings};
 use paracosm_space::{Domain, Value, did_you_mean, nearest};

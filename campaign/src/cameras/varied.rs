@@ -1,8 +1,8 @@
 //! Cameras with settings that vary from test to test, so that a driver that learns from recordings does not depend on
 //! them.
 
-use paracosm_campaign::StudyBuilder;
-use paracosm_campaign::study::setting_name;
+use crate::StudyBuilder;
+use crate::study::setting_name;
 use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
 use paracosm_space::{Domain, Parameter, Value, Values};
 use xxhash_rust::xxh3::xxh3_64;
@@ -100,7 +100,7 @@ impl VariedCameras {
     }
 
     /// Returns the varied settings of a camera in a test: their names, with their values.
-    pub(super) fn settings_of<'a>(
+    pub fn settings_of<'a>(
         &'a self,
         camera: &'a str,
         test: &'a Values,

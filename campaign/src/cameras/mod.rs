@@ -1,9 +1,17 @@
-//! The cameras of a recording: the standard cameras, and cameras from a file.
+//! The cameras of recordings and of perception networks: the standard cameras, and cameras from a file. Their settings may
+//! vary from test to test.
 
-use super::VariedCameras;
-use super::camera_file::{Flaw, parse};
-use paracosm_campaign::Error;
-use paracosm_campaign::files::read_text;
+mod file;
+#[cfg(test)]
+mod tests;
+mod varied;
+
+pub use file::CameraFileFlaw;
+pub use varied::VariedCameras;
+
+use crate::Error;
+use crate::files::read_text;
+use file::{Flaw, parse};
 use paracosm_engine::sensor::{CameraSetting, Cameras};
 use paracosm_render::camera_settings;
 use std::path::Path;
@@ -17,7 +25,7 @@ pub fn standard_cameras_file() -> String {
         let said = format!("{} = {:?}", setting.key, setting.default.unwrap_or(setting.example));
         format!("{said:<34}# {}\n", setting.about)
     };
-    of_lens.map(line).fold(include_str!("cameras.toml").to_owned(), |file, line| file + &line)
+    of_lens.map(line).fold(include_str!("standard.toml").to_owned(), |file, line| file + &line)
 }
 
 /// Returns the cameras of the standard camera file that [`standard_cameras_file`] returns.

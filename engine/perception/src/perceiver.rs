@@ -1,0 +1,91 @@
+//! The system under test: anything that answers images with boxes or masks.
+
+use crate::{Detection, Mask, Rect, Task};
+use thiserror::Error;
+
+/// An image for a perceiver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Picture<'a> {
+    /// The width in pixels.
+    pub width: u32,
+    /// The height in pixels.
+    pub height: u32,
+    /// Red, green and blue of each pixel in sRGB, in rows from the top.
+    pub rgb: &'a [u8],
+}
+
+/// The answer of a perceiver to an image.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Percept {
+    /// All boxes that the detector considers, in pixels of the image, before any threshold and suppression.
+    Boxes(Vec<Detection>),
+    /// The mask, of the size of the image.
+    Mask(Mask),
+}
+
+/// The reason why a perceiver has no valid answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PerceiverError {
+    /// A box has a class that the detector does not have.
+    #[error("a box has the class {class}, expected a number below {classes}")]
+    Class {
+        /// The number of the class.
+        class: usize,
+        /// The number of classes of the detector.
+        classes: usize,
+    },
+    /// The score of a box is not within 0 and 1.
+    #[error("a box has the score {score}, expected a number from 0 to 1")]
+    Score {
+        /// The score of the box.
+        score: f64,
+    },
+    /// A box is not finite, or has a negative size.
+    #[error(
+        "a box is {left}, {top}, {width}, {height} (left, top, width, height), expected finite pixels and no negative size",
+        left = rect.left, top = rect.top, width = rect.width, height = rect.height
+    )]
+    Rect {
+        /// The box.
+        rect: Rect,
+    },
+    /// A mask has a score that is no number.
+    #[error("a pixel of the mask has a score that is no number")]
+    Pixel,
+    /// The perceiver failed.
+    #[error("the perceiver failed: {reason}")]
+    Failed {
+        /// The words of the perceiver.
+        reason: String,
+    },
+}
+
+/// A perception network, or another program that perceives.
+pub trait Perceiver: Send {
+    /// Returns the meaning of the answers.
+    fn task(&self) -> &Task;
+
+    /// Answers images, in their order. An answer depends on its image alone.
+    ///
+    /// # Errors
+    /// The perceiver has no answer to an image, or its answer is invalid.
+    fn perceive(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, PerceiverError>;
+}
+
+impl Detection {
+    /// Checks a detection of a detector with the given number of classes. A box may extend beyond the image.
+    ///
+    /// # Errors
+    /// The class does not exist, the score is not within 0 and 1, or the box is not finite or has a negative size.
+    pub fn check(&self, classes: usize) -> Result<(), PerceiverError> {
+        let Self { class, score, rect } = *self;
+        if class >= classes {
+            return Err(PerceiverError::Class { class, classes });
+        }
+        if !(0.0..=1.0).contains(&score) {
+            return Err(PerceiverError::Score { score });
+        }
+        let is_finite = [rect.left, rect.top, rect.width, rect.height].iter().all(|number| number.is_finite());
+        if is_finite && rect.width >= 0.0 && rect.height >= 0.0 { Ok(()) } else { Err(PerceiverError::Rect { rect }) }
+    }
+}
