@@ -16,7 +16,9 @@ pub(crate) mod van;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The finish of a surface, which determines how the surface reflects or emits light.
+/// The finish of a surface, which determines how the surface reflects or emits light. In the look
+/// [`Textured`](crate::Look::Textured), the kinds from [`Asphalt`](Self::Asphalt) on that are not lamps have textures,
+/// which follow the texture coordinates in metres. In the look [`Flat`](crate::Look::Flat) they have a grain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum SurfaceKind {
@@ -36,6 +38,22 @@ pub enum SurfaceKind {
     WhiteLamp = 6,
     /// A red lamp that shines in the dark, for example a rear lamp.
     RedLamp = 7,
+    /// Paving slabs in the colour of their corners, for example a sidewalk.
+    Slabs = 8,
+    /// Concrete in the colour of its corners, for example a kerb.
+    Concrete = 9,
+    /// Worn paint on a road in the colour of its corners.
+    Marking = 10,
+    /// Grass in the colour of its corners.
+    Grass = 11,
+    /// A wall of bricks in the colour of the instance.
+    Brick = 12,
+    /// A plastered wall in the colour of the instance.
+    Plaster = 13,
+    /// Roof tiles in the colour of their corners.
+    Tiles = 14,
+    /// The bark of a tree in the colour of its corners.
+    Bark = 15,
 }
 
 /// The semantic class of an object, with the numbers of CARLA's classes since its version 0.9.14.

@@ -40,7 +40,16 @@ impl Finish {
     fn of(surface: SurfaceKind) -> Self {
         match surface {
             SurfaceKind::Paint | SurfaceKind::Glass => Self::Glossy,
-            SurfaceKind::Asphalt | SurfaceKind::Grown => Self::Grained,
+            SurfaceKind::Asphalt
+            | SurfaceKind::Grown
+            | SurfaceKind::Slabs
+            | SurfaceKind::Concrete
+            | SurfaceKind::Marking
+            | SurfaceKind::Grass
+            | SurfaceKind::Brick
+            | SurfaceKind::Plaster
+            | SurfaceKind::Tiles
+            | SurfaceKind::Bark => Self::Grained,
             SurfaceKind::Plain | SurfaceKind::Cloth | SurfaceKind::WhiteLamp | SurfaceKind::RedLamp => Self::Dull,
         }
     }

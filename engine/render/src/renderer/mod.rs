@@ -15,6 +15,7 @@ mod raw;
 mod read;
 mod shadow;
 mod targets;
+mod textures;
 #[cfg(test)]
 mod tests;
 
@@ -194,7 +195,7 @@ impl Renderer {
         let offset = layer * view_stride(&self.gpu) as u32;
         // If nothing throws a shadow, there is no shadow map to clear or to read.
         let wanted = WantedImages { shadows: !prepared.casters.is_empty(), ..targets.format.wanted };
-        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
+        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather(), prepared.look);
         if wanted.shadows {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
@@ -208,6 +209,9 @@ impl Renderer {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
             pass.set_bind_group(1, &self.pipelines.sun, &[]);
+            if let Some(textures) = &drawing.textures {
+                pass.set_bind_group(2, textures, &[]);
+            }
             for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
                 pass.set_pipeline(surface);
                 self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));

@@ -6,7 +6,8 @@ use super::meshes::Finish;
 use super::prepare::Weather;
 use super::raw::{RawCorner, RawInstance, RawView};
 use super::shadow::TEXELS;
-use crate::WantedImages;
+use super::textures::{table, textures};
+use crate::{Look, WantedImages};
 use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use wgpu::{BindingType, CompareFunction, ShaderStages};
@@ -20,10 +21,14 @@ pub(super) struct Pipelines {
     /// The shadow map as an input of the programs that draw surfaces, and as the image into which it is drawn.
     pub sun: wgpu::BindGroup,
     pub sun_depth: wgpu::TextureView,
-    shaded: wgpu::PipelineLayout,
+    /// The layouts of the inputs of the programs that draw surfaces, in the order of [`Look::ALL`].
+    shaded: [wgpu::PipelineLayout; 2],
+    texture_layout: wgpu::BindGroupLayout,
+    /// The textures as an input of the programs that draw surfaces; made when they are first needed.
+    textures: Option<wgpu::BindGroup>,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
-    drawing: BTreeMap<(WantedImages, Weather), Drawing>,
+    drawing: BTreeMap<(WantedImages, Weather, Look), Drawing>,
 }
 
 /// The programs that draw a set of images.
@@ -33,11 +38,14 @@ pub(super) struct Drawing {
     pub surfaces: [wgpu::RenderPipeline; 3],
     /// The program that draws the sky; `None` if no colours are wanted.
     pub sky: Option<wgpu::RenderPipeline>,
+    /// The textures of surfaces; `None` if the programs read none.
+    pub textures: Option<wgpu::BindGroup>,
 }
 
 #[derive(Debug)]
 struct Modules {
-    surface: wgpu::ShaderModule,
+    /// The programs that draw surfaces, in the order of [`Look::ALL`].
+    surfaces: [wgpu::ShaderModule; 2],
     sky: wgpu::ShaderModule,
 }
 
@@ -64,23 +72,47 @@ impl Pipelines {
         };
         let masks = layout(gpu, &[(ShaderStages::FRAGMENT, words)]);
         let (sun_depth, sun_layout, sun) = sun(gpu);
-        let shaded = pipeline_layout(gpu, &[&views, &sun_layout]);
+        let texture = BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        };
+        let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let texture_layout = layout(gpu, &[(ShaderStages::FRAGMENT, texture), (ShaderStages::FRAGMENT, sampler)]);
+        let shaded = [
+            pipeline_layout(gpu, &[&views, &sun_layout]),
+            pipeline_layout(gpu, &[&views, &sun_layout, &texture_layout]),
+        ];
         let shadow = depth_only(gpu, &module(include_str!("shaders/shadow.wgsl")), &pipeline_layout(gpu, &[&views]));
         let masked = pipeline_layout(gpu, &[&views, &masks]);
         let alone = alone(gpu, &module(include_str!("shaders/alone.wgsl")), &masked);
         let modules = Modules {
-            surface: module(include_str!("shaders/surface.wgsl")),
+            surfaces: [
+                module(concat!(include_str!("shaders/surface.wgsl"), include_str!("shaders/flat.wgsl"))),
+                module(&format!(
+                    "{}{}{}",
+                    include_str!("shaders/surface.wgsl"),
+                    table(),
+                    include_str!("shaders/textured.wgsl")
+                )),
+            ],
             sky: module(include_str!("shaders/sky.wgsl")),
         };
-        Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
+        let (textures, drawing) = (None, BTreeMap::new());
+        Self { modules, views, masks, sun, sun_depth, shaded, texture_layout, textures, shadow, alone, drawing }
     }
 
-    /// Returns the programs that draw the wanted images in the given weather.
-    pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> Drawing {
-        // Without light, the weather makes no difference.
-        let weather = if wanted.light() { weather } else { Weather::default() };
-        let Self { modules, shaded, drawing, .. } = self;
-        drawing.entry((wanted, weather)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, weather)).clone()
+    /// Returns the programs that draw the wanted images in the given weather and look.
+    pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather, look: Look) -> Drawing {
+        // Without light, the weather and the look make no difference.
+        let (weather, look) = if wanted.light() { (weather, look) } else { Default::default() };
+        let Self { modules, shaded, texture_layout, textures, drawing, .. } = self;
+        let make = || {
+            let textures = (look == Look::Textured)
+                .then(|| textures.get_or_insert_with(|| self::textures(gpu, texture_layout)).clone());
+            Drawing::new(gpu, modules, &shaded[look as usize], wanted, (weather, look), textures)
+        };
+        drawing.entry((wanted, weather, look)).or_insert_with(make).clone()
     }
 }
 
@@ -90,7 +122,8 @@ impl Drawing {
         modules: &Modules,
         layout: &wgpu::PipelineLayout,
         wanted: WantedImages,
-        weather: Weather,
+        (weather, look): (Weather, Look),
+        textures: Option<wgpu::BindGroup>,
     ) -> Self {
         let pipeline = |finish: Option<Finish>| {
             let sky = finish.is_none();
@@ -105,7 +138,7 @@ impl Drawing {
             // The sky's program declares only one of the constants, and refuses others.
             let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
             let constants = if sky { &constants[3..4] } else { &constants };
-            let module = if sky { &modules.sky } else { &modules.surface };
+            let module = if sky { &modules.sky } else { &modules.surfaces[look as usize] };
             // The sky has light, and no other image.
             let writes = |image: Image| {
                 if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL }
@@ -138,7 +171,7 @@ impl Drawing {
             })
         };
         let surfaces = Finish::ALL.map(|finish| pipeline(Some(finish)));
-        Self { surfaces, sky: wanted.light().then(|| pipeline(None)) }
+        Self { surfaces, sky: wanted.light().then(|| pipeline(None)), textures }
     }
 }
 

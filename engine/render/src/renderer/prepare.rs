@@ -6,7 +6,7 @@ use super::meshes::{GpuMesh, Meshes, Unfit};
 use super::raw::Shape;
 use super::raw::{RawInstance, RawView, four};
 use super::shadow::{ShadowMap, to_sun};
-use crate::{Camera, Instance, InstanceFlaw, View, ViewError, WantedImages};
+use crate::{Camera, Instance, InstanceFlaw, Look, View, ViewError, WantedImages};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -15,6 +15,7 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub raw: RawView,
+    pub look: Look,
     /// The instances that the camera sees, and the instances that throw shadows.
     pub instances: Vec<RawInstance>,
     pub draws: Vec<Draw>,
@@ -91,6 +92,7 @@ pub(super) fn prepare(
     let frustum = Frustum::new(view.camera);
     let mut prepared = Prepared {
         raw: raw_view(view, &eye, &sun, &map, &placed),
+        look: view.scene.look,
         instances: Vec::with_capacity(placed.len()),
         draws: Vec::new(),
         casters: Vec::new(),

@@ -1,0 +1,70 @@
+//! The textures of the look `textured` on the adapter, as layers of one array with mipmaps.
+
+use super::adapter::Gpu;
+use crate::texture::{ALL, LEVELS, TEXELS, levels};
+use wgpu::{FilterMode, MipmapFilterMode};
+
+/// The greatest ratio of the length and the width of the piece of a texture that a pixel shows without blur.
+const ANISOTROPY: u16 = 1;
+/// The number of kinds of surfaces.
+const KINDS: usize = 16;
+
+/// Returns the table of the layers as a constant of the shaders: for each kind of surface the repetitions in a metre, its
+/// layer, and the layer of the texture that lies over it.
+pub(super) fn table() -> String {
+    let row = |kind: usize| {
+        let layer = ALL.iter().position(|texture| texture.surface.is_some_and(|of| of as usize == kind));
+        let (period, layer, over) = layer.map_or((1.0, 0, 0), |layer| (ALL[layer].period, layer, ALL[layer].over));
+        format!("vec3f(1.0 / {period:?}, {layer}.0, {over}.0)")
+    };
+    let rows: Vec<String> = (0..KINDS).map(row).collect();
+    format!("const LAYERS = array<vec3f, {KINDS}>({});\n", rows.join(", "))
+}
+
+/// Makes the textures, and returns them as an input of the programs that draw surfaces.
+pub(super) fn textures(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+    let size = wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: ALL.len() as u32 };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("textures"),
+        size,
+        mip_level_count: LEVELS,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for (layer, levels) in levels().iter().enumerate() {
+        for (level, texels) in levels.iter().enumerate() {
+            let wide = TEXELS >> level;
+            let to = wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: level as u32,
+                origin: wgpu::Origin3d { x: 0, y: 0, z: layer as u32 },
+                aspect: wgpu::TextureAspect::All,
+            };
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * wide), rows_per_image: Some(wide) };
+            let part = wgpu::Extent3d { width: wide, height: wide, depth_or_array_layers: 1 };
+            gpu.queue.write_texture(to, texels, layout, part);
+        }
+    }
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        address_mode_u: wgpu::AddressMode::Repeat,
+        address_mode_v: wgpu::AddressMode::Repeat,
+        mag_filter: FilterMode::Linear,
+        min_filter: FilterMode::Linear,
+        mipmap_filter: MipmapFilterMode::Linear,
+        anisotropy_clamp: ANISOTROPY,
+        ..Default::default()
+    });
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
+        ],
+    })
+}
