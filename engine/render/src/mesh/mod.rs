@@ -3,6 +3,7 @@
 pub(crate) mod bicycle;
 pub(crate) mod bus;
 pub(crate) mod car;
+pub(crate) mod cars;
 pub(crate) mod clay;
 mod colours;
 pub(crate) mod furniture;

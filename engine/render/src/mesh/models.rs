@@ -2,7 +2,7 @@
 
 use super::furniture::{self, Plate};
 use super::house::Plan;
-use super::{Mesh, bicycle, bus, car, motorcycle, person, plant, truck, van};
+use super::{Mesh, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -32,6 +32,8 @@ pub(crate) struct Models {
     pub ball: Arc<Mesh>,
     pub parcel: Arc<Mesh>,
     pub barrier: Arc<Mesh>,
+    /// The meshes of cars of many kinds, by kind and size in millimetres.
+    cars: Shelf<(usize, [u32; 3])>,
     houses: Shelf<Plan>,
     /// The meshes of the crowns of trees, by colour; `true` for conifers.
     crowns: Shelf<(bool, Colour)>,
@@ -72,9 +74,16 @@ impl Models {
             ball: furniture::ball().into(),
             parcel: furniture::parcel().into(),
             barrier: furniture::barrier().into(),
+            cars: Shelf::default(),
             houses: Shelf::default(),
             crowns: Shelf::default(),
         }
+    }
+
+    /// Returns the mesh of a car of a kind, with a length, a width and a height in metres.
+    pub fn car_of(&self, kind: usize, size: [f32; 3]) -> Arc<Mesh> {
+        let millimetres = size.map(|metres| (1000.0 * metres).round() as u32);
+        take(&self.cars, (kind, millimetres), || cars::car(kind, size))
     }
 
     pub fn house(&self, plan: Plan) -> Arc<Mesh> {

@@ -4,10 +4,12 @@
 //! outline, because the outline is that of the trunk or the pole.
 
 mod gait;
+mod variety;
 
 use super::Instance;
+use crate::Look;
 use crate::mesh::models::{Models, linear};
-use crate::mesh::{Mesh, bicycle, bus, car, furniture, house, motorcycle, truck, van};
+use crate::mesh::{Mesh, bicycle, bus, car, cars, furniture, house, motorcycle, truck, van};
 use gait::walker;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use paracosm_engine::object::{Body, BodyState, Class, Outline};
@@ -34,16 +36,21 @@ pub(super) struct Figure<'a> {
     pub size: [f32; 3],
     pub paint: [f32; 3],
     pub id: u16,
+    pub look: Look,
 }
 
 impl<'a> Figure<'a> {
     /// Makes a drawable figure of a body that stands `raised` metres above the road.
-    pub fn new(state: &'a BodyState, raised: f32, id: u16) -> Self {
+    pub fn new(state: &'a BodyState, raised: f32, id: u16, look: Look) -> Self {
         let position = state.pose.position.map(|metres| metres as f32);
         let up = state.altitude as f32 + raised;
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), state.pose.heading as f32);
         let pose = Isometry3::from_parts(Translation3::new(position.x, position.y, up), turn);
-        Self { state, pose, size: size(&state.body), paint: linear(state.body.colour), id }
+        let colour = match look {
+            Look::Flat => state.body.colour,
+            Look::Textured => variety::colour(&state.body, id),
+        };
+        Self { state, pose, size: size(&state.body), paint: linear(colour), id, look }
     }
 
     /// Returns an instance of a mesh at the pose `at` relative to the body.
@@ -61,6 +68,10 @@ impl<'a> Figure<'a> {
     pub fn draw(&self, scene: &mut Vec<Instance>) {
         let models = Models::shared();
         match self.state.body.class {
+            Class::Car if self.look == Look::Textured => {
+                let kind = cars::kind(self.size, variety::lot(self.id, variety::KIND));
+                scene.push(self.stretched(&models.car_of(kind, self.size), self.size));
+            }
             Class::Car => scene.push(self.stretched(&models.car, car::SIZE)),
             Class::Van => scene.push(self.stretched(&models.van, van::SIZE)),
             Class::Truck => scene.push(self.stretched(&models.truck, truck::SIZE)),

@@ -52,7 +52,7 @@ impl Stage {
 
     /// Makes the drawable scenery of a road network. All scenes of the stage have the given look.
     pub fn in_look(network: &RoadNetwork, look: Look) -> Self {
-        Self { look, still: ground(network), pavement: Pavement::of(network), models: BTreeMap::new() }
+        Self { look, still: ground(network, look), pavement: Pavement::of(network), models: BTreeMap::new() }
     }
 
     /// Returns the look of all scenes of the stage.
@@ -90,7 +90,7 @@ impl Stage {
             let on_foot = matches!(state.body.class, Class::Pedestrian | Class::Bicycle);
             let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
             let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
-            let figure = Figure::new(state, raised as f32, id);
+            let figure = Figure::new(state, raised as f32, id, self.look);
             let of_class = || self.models.get(&state.body.class);
             match cast.get(&index).map(Arc::as_ref).or_else(of_class) {
                 Some(model) => instances.push(model.instance(&figure)),

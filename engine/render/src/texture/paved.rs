@@ -10,7 +10,7 @@ pub(super) fn asphalt(at: [f32; 2]) -> Texel {
     let stones = 0.62 + 0.55 * share(stone.hash.rotate_left(7)) + light - 0.35 * rise(0.3, 0.8, stone.distance);
     let wear = 0.82 + 0.36 * cloud(at, [6; 2], 4, 2);
     let bent = [at[0] + 0.02 * smooth(at, [24; 2], 3), at[1] + 0.02 * smooth(at, [24; 2], 4)];
-    let open = rise(0.50, 0.62, cloud(at, [3; 2], 3, 5));
+    let open = rise(0.53, 0.65, cloud(at, [3; 2], 3, 5));
     let crack = (1.0 - rise(0.003, 0.018, scattered(bent, [7; 2], 6).border)) * open;
     Texel::shade(1.06 * stones * wear * (1.0 - 0.62 * crack))
 }
