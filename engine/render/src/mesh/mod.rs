@@ -15,6 +15,7 @@ mod plant;
 pub(crate) mod truck;
 pub(crate) mod van;
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The finish of a surface, which determines how the surface reflects or emits light. In the look
@@ -116,6 +117,7 @@ pub struct Mesh {
     key: u64,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
+    coarse: Option<Arc<Mesh>>,
 }
 
 impl Mesh {
@@ -128,7 +130,18 @@ impl Mesh {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         assert!(indices.len().is_multiple_of(3), "three indices make a triangle");
         assert!(indices.iter().all(|index| (*index as usize) < vertices.len()), "an index names a corner");
-        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices }
+        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices, coarse: None }
+    }
+
+    /// Sets a mesh of the same shape with fewer triangles. A renderer draws it where the object is small in the image, and
+    /// for shadows.
+    pub fn with_coarse(self, coarse: impl Into<Arc<Self>>) -> Self {
+        Self { coarse: Some(coarse.into()), ..self }
+    }
+
+    /// Returns the mesh of the same shape with fewer triangles, if there is one.
+    pub fn coarse(&self) -> Option<&Arc<Self>> {
+        self.coarse.as_ref()
     }
 
     /// Returns a number that identifies the mesh within the process. A renderer uses it to know which meshes it has

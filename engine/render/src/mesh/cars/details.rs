@@ -27,7 +27,9 @@ impl Shell {
         clay.cuboid([-length, -inner, self.sill - 0.03], [length, inner, self.sill + 0.10], dark);
         let [rear, front] = [self.axles[0] - self.wheel, self.axles[1] + self.wheel];
         let top = self.belt(rear).min(self.belt(front)) - 0.04;
-        clay.cuboid([rear - 0.06, -inner, self.sill], [front + 0.06, inner, top], dark);
+        if !self.coarse {
+            clay.cuboid([rear - 0.06, -inner, self.sill], [front + 0.06, inner, top], dark);
+        }
         self.front(clay);
         self.rear(clay);
         clay.mirrored(|clay| {
@@ -50,6 +52,11 @@ impl Shell {
         let out = self.wide(x) - 0.012;
         let axle = |y: f32| at(x, y, self.wheel);
         let rubber = matter(SurfaceKind::Plain, RUBBER);
+        if self.coarse {
+            clay.tube([axle(out - TYRE), axle(out)], [self.wheel; 2], 8, rubber);
+            let rim = ring(axle(out + 0.004), Point::y(), RIM * self.wheel, 6);
+            return clay.facet(&rim, matter(SurfaceKind::Plain, GREY));
+        }
         let tread = ring(axle(out - 0.015), Point::y(), self.wheel, SIDES);
         let edge = ring(axle(out), Point::y(), RIM * self.wheel, SIDES);
         clay.hose(&[ring(axle(out - TYRE), Point::y(), self.wheel, SIDES), tread, edge], rubber);
@@ -92,6 +99,9 @@ impl Shell {
             let side = [tip[1], back, back + 0.6 * up + rise, tip[1] + up];
             clay.facet(&front, housing);
             clay.facet(&side, housing);
+            if self.coarse {
+                return clay.facet(&patch(front, [0.1, 0.9], [0.18, 0.80], 0.006), lamp);
+            }
             clay.facet(&[tip[0] + up, tip[1] + up, back + 0.6 * up + rise], housing);
             for [from, to] in [[0.10, 0.42], [0.54, 0.90]] {
                 clay.facet(&patch(front, [from, to], [0.18, 0.80], 0.006), lamp);
@@ -106,7 +116,9 @@ impl Shell {
         let low = self.sill + 0.10;
         let dark = matter(SurfaceKind::Plain, BLACK);
         clay.cuboid([end - 0.006, -0.80 * wide, low - 0.07], [end + 0.25, 0.80 * wide, low + 0.10], dark);
-        clay.cuboid([end - 0.012, -0.98 * wide, low + 0.12], [end + 0.2, 0.98 * wide, low + 0.22], paint());
+        if !self.coarse {
+            clay.cuboid([end - 0.012, -0.98 * wide, low + 0.12], [end + 0.2, 0.98 * wide, low + 0.22], paint());
+        }
         let bed = self.bed.is_some();
         self.plate(clay, end - 0.014, -1.0, if bed { low - 0.03 } else { low + 0.30 });
         clay.mirrored(|clay| {
@@ -133,6 +145,9 @@ impl Shell {
             clay.facet(&corners, matter(SurfaceKind::Plain, colour));
         };
         quad(clay, 0.0, [-0.26, 0.26], [0.0, 0.11], WHITE);
+        if self.coarse {
+            return;
+        }
         quad(clay, 0.003, [-0.26, -0.22], [0.0, 0.11], [0.0, 0.03, 0.35]);
         // Letters, from afar.
         for letters in [[-0.19, -0.05], [-0.01, 0.08], [0.11, 0.22]] {
@@ -157,6 +172,9 @@ impl Shell {
             ],
             matter(SurfaceKind::Glass, STEEL),
         );
+        if self.coarse {
+            return;
+        }
         let [rear, front] = [self.axles[0] + self.wheel + 0.14, self.axles[1] - self.wheel - 0.14];
         let ahead = cowl - 0.42;
         let middle = 0.5 * (rear.max(self.deck() + 0.3) + ahead) + 0.05;

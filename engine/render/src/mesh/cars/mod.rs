@@ -196,10 +196,16 @@ pub(crate) fn kind(size: [f32; 3], chance: u32) -> usize {
 
 /// Makes a car of a kind with a length, a width and a height in metres.
 pub(crate) fn car(kind: usize, size: [f32; 3]) -> Mesh {
-    let shell = shell::Shell::new(&KINDS[kind], size);
-    let mut clay = Clay::default();
-    shell.body(&mut clay);
-    shell.cabin(&mut clay);
-    shell.details(&mut clay);
-    clay.fitted(size).mesh()
+    let mesh = |coarse: bool| {
+        let shell = shell::Shell::new(&KINDS[kind], size, coarse);
+        let mut clay = Clay::default();
+        shell.body(&mut clay);
+        shell.cabin(&mut clay);
+        shell.details(&mut clay);
+        clay.fitted(size).mesh()
+    };
+    mesh(false).with_coarse(mesh(true))
 }
+
+#[cfg(test)]
+mod tests;

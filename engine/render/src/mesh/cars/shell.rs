@@ -20,6 +20,8 @@ pub(super) struct Shell {
     /// Half of the length and half of the width of the outline.
     pub half: [f32; 2],
     pub bed: Option<[f32; 2]>,
+    /// True if the car is modelled for a view from afar, with few triangles.
+    pub coarse: bool,
     belt: Vec<[f32; 2]>,
     roof: Vec<[f32; 2]>,
     windows: Vec<[f32; 2]>,
@@ -46,7 +48,7 @@ fn height(line: &[[f32; 2]], x: f32) -> f32 {
 
 impl Shell {
     /// Makes the shell of a kind of car for a length, a width and a height in metres.
-    pub fn new(lines: &Lines, size: [f32; 3]) -> Self {
+    pub fn new(lines: &Lines, size: [f32; 3], coarse: bool) -> Self {
         let [along, _, up] = [0, 1, 2].map(|axis| size[axis] / lines.size[axis]);
         let scaled = |line: &[[f32; 2]]| line.iter().map(|[x, z]| [along * x, up * z]).collect();
         Self {
@@ -55,6 +57,7 @@ impl Shell {
             sill: up * lines.sill,
             half: [0.5 * size[0], 0.5 * size[1]],
             bed: lines.bed.map(|bed| bed.map(|x| along * x)),
+            coarse,
             belt: scaled(lines.belt),
             roof: scaled(lines.roof),
             windows: lines.windows.iter().map(|window| window.map(|x| along * x)).collect(),
@@ -98,11 +101,12 @@ impl Shell {
     /// Returns the places of the cross-sections of the body, from the rear to the front.
     fn stations(&self) -> Vec<f32> {
         let radius = self.wheel + GAP;
-        let arches = self.axles.into_iter().flat_map(|axle| {
-            [-1.001, -0.95, -0.62, 0.0, 0.62, 0.95, 1.001].map(|share| axle + share * radius)
-        });
+        let shares: &[f32] =
+            if self.coarse { &[-1.001, -0.8, 0.8, 1.001] } else { &[-1.001, -0.95, -0.62, 0.0, 0.62, 0.95, 1.001] };
+        let arches = self.axles.into_iter().flat_map(|axle| shares.iter().map(move |share| axle + share * radius));
         let belt = self.belt.iter().map(|point| point[0]);
-        let ends = [-1.0, 1.0].into_iter().flat_map(|end| [0.0, 0.08, 0.3].map(|off| end * (self.half[0] - off)));
+        let inset: &[f32] = if self.coarse { &[0.0, 0.14] } else { &[0.0, 0.08, 0.3] };
+        let ends = [-1.0, 1.0].into_iter().flat_map(|end| inset.iter().map(move |off| end * (self.half[0] - off)));
         let mut all: Vec<f32> = arches.chain(belt).chain(ends).chain(self.bed.into_iter().flatten()).collect();
         all.retain(|x| x.abs() <= self.half[0]);
         all.sort_by(f32::total_cmp);
@@ -129,13 +133,16 @@ impl Shell {
     /// Adds the body without the cabin.
     pub fn body(&self, clay: &mut Clay) {
         let sections: Vec<[Point; 6]> = self.stations().into_iter().map(|x| self.section(x)).collect();
+        // From afar, a side is flat, and so is the bonnet.
+        let steps: &[[usize; 2]] =
+            if self.coarse { &[[0, 2], [2, 3], [3, 5]] } else { &[[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]] };
         let in_bed = |x: f32| self.bed.is_some_and(|[rear, front]| rear < x && x < front);
         clay.mirrored(|clay| {
             for pair in sections.windows(2) {
                 let (a, b) = (pair[0], pair[1]);
-                let rows = if in_bed(0.5 * (a[0].x + b[0].x)) { 3 } else { 5 };
-                for row in 0..rows {
-                    clay.facet(&[a[row], a[row + 1], b[row + 1], b[row]], paint());
+                let open = in_bed(0.5 * (a[0].x + b[0].x));
+                for [low, high] in steps.iter().filter(|[low, _]| !open || *low < 3) {
+                    clay.facet(&[a[*low], a[*high], b[*high], b[*low]], paint());
                 }
             }
             let end = |section: &[Point; 6]| {
@@ -167,17 +174,20 @@ impl Shell {
 
     /// Adds the cabin: side windows between pillars, the windscreen, the rear window and the roof.
     pub fn cabin(&self, clay: &mut Clay) {
-        let ends = self.roof.iter().map(|point| point[0]);
-        let mut stations: Vec<f32> = ends.chain(self.windows.iter().flatten().copied()).collect();
+        // From afar, the side windows are one, and the roof is flat.
+        let (count, whole) = (self.roof.len(), [self.windows[0][0], self.cowl()]);
+        let windows = if self.coarse { std::slice::from_ref(&whole) } else { &self.windows };
+        let ends = self.roof.iter().enumerate().filter(|(i, _)| !self.coarse || *i < 2 || *i + 2 >= count);
+        let ends = ends.map(|(_, point)| point[0]);
+        let mut stations: Vec<f32> = ends.chain(windows.iter().flatten().copied()).collect();
         stations.sort_by(f32::total_cmp);
         stations.dedup_by(|a, b| (*a - *b).abs() < 0.012);
         let (glass, dark) = (matter(SurfaceKind::Glass, GLASS), matter(SurfaceKind::Plain, BLACK));
         let roof = [self.roof[1][0], self.roof[self.roof.len() - 2][0]];
-        let first = self.windows[0][0];
         let of = |x: f32, row: usize| match row {
-            0 if self.windows.iter().any(|[rear, front]| *rear < x && x < *front) => glass,
+            0 if windows.iter().any(|[rear, front]| *rear < x && x < *front) => glass,
             // The pillars between the windows, and before the first.
-            0 if first < x => dark,
+            0 if whole[0] < x => dark,
             2 | 3 if x < roof[0] || x > roof[1] => glass,
             _ => paint(),
         };
@@ -185,9 +195,10 @@ impl Shell {
         clay.mirrored(|clay| {
             for (pair, x) in sections.windows(2).zip(stations.windows(2)) {
                 let (a, b) = (pair[0], pair[1]);
-                for row in 0..4 {
-                    let of = of(0.5 * (x[0] + x[1]), row);
-                    clay.facet(&[a[row], a[row + 1], b[row + 1], b[row]], of);
+                let steps: &[[usize; 2]] = if self.coarse { &[[0, 1], [1, 2], [2, 4]] } else { &[[0, 1], [1, 2], [2, 3], [3, 4]] };
+                for [low, high] in steps {
+                    let of = of(0.5 * (x[0] + x[1]), *low);
+                    clay.facet(&[a[*low], a[*high], b[*high], b[*low]], of);
                 }
             }
         });
