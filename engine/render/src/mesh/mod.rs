@@ -7,6 +7,7 @@ pub(crate) mod cars;
 pub(crate) mod clay;
 mod colours;
 pub(crate) mod furniture;
+pub(crate) mod garb;
 pub(crate) mod house;
 pub(crate) mod models;
 pub(crate) mod motorcycle;

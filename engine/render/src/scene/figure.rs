@@ -8,6 +8,7 @@ mod variety;
 
 use super::Instance;
 use crate::Look;
+use crate::mesh::house::Walls;
 use crate::mesh::models::{Models, linear};
 use crate::mesh::{Mesh, bicycle, bus, car, cars, furniture, house, motorcycle, truck, van};
 use gait::walker;
@@ -84,11 +85,21 @@ impl<'a> Figure<'a> {
             Class::Pedestrian => walker(self, models, scene),
             Class::Building => {
                 let plan = house::Plan::of(self.size);
-                scene.push(self.stretched(&models.house(plan), plan.size()));
+                scene.push(self.stretched(&models.house(plan, self.walls()), plan.size()));
             }
             Class::Tree => self.tree(models, scene),
             Class::Sign => self.sign(models, scene),
             Class::Prop => scene.push(self.prop(models)),
+        }
+    }
+
+    /// Returns the surfaces of a house. A house as red as bricks has walls of brick, and so have some others.
+    fn walls(&self) -> Walls {
+        let [red, _, blue] = self.state.body.colour;
+        match self.look {
+            Look::Flat => Walls::Flat,
+            Look::Textured if red > blue.saturating_add(60) || self.chance().is_multiple_of(5) => Walls::Brick,
+            Look::Textured => Walls::Plaster,
         }
     }
 
@@ -97,7 +108,7 @@ impl<'a> Figure<'a> {
         let chance = self.chance();
         let conifer = chance.is_multiple_of(2);
         let (wide, low) = (2.0 * CROWN[usize::from(conifer)] * height, BOUGHS[usize::from(conifer)] * height);
-        scene.push(self.part(&models.trunk, Isometry3::identity(), [0.5 * length, 0.5 * width, 0.6 * height]));
+        scene.push(self.part(&models.trunks[self.look as usize], Isometry3::identity(), [0.5 * length, 0.5 * width, 0.6 * height]));
         let turned = Isometry3::new(Vector3::z() * low, Vector3::z() * (chance % 360) as f32);
         let crown = models.crown(conifer, self.state.body.colour);
         scene.push(self.part(&crown, turned, [wide, wide, height - low]));

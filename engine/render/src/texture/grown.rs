@@ -14,14 +14,15 @@ pub(super) fn grass(at: [f32; 2]) -> Texel {
 
 /// Leaves: bright ones before dark gaps.
 pub(super) fn leaves(at: [f32; 2]) -> Texel {
-    let leaf = scattered(at, [40; 2], 101);
-    let behind = scattered(at, [22; 2], 102);
-    let front = 1.0 - rise(0.30, 0.62, leaf.distance);
-    let depth = 0.30 + 0.35 * share(behind.hash);
-    let shade = depth + front * (0.35 + 1.05 * share(leaf.hash.rotate_left(5)));
-    let boughs = 0.70 + 0.60 * cloud(at, [5; 2], 3, 103);
-    let light = 0.02 * front * share(leaf.hash.rotate_left(17));
-    Texel { shade: 1.10 * shade * boughs, tint: [light, 1.1 * light, 0.1 * light] }
+    let bent = [at[0] + 0.05 * smooth(at, [18; 2], 104), at[1] + 0.05 * smooth(at, [18; 2], 105)];
+    let leaf = scattered(bent, [58, 44], 101);
+    let behind = scattered(bent, [20; 2], 102);
+    let front = 1.0 - rise(0.25, 0.75, leaf.distance);
+    let depth = 0.35 + 0.45 * share(behind.hash);
+    let shade = depth + front * (0.20 + 0.85 * share(leaf.hash.rotate_left(5)));
+    let boughs = 0.62 + 0.76 * cloud(at, [5; 2], 4, 103);
+    let light = 0.016 * front * share(leaf.hash.rotate_left(17));
+    Texel { shade: 1.12 * shade * boughs, tint: [light, 1.1 * light, 0.1 * light] }
 }
 
 /// Bark: ridges that run up the trunk.
