@@ -111,8 +111,10 @@ fn portraits(renderer: &mut Renderer, file: &Path, body: Body, far: f64) -> Resu
 /// Returns the seconds that a batch of images takes.
 fn seconds(renderer: &mut Renderer, scene: &Scene, start: &Pose) -> Result<f64, Box<dyn Error>> {
     let camera = camera(200, 66)?;
-    let poses: Vec<_> = (0..BATCH).map(|i| carrier(start) * Isometry3::translation(0.05 * i as f64, 0.0, 0.0)).collect();
-    let views: Vec<_> = poses.iter().map(|pose| View { without: Some(1), ..View::new(scene, &camera, *pose) }).collect();
+    let poses: Vec<_> =
+        (0..BATCH).map(|i| carrier(start) * Isometry3::translation(0.05 * i as f64, 0.0, 0.0)).collect();
+    let views: Vec<_> =
+        poses.iter().map(|pose| View { without: Some(1), ..View::new(scene, &camera, *pose) }).collect();
     let begin = Instant::now();
     renderer.render(&views, COLOURS)?;
     Ok(begin.elapsed().as_secs_f64())
@@ -151,10 +153,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             times.push(seconds(&mut renderer, scene, &own)?);
         }
     }
-    let medians: Vec<f64> = times.into_iter().map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[ROUNDS / 2]
-    }).collect();
+    let medians: Vec<f64> = times
+        .into_iter()
+        .map(|mut times| {
+            times.sort_by(f64::total_cmp);
+            times[ROUNDS / 2]
+        })
+        .collect();
     for (look, median) in Look::ALL.iter().zip(&medians) {
         println!("{look}: {:.0} images of 200 x 66 pixels a second", BATCH as f64 / median);
     }

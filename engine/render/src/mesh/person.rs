@@ -50,7 +50,9 @@ pub(crate) fn trunk(head: f32, garb: &Garb) -> Mesh {
     match garb.cut {
         Cut::Jacket | Cut::Shirt => {}
         Cut::Coat => clay.loft(&stack(&[(0.58, 0.17, 0.205), (0.95, 0.135 * deep, 0.192 * wide)]), jacket()),
-        Cut::Skirt => clay.loft(&stack(&[(0.52, 0.19, 0.215), (0.98, 0.12 * deep, 0.172 * wide)]), matter(garb.trousers)),
+        Cut::Skirt => {
+            clay.loft(&stack(&[(0.52, 0.19, 0.215), (0.98, 0.12 * deep, 0.172 * wide)]), matter(garb.trousers));
+        }
     }
     if let Some(bag) = garb.bag {
         clay.cuboid([-0.245, -0.135, 1.04], [-0.10, 0.135, 1.42], matter(bag));
@@ -61,7 +63,12 @@ pub(crate) fn trunk(head: f32, garb: &Garb) -> Mesh {
     clay.ball(at(0.015, 0.0, 1.785 - radius), [0.8 * radius, 0.66 * radius, radius], 8, matter(garb.skin));
     let crown = at(-0.016 * head, 0.0, 1.8 - 0.72 * radius);
     let hair = matter(garb.hair);
-    clay.ball(crown, [0.8 * radius, 0.74 * radius, 0.72 * radius], 8, if garb.hairdo == Hair::Cap { jacket() } else { hair });
+    clay.ball(
+        crown,
+        [0.8 * radius, 0.74 * radius, 0.72 * radius],
+        8,
+        if garb.hairdo == Hair::Cap { jacket() } else { hair },
+    );
     if garb.hairdo == Hair::Long {
         let lock = |z: f32, deep: f32, wide: f32| oval(at(-0.045 * head, 0.0, z), deep * head, wide * head, 8);
         clay.loft(&[lock(1.44, 0.045, 0.085), lock(1.72, 0.06, 0.095)], hair);

@@ -15,9 +15,9 @@ mod raw;
 mod read;
 mod shadow;
 mod targets;
-mod textures;
 #[cfg(test)]
 mod tests;
+mod textures;
 
 pub use adapter::{Adapter, adapter};
 

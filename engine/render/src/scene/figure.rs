@@ -108,7 +108,11 @@ impl<'a> Figure<'a> {
         let chance = self.chance();
         let conifer = chance.is_multiple_of(2);
         let (wide, low) = (2.0 * CROWN[usize::from(conifer)] * height, BOUGHS[usize::from(conifer)] * height);
-        scene.push(self.part(&models.trunks[self.look as usize], Isometry3::identity(), [0.5 * length, 0.5 * width, 0.6 * height]));
+        scene.push(self.part(
+            &models.trunks[self.look as usize],
+            Isometry3::identity(),
+            [0.5 * length, 0.5 * width, 0.6 * height],
+        ));
         let turned = Isometry3::new(Vector3::z() * low, Vector3::z() * (chance % 360) as f32);
         let crown = models.crown(conifer, self.state.body.colour);
         scene.push(self.part(&crown, turned, [wide, wide, height - low]));

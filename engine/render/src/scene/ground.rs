@@ -54,16 +54,12 @@ fn lie(surface: Paved, look: Look) -> Lie {
         longer,
     };
     let (asphalt, (slabs, stone, paint), (grass, green)) = match look {
-        Look::Flat => (
-            ASPHALT,
-            (SurfaceKind::Asphalt, SurfaceKind::Plain, SurfaceKind::Plain),
-            (SurfaceKind::Grown, GRASS),
-        ),
-        Look::Textured => (
-            OLD_ASPHALT,
-            (SurfaceKind::Slabs, SurfaceKind::Concrete, SurfaceKind::Marking),
-            (SurfaceKind::Grass, LAWN),
-        ),
+        Look::Flat => {
+            (ASPHALT, (SurfaceKind::Asphalt, SurfaceKind::Plain, SurfaceKind::Plain), (SurfaceKind::Grown, GRASS))
+        }
+        Look::Textured => {
+            (OLD_ASPHALT, (SurfaceKind::Slabs, SurfaceKind::Concrete, SurfaceKind::Marking), (SurfaceKind::Grass, LAWN))
+        }
     };
     match surface {
         // Widened under the kerbs and lengthened under the next element, so that no seam shows.

@@ -30,7 +30,8 @@ pub(super) fn plaster(at: [f32; 2]) -> Texel {
     let grain = 0.93 + 0.14 * share(scattered(at, [190; 2], 71).hash);
     let streaks = 1.0 - 0.22 * rise(0.52, 0.80, smooth(at, [40, 3], 72)) * smooth(at, [5; 2], 73);
     let bent = [at[0] + 0.03 * smooth(at, [16; 2], 74), at[1] + 0.03 * smooth(at, [16; 2], 75)];
-    let crack = (1.0 - rise(0.002, 0.010, scattered(bent, [3; 2], 76).border)) * rise(0.55, 0.65, smooth(at, [3; 2], 77));
+    let crack =
+        (1.0 - rise(0.002, 0.010, scattered(bent, [3; 2], 76).border)) * rise(0.55, 0.65, smooth(at, [3; 2], 77));
     Texel::shade(1.02 * (0.88 + 0.24 * cloud(at, [4; 2], 5, 78)) * grain * streaks * (1.0 - 0.4 * crack))
 }
 

@@ -33,8 +33,8 @@ pub(super) fn mended(at: [f32; 2]) -> Texel {
         shade *= 1.0 - 0.45 * (1.0 - rise(0.006, 0.016, inside.abs()));
     }
     let bent = [at[0] + 0.035 * smooth(at, [14; 2], 13), at[1] + 0.035 * smooth(at, [14; 2], 14)];
-    let sealed = (1.0 - rise(0.004, 0.014, scattered(bent, [5; 2], 15).border))
-        * rise(0.52, 0.60, smooth(at, [4; 2], 16));
+    let sealed =
+        (1.0 - rise(0.004, 0.014, scattered(bent, [5; 2], 15).border)) * rise(0.52, 0.60, smooth(at, [4; 2], 16));
     let oil = scattered(at, [11; 2], 17);
     let drop = if oil.hash.is_multiple_of(5) { 1.0 - rise(0.05, 0.28, oil.distance) } else { 0.0 };
     Texel::shade(shade * (1.0 - 0.5 * sealed) * (1.0 - 0.35 * drop))

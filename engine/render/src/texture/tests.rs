@@ -4,9 +4,8 @@ use super::{ALL, LEVELS, TEXELS, levels};
 fn textures_are_the_same_on_every_machine() {
     // FNV-1a over all texels: a change of one texel changes the look, and the look is pinned.
     let bytes = levels().iter().flatten().flatten();
-    let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
+    let hash = bytes
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3));
     assert_eq!(hash, 0, "{hash:#x}");
 }
 

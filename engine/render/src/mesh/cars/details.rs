@@ -1,8 +1,8 @@
 //! The details of a car: wheels with rims, lamps, plates, grille, bumpers, mirrors, seams, handles.
 
+use super::super::SurfaceKind;
 use super::super::clay::{Clay, Matter, Point, at, patch, ring};
 use super::super::colours::{BLACK, GREY, LAMP, RED, RUBBER, STEEL, WHITE};
-use super::super::SurfaceKind;
 use super::shell::{Shell, matter, paint};
 
 /// The sides of a wheel, and its spokes.
@@ -43,7 +43,10 @@ impl Shell {
             clay.facet(&wall(rear), dark);
             clay.facet(&wall(front).into_iter().rev().collect::<Vec<_>>(), dark);
             clay.mirrored(|clay| {
-                clay.facet(&[at(rear, inner, floor), at(front, inner, floor), at(front, inner, top), at(rear, inner, top)], dark);
+                clay.facet(
+                    &[at(rear, inner, floor), at(front, inner, floor), at(front, inner, top), at(rear, inner, top)],
+                    dark,
+                );
             });
         }
     }
@@ -132,7 +135,10 @@ impl Shell {
             clay.facet(&[back, tip[1], tip[1] + up, back + 0.8 * up], lamp);
             let reverse = [at(end - 0.012, inner, bottom), at(end - 0.012, inner + 0.10, bottom)];
             let part = 0.25 * up;
-            clay.facet(&[reverse[1], reverse[0], reverse[0] + part, reverse[1] + part], matter(SurfaceKind::Plain, WHITE));
+            clay.facet(
+                &[reverse[1], reverse[0], reverse[0] + part, reverse[1] + part],
+                matter(SurfaceKind::Plain, WHITE),
+            );
         });
     }
 
@@ -161,8 +167,16 @@ impl Shell {
         let cowl = self.cowl();
         let mirror = cowl - 0.40;
         let belt = self.belt(mirror);
-        clay.cuboid([mirror - 0.08, self.wide(mirror) - 0.12, belt + 0.0], [mirror, self.half[1] - 0.08, belt + 0.03], dark);
-        clay.cuboid([mirror - 0.10, self.half[1] - 0.19, belt + 0.02], [mirror + 0.02, self.half[1], belt + 0.15], paint());
+        clay.cuboid(
+            [mirror - 0.08, self.wide(mirror) - 0.12, belt + 0.0],
+            [mirror, self.half[1] - 0.08, belt + 0.03],
+            dark,
+        );
+        clay.cuboid(
+            [mirror - 0.10, self.half[1] - 0.19, belt + 0.02],
+            [mirror + 0.02, self.half[1], belt + 0.15],
+            paint(),
+        );
         clay.facet(
             &[
                 at(mirror - 0.102, self.half[1] - 0.01, belt + 0.03),

@@ -6,15 +6,13 @@ mod details;
 pub(crate) mod paints;
 mod shell;
 
-use super::clay::Clay;
 use super::Mesh;
+use super::clay::Clay;
 
 /// The description of a kind of car by its natural measures, in metres. Places are metres ahead of the middle of the
 /// car, and metres above the ground.
 #[derive(Debug)]
 pub(crate) struct Lines {
-    /// The name of the kind of car.
-    pub name: &'static str,
     /// The share of the kind among all cars in traffic, in percent: our estimate for Europe.
     pub share: u32,
     /// Length, width and height.
@@ -40,8 +38,8 @@ pub(crate) struct Lines {
 
 /// All kinds of cars.
 pub(crate) const KINDS: [Lines; 10] = [
+    // A hatchback.
     Lines {
-        name: "hatchback",
         share: 26,
         size: [4.25, 1.79, 1.46],
         axles: [-1.37, 1.26],
@@ -53,8 +51,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.62, -1.28], [-1.20, -0.42], [-0.32, 0.62]],
         bed: None,
     },
+    // A small car.
     Lines {
-        name: "small car",
         share: 15,
         size: [3.62, 1.63, 1.49],
         axles: [-1.20, 1.16],
@@ -66,8 +64,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.45, -0.62], [-0.50, 0.62]],
         bed: None,
     },
+    // A saloon.
     Lines {
-        name: "saloon",
         share: 13,
         size: [4.70, 1.83, 1.44],
         axles: [-1.36, 1.45],
@@ -79,8 +77,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.30, -0.46], [-0.36, 0.66]],
         bed: None,
     },
+    // An estate.
     Lines {
-        name: "estate",
         share: 9,
         size: [4.70, 1.83, 1.47],
         axles: [-1.36, 1.45],
@@ -92,8 +90,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.90, -1.30], [-1.20, -0.46], [-0.36, 0.66]],
         bed: None,
     },
+    // An SUV.
     Lines {
-        name: "SUV",
         share: 22,
         size: [4.55, 1.87, 1.67],
         axles: [-1.36, 1.33],
@@ -105,8 +103,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.92, -1.36], [-1.26, -0.42], [-0.32, 0.66]],
         bed: None,
     },
+    // A coupe.
     Lines {
-        name: "coupe",
         share: 2,
         size: [4.63, 1.84, 1.38],
         axles: [-1.33, 1.45],
@@ -118,8 +116,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.18, -0.62], [-0.50, 0.58]],
         bed: None,
     },
+    // A sports car.
     Lines {
-        name: "sports car",
         share: 1,
         size: [4.40, 1.86, 1.26],
         axles: [-1.30, 1.30],
@@ -131,8 +129,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-0.72, 0.60]],
         bed: None,
     },
+    // A pick-up.
     Lines {
-        name: "pick-up",
         share: 2,
         size: [5.30, 1.87, 1.79],
         axles: [-1.62, 1.60],
@@ -144,8 +142,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-0.64, -0.02], [0.10, 0.92]],
         bed: Some([-2.50, -0.98]),
     },
+    // An MPV.
     Lines {
-        name: "MPV",
         share: 8,
         size: [4.55, 1.83, 1.66],
         axles: [-1.40, 1.40],
@@ -157,8 +155,8 @@ pub(crate) const KINDS: [Lines; 10] = [
         windows: &[[-1.98, -1.32], [-1.22, -0.30], [-0.20, 0.72], [0.80, 1.16]],
         bed: None,
     },
+    // An off-roader.
     Lines {
-        name: "off-roader",
         share: 2,
         size: [4.55, 1.88, 1.86],
         axles: [-1.35, 1.38],

@@ -5,8 +5,6 @@ use paracosm_engine::object::Colour;
 /// A colour of paint with its share among cars.
 #[derive(Debug)]
 pub(crate) struct Paint {
-    /// The name of the colour.
-    pub name: &'static str,
     /// The share of the colour among cars, in percent.
     pub share: u32,
     /// Shades of the colour, which are equally frequent.
@@ -17,16 +15,26 @@ pub(crate) struct Paint {
 /// Axalta's 68th Global Automotive Color Popularity Report (December 2020). The division of the other 19 % is our
 /// estimate, with blue before red, as the coating makers report.
 pub(crate) const PAINTS: [Paint; 10] = [
-    Paint { name: "white", share: 38, shades: &[[236, 237, 236], [226, 228, 229], [240, 238, 230]] },
-    Paint { name: "black", share: 19, shades: &[[20, 20, 22], [28, 29, 33], [16, 17, 22]] },
-    Paint { name: "grey", share: 15, shades: &[[92, 95, 99], [70, 73, 78], [118, 120, 122]] },
-    Paint { name: "silver", share: 9, shades: &[[176, 179, 182], [160, 165, 170]] },
-    Paint { name: "blue", share: 7, shades: &[[26, 48, 98], [36, 84, 150], [22, 34, 60]] },
-    Paint { name: "red", share: 5, shades: &[[150, 22, 26], [110, 16, 24], [178, 32, 26]] },
-    Paint { name: "brown or beige", share: 3, shades: &[[92, 74, 58], [166, 150, 126]] },
-    Paint { name: "green", share: 2, shades: &[[36, 66, 48], [78, 96, 72]] },
-    Paint { name: "yellow", share: 1, shades: &[[226, 178, 30]] },
-    Paint { name: "orange", share: 1, shades: &[[206, 92, 26]] },
+    // White.
+    Paint { share: 38, shades: &[[236, 237, 236], [226, 228, 229], [240, 238, 230]] },
+    // Black.
+    Paint { share: 19, shades: &[[20, 20, 22], [28, 29, 33], [16, 17, 22]] },
+    // Grey.
+    Paint { share: 15, shades: &[[92, 95, 99], [70, 73, 78], [118, 120, 122]] },
+    // Silver.
+    Paint { share: 9, shades: &[[176, 179, 182], [160, 165, 170]] },
+    // Blue.
+    Paint { share: 7, shades: &[[26, 48, 98], [36, 84, 150], [22, 34, 60]] },
+    // Red.
+    Paint { share: 5, shades: &[[150, 22, 26], [110, 16, 24], [178, 32, 26]] },
+    // Brown or beige.
+    Paint { share: 3, shades: &[[92, 74, 58], [166, 150, 126]] },
+    // Green.
+    Paint { share: 2, shades: &[[36, 66, 48], [78, 96, 72]] },
+    // Yellow.
+    Paint { share: 1, shades: &[[226, 178, 30]] },
+    // Orange.
+    Paint { share: 1, shades: &[[206, 92, 26]] },
 ];
 
 /// Returns the colour of a car, by a number that chance has chosen.

@@ -195,7 +195,8 @@ impl Shell {
         clay.mirrored(|clay| {
             for (pair, x) in sections.windows(2).zip(stations.windows(2)) {
                 let (a, b) = (pair[0], pair[1]);
-                let steps: &[[usize; 2]] = if self.coarse { &[[0, 1], [1, 2], [2, 4]] } else { &[[0, 1], [1, 2], [2, 3], [3, 4]] };
+                let steps: &[[usize; 2]] =
+                    if self.coarse { &[[0, 1], [1, 2], [2, 4]] } else { &[[0, 1], [1, 2], [2, 3], [3, 4]] };
                 for [low, high] in steps {
                     let of = of(0.5 * (x[0] + x[1]), *low);
                     clay.facet(&[a[*low], a[*high], b[*high], b[*low]], of);
