@@ -12,10 +12,12 @@ pub(crate) mod house;
 pub(crate) mod models;
 pub(crate) mod motorcycle;
 pub(crate) mod person;
+pub(crate) mod picture;
 mod plant;
 pub(crate) mod truck;
 pub(crate) mod van;
 
+use picture::{Picture, Pictures};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -119,6 +121,7 @@ pub struct Mesh {
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
     coarse: Option<Arc<Mesh>>,
+    pictures: Option<Pictures>,
 }
 
 impl Mesh {
@@ -131,13 +134,24 @@ impl Mesh {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         assert!(indices.len().is_multiple_of(3), "three indices make a triangle");
         assert!(indices.iter().all(|index| (*index as usize) < vertices.len()), "an index names a corner");
-        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices, coarse: None }
+        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices, coarse: None, pictures: None }
     }
 
     /// Sets a mesh of the same shape with fewer triangles. A renderer draws it where the object is small in the image, and
     /// for shadows.
     pub fn with_coarse(self, coarse: impl Into<Arc<Self>>) -> Self {
         Self { coarse: Some(coarse.into()), ..self }
+    }
+
+    /// Adds the pictures of the surface, and for each triangle the place of its picture, if it has one.
+    pub(crate) fn with_pictures(self, all: Vec<Picture>, of: Vec<Option<u8>>) -> Self {
+        let pictures = (!all.is_empty()).then_some(Pictures { all, of });
+        Self { pictures, ..self }
+    }
+
+    /// Returns the pictures of the surface, if it has any.
+    pub(crate) fn pictures(&self) -> Option<&Pictures> {
+        self.pictures.as_ref()
     }
 
     /// Returns the mesh of the same shape with fewer triangles, if there is one.

@@ -23,18 +23,20 @@ pub(super) struct Pipelines {
     pub sun_depth: wgpu::TextureView,
     /// The layouts of the inputs of the programs that draw surfaces, in the order of [`Look::ALL`].
     shaded: [wgpu::PipelineLayout; 2],
-    texture_layout: wgpu::BindGroupLayout,
+    pub texture_layout: wgpu::BindGroupLayout,
     /// The textures as an input of the programs that draw surfaces; made when they are first needed.
     textures: Option<wgpu::BindGroup>,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
     drawing: BTreeMap<(WantedImages, Weather, Look), Drawing>,
+    /// The programs that draw surfaces with pictures; made when they are first needed.
+    pictured: BTreeMap<(WantedImages, Weather), wgpu::RenderPipeline>,
 }
 
 /// The programs that draw a set of images.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
-    /// The programs that draw surfaces, in the order of [`Finish::ALL`].
+    /// The programs that draw surfaces without pictures, in the order of [`PLAIN`].
     pub surfaces: [wgpu::RenderPipeline; 3],
     /// The program that draws the sky; `None` if no colours are wanted.
     pub sky: Option<wgpu::RenderPipeline>,
@@ -50,6 +52,9 @@ struct Modules {
 }
 
 const CORNERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [Some(RawCorner::LAYOUT), Some(RawInstance::LAYOUT)];
+
+/// The finishes of surfaces without pictures.
+pub(super) const PLAIN: [Finish; 3] = [Finish::Dull, Finish::Glossy, Finish::Grained];
 
 const VIEW: &str = include_str!("shaders/view.wgsl");
 
@@ -98,8 +103,21 @@ impl Pipelines {
             ],
             sky: module(include_str!("shaders/sky.wgsl")),
         };
-        let (textures, drawing) = (None, BTreeMap::new());
-        Self { modules, views, masks, sun, sun_depth, shaded, texture_layout, textures, shadow, alone, drawing }
+        let (textures, drawing, pictured) = (None, BTreeMap::new(), BTreeMap::new());
+        Self {
+            modules,
+            views,
+            masks,
+            sun,
+            sun_depth,
+            shaded,
+            texture_layout,
+            textures,
+            shadow,
+            alone,
+            drawing,
+            pictured,
+        }
     }
 
     /// Returns the programs that draw the wanted images in the given weather and look.
@@ -114,6 +132,15 @@ impl Pipelines {
         };
         drawing.entry((wanted, weather, look)).or_insert_with(make).clone()
     }
+
+    /// Returns the program that draws surfaces with pictures, in the look `textured`.
+    pub fn pictured(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> wgpu::RenderPipeline {
+        let weather = if wanted.light() { weather } else { Weather::default() };
+        let Self { modules, shaded, pictured, .. } = self;
+        let look = Look::Textured;
+        let make = || pipeline(gpu, modules, &shaded[look as usize], wanted, (weather, look), Some(Finish::Pictured));
+        pictured.entry((wanted, weather)).or_insert_with(make).clone()
+    }
 }
 
 impl Drawing {
@@ -122,57 +149,67 @@ impl Drawing {
         modules: &Modules,
         layout: &wgpu::PipelineLayout,
         wanted: WantedImages,
-        (weather, look): (Weather, Look),
+        conditions: (Weather, Look),
         textures: Option<wgpu::BindGroup>,
     ) -> Self {
-        let pipeline = |finish: Option<Finish>| {
-            let sky = finish.is_none();
-            let choices = [
-                ("RGB", wanted.light()),
-                ("SHADOWS", wanted.shadows),
-                ("LAMPS", weather.lamps),
-                ("FOG", weather.fog),
-                ("GLOSSY", finish == Some(Finish::Glossy)),
-                ("GRAINED", finish == Some(Finish::Grained)),
-            ];
-            // The sky's program declares only one of the constants, and refuses others.
-            let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
-            let constants = if sky { &constants[3..4] } else { &constants };
-            let module = if sky { &modules.sky } else { &modules.surfaces[look as usize] };
-            // The sky has light, and no other image.
-            let writes = |image: Image| {
-                if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL }
-            };
-            let target = |image: Image| {
-                let target = wgpu::ColorTargetState { format: image.format(), blend: None, write_mask: writes(image) };
-                image.is_wanted(wanted).then_some(target)
-            };
-            let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(if sky { "sky" } else { "surfaces" }),
-                layout: Some(layout),
-                vertex: wgpu::VertexState {
-                    module,
-                    entry_point: None,
-                    compilation_options: compilation_options.clone(),
-                    buffers: if sky { &[] } else { &CORNERS },
-                },
-                primitive: wgpu::PrimitiveState { cull_mode: (!sky).then_some(wgpu::Face::Back), ..Default::default() },
-                depth_stencil: Some(depth(!sky, if sky { CompareFunction::Equal } else { CompareFunction::Greater })),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module,
-                    entry_point: None,
-                    compilation_options,
-                    targets: &Image::ALL.map(target),
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        };
-        let surfaces = Finish::ALL.map(|finish| pipeline(Some(finish)));
+        let pipeline = |finish: Option<Finish>| pipeline(gpu, modules, layout, wanted, conditions, finish);
+        let surfaces = PLAIN.map(|finish| pipeline(Some(finish)));
         Self { surfaces, sky: wanted.light().then(|| pipeline(None)), textures }
     }
+}
+
+/// Makes the program that draws surfaces of a finish, or the sky.
+fn pipeline(
+    gpu: &Gpu,
+    modules: &Modules,
+    layout: &wgpu::PipelineLayout,
+    wanted: WantedImages,
+    (weather, look): (Weather, Look),
+    finish: Option<Finish>,
+) -> wgpu::RenderPipeline {
+    let sky = finish.is_none();
+    let choices = [
+        ("RGB", wanted.light()),
+        ("SHADOWS", wanted.shadows),
+        ("LAMPS", weather.lamps),
+        ("FOG", weather.fog),
+        ("GLOSSY", finish == Some(Finish::Glossy)),
+        ("GRAINED", finish == Some(Finish::Grained)),
+        ("PICTURED", finish == Some(Finish::Pictured)),
+    ];
+    // The sky's program declares only one of the constants, and refuses others.
+    let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
+    let constants = if sky { &constants[3..4] } else { &constants[..] };
+    let module = if sky { &modules.sky } else { &modules.surfaces[look as usize] };
+    // The sky has light, and no other image.
+    let writes =
+        |image: Image| if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
+    let target = |image: Image| {
+        let target = wgpu::ColorTargetState { format: image.format(), blend: None, write_mask: writes(image) };
+        image.is_wanted(wanted).then_some(target)
+    };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(if sky { "sky" } else { "surfaces" }),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: None,
+            compilation_options: compilation_options.clone(),
+            buffers: if sky { &[] } else { &CORNERS },
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: (!sky).then_some(wgpu::Face::Back), ..Default::default() },
+        depth_stencil: Some(depth(!sky, if sky { CompareFunction::Equal } else { CompareFunction::Greater })),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: None,
+            compilation_options,
+            targets: &Image::ALL.map(target),
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// Returns a reversed depth state, in which nearer is greater, and 0 is infinitely far.

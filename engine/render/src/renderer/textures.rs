@@ -1,11 +1,11 @@
-//! The textures of the look `textured` on the adapter, as layers of one array with mipmaps.
+//! The textures of the look `textured`, and the pictures of users' models, on the adapter: as layers of arrays with
+//! mipmaps.
 
 use super::adapter::Gpu;
-use crate::texture::{ALL, LEVELS, TEXELS, levels};
+use crate::mesh::picture::{Picture, SIDE};
+use crate::texture::{ALL, TEXELS, levels};
 use wgpu::{FilterMode, MipmapFilterMode};
 
-/// The greatest ratio of the length and the width of the piece of a texture that a pixel shows without blur.
-const ANISOTROPY: u16 = 1;
 /// The number of kinds of surfaces.
 const KINDS: usize = 16;
 
@@ -23,20 +23,37 @@ pub(super) fn table() -> String {
 
 /// Makes the textures, and returns them as an input of the programs that draw surfaces.
 pub(super) fn textures(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
-    let size = wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: ALL.len() as u32 };
+    let layers: Vec<&[Vec<u8>]> = levels().iter().map(Vec::as_slice).collect();
+    array(gpu, layout, &layers, TEXELS, wgpu::TextureFormat::Rgba8Unorm)
+}
+
+/// Makes the pictures of a mesh, and returns them as an input of the programs that draw surfaces.
+pub(super) fn pictures(gpu: &Gpu, layout: &wgpu::BindGroupLayout, pictures: &[Picture]) -> wgpu::BindGroup {
+    let layers: Vec<&[Vec<u8>]> = pictures.iter().map(|picture| picture.levels.as_slice()).collect();
+    array(gpu, layout, &layers, SIDE, wgpu::TextureFormat::Rgba8UnormSrgb)
+}
+
+/// Makes an array of square textures, given by their levels, which repeats in both directions.
+fn array(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    layers: &[&[Vec<u8>]],
+    side: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::BindGroup {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("textures"),
-        size,
-        mip_level_count: LEVELS,
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers.len() as u32 },
+        mip_level_count: side.ilog2() + 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (layer, levels) in levels().iter().enumerate() {
+    for (layer, levels) in layers.iter().enumerate() {
         for (level, texels) in levels.iter().enumerate() {
-            let wide = TEXELS >> level;
+            let wide = side >> level;
             let to = wgpu::TexelCopyTextureInfo {
                 texture: &texture,
                 mip_level: level as u32,
@@ -49,14 +66,17 @@ pub(super) fn textures(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindG
             gpu.queue.write_texture(to, texels, layout, part);
         }
     }
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    // Every array is seen as one of several layers, also that of a single picture.
+    let view = texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    });
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         address_mode_u: wgpu::AddressMode::Repeat,
         address_mode_v: wgpu::AddressMode::Repeat,
         mag_filter: FilterMode::Linear,
         min_filter: FilterMode::Linear,
         mipmap_filter: MipmapFilterMode::Linear,
-        anisotropy_clamp: ANISOTROPY,
         ..Default::default()
     });
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

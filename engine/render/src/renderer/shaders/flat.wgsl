@@ -10,6 +10,10 @@ fn grained(colour: vec3f, uv: vec2f, pixel: f32, kind: u32) -> vec3f {
     return colour * grain(uv, pixel, kind);
 }
 
+fn pictured(uv: vec2f, layer: u32) -> vec3f {
+    return vec3f(1.0);
+}
+
 // How much of the sky is seen from where the sun is hidden.
 fn sky_in_shadow(lit: f32) -> f32 {
     return 1.0;

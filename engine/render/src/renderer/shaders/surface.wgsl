@@ -10,6 +10,7 @@ override LAMPS: bool = false;
 // Which kinds of surfaces are drawn.
 override GLOSSY: bool = false;
 override GRAINED: bool = false;
+override PICTURED: bool = false;
 
 @group(1) @binding(0) var sun_depth: texture_depth_2d;
 @group(1) @binding(1) var sun_sampler: sampler_comparison;
@@ -29,7 +30,7 @@ struct Seen {
     @location(2) uv: vec2f,
     // The plane of the triangle: those p with dot(plane.xyz, p) = plane.w.
     @location(3) @interpolate(flat) plane: vec4f,
-    // Surface, class, and id in the upper half.
+    // Surface in 4 bits, picture in 4 bits, class, and id in the upper half.
     @location(4) @interpolate(flat) kind: u32,
 }
 
@@ -46,7 +47,7 @@ fn corner(corner: Corner) -> Seen {
     }
     // In the mesh's coordinates, where a level face has a level normal and nothing cancels.
     seen.plane = vec4f(turned(corner, corner.face), dot(corner.face, corner.position - corner.eye));
-    seen.kind = corner.kind.x | (corner.kind.y << 8u) | (corner.id << 16u);
+    seen.kind = corner.kind.x | (corner.kind.z << 4u) | (corner.kind.y << 8u) | (corner.id << 16u);
     return seen;
 }
 
@@ -91,7 +92,7 @@ fn fogged(light: vec3f, distance: f32) -> vec3f {
 }
 
 fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
-    let kind = seen.kind & 255u;
+    let kind = seen.kind & 15u;
     let towards_eye = place / -distance;
     let normal = normalize(seen.normal);
     if LAMPS && !GLOSSY && !GRAINED && kind == WHITE_LAMP {
@@ -104,6 +105,9 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     if GRAINED {
         let slant = max(abs(dot(normal, towards_eye)), 0.02);
         colour = grained(colour, seen.uv, distance * view.image.z / slant, kind);
+    }
+    if PICTURED {
+        colour *= pictured(seen.uv, (seen.kind >> 4u) & 15u);
     }
     let facing = dot(normal, view.sun.xyz);
     var sun = view.sun_light.xyz * max(facing, 0.0);
@@ -118,7 +122,7 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     if LAMPS {
         light += colour * lamps(place, normal);
     }
-    if GLOSSY {
+    if GLOSSY || (PICTURED && (kind == PAINT || kind == GLASS)) {
         light += gloss(normal, towards_eye, sun, kind);
     }
     return light;

@@ -35,6 +35,11 @@ fn long_texel(uv: vec2f, layer: u32) -> vec4f {
     return 0.25 * sum;
 }
 
+// The picture of a user's model.
+fn pictured(uv: vec2f, layer: u32) -> vec3f {
+    return long_texel(uv, layer).xyz;
+}
+
 // How much of the sky is seen from where the sun is hidden: what hides the sun hides some of the sky.
 fn sky_in_shadow(lit: f32) -> f32 {
     return 0.62 + 0.38 * lit;
