@@ -5,7 +5,8 @@
 //! ```
 
 use nalgebra::{Isometry3, Point3, Vector3};
-use paracosm_engine::object::{Body, BodyState};
+use paracosm_engine::object::{Body, BodyState, Class};
+use paracosm_engine::road::RoadNetwork;
 use paracosm_engine::{AutonomousVehicle, Environment, Pose, Program, RoadSegment, Roadside, Run, Scenario, Setup};
 use paracosm_render::{Atmosphere, Camera, Look, Renderer, Scene, Stage, View, WantedImages};
 use std::error::Error;
@@ -83,8 +84,9 @@ const PORTRAIT: [usize; 2] = [320, 200];
 fn portraits(renderer: &mut Renderer, file: &Path, body: Body, far: f64) -> Result<(), Box<dyn Error>> {
     let stage = Stage::in_look(&*RoadSegment::new(400.0).build()?, Look::Textured);
     let camera = Camera::new(PORTRAIT[0] as u32, PORTRAIT[1] as u32, 50.0, 36.0)?;
-    let pose = Pose { position: [100.0, 0.0].into(), heading: 0.0 };
     let standing = |number: usize| {
+        // What signs show depends on their place.
+        let pose = Pose { position: [100.0 + number as f64, 0.0].into(), heading: 0.0 };
         let travelled = 0.31 * number as f64;
         BodyState { body, pose, velocity: [1.2, 0.0].into(), altitude: 0.0, travelled, present: true }
     };
@@ -93,8 +95,9 @@ fn portraits(renderer: &mut Renderer, file: &Path, body: Body, far: f64) -> Resu
         let mut images = Vec::new();
         for number in SHEET[0] * row..SHEET[0] * (row + 1) {
             let scene = stage.scene_of([(number, &standing(number))], Atmosphere::default());
-            let middle = Point3::from(pose.position.push(0.5 * body.height));
-            let (x, y) = if number % 3 == 2 { (-0.75, -0.66) } else { (0.75, -0.66) };
+            let share = if body.class == Class::Sign { 0.85 } else { 0.5 };
+            let middle = Point3::from(standing(number).pose.position.push(share * body.height));
+            let (x, y) = if number % 3 == 2 && body.class != Class::Sign { (-0.75, -0.66) } else { (0.75, -0.66) };
             let eye = middle + Vector3::new(x, y, 0.16) * far;
             let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.16, libm::atan2(-y, -x));
             let view = View::new(&scene, &camera, Isometry3::from_parts(eye.into(), turn));
@@ -109,15 +112,46 @@ fn portraits(renderer: &mut Renderer, file: &Path, body: Body, far: f64) -> Resu
 }
 
 /// Returns the seconds that a batch of images takes.
-fn seconds(renderer: &mut Renderer, scene: &Scene, start: &Pose) -> Result<f64, Box<dyn Error>> {
+fn seconds(renderer: &mut Renderer, scene: &Scene, start: &Pose, wanted: WantedImages) -> Result<f64, Box<dyn Error>> {
     let camera = camera(200, 66)?;
     let poses: Vec<_> =
         (0..BATCH).map(|i| carrier(start) * Isometry3::translation(0.05 * i as f64, 0.0, 0.0)).collect();
     let views: Vec<_> =
         poses.iter().map(|pose| View { without: Some(1), ..View::new(scene, &camera, *pose) }).collect();
     let begin = Instant::now();
-    renderer.render(&views, COLOURS)?;
+    renderer.render(&views, wanted)?;
     Ok(begin.elapsed().as_secs_f64())
+}
+
+/// Prints how fast the looks draw the same bodies on the same road.
+fn measure(
+    renderer: &mut Renderer,
+    name: &str,
+    network: &RoadNetwork,
+    bodies: &[BodyState],
+    wanted: WantedImages,
+) -> Result<(), Box<dyn Error>> {
+    let scene = |look: Look| Stage::in_look(network, look).scene_of(bodies.iter().enumerate(), Atmosphere::default());
+    let scenes = Look::ALL.map(scene);
+    // The looks take turns, so that a slow moment of the machine meets them all.
+    let mut times = Look::ALL.map(|_| Vec::new());
+    for _ in 0..ROUNDS {
+        for (scene, times) in scenes.iter().zip(&mut times) {
+            times.push(seconds(renderer, scene, &bodies[0].pose, wanted)?);
+        }
+    }
+    let [flat, textured] = times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[ROUNDS / 2]
+    });
+    let speed = |seconds: f64| BATCH as f64 / seconds;
+    println!(
+        "{name}: {:.0} flat and {:.0} textured images of 200 x 66 pixels a second, a ratio of {:.2}",
+        speed(flat),
+        speed(textured),
+        flat / textured
+    );
+    Ok(())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -129,7 +163,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bodies = bodies(&run);
     let own = bodies[0].pose;
     let low = Atmosphere { sun_elevation: 0.3, sun_azimuth: 0.9, ..Atmosphere::default() };
-    let mut scenes = Vec::new();
     for look in Look::ALL {
         let stage = Stage::in_look(run.network(), look);
         for (weather, air) in [("", Atmosphere::default()), ("-low-sun", low)] {
@@ -142,27 +175,16 @@ fn main() -> Result<(), Box<dyn Error>> {
                 write(&file, [width, height], &frame.rgb.ok_or("the frame has no colours")?)?;
             }
         }
-        scenes.push(stage.scene_of(bodies.iter().enumerate(), Atmosphere::default()));
     }
     portraits(&mut renderer, &folder.join("cars.png"), Body::car(), 7.5)?;
     portraits(&mut renderer, &folder.join("people.png"), Body::adult(), 4.5)?;
-    // The looks take turns, so that a slow moment of the machine meets them all.
-    let mut times = vec![Vec::new(); scenes.len()];
-    for _ in 0..ROUNDS {
-        for (scene, times) in scenes.iter().zip(&mut times) {
-            times.push(seconds(&mut renderer, scene, &own)?);
-        }
+    portraits(&mut renderer, &folder.join("signs.png"), Body::disc(Class::Sign, 0.05, 2.5), 3.0)?;
+    let traffic: Vec<_> = bodies.iter().filter(|state| state.body.class.is_road_user()).copied().collect();
+    let few = &traffic[..4];
+    let bare = WantedImages { shadows: false, ..COLOURS };
+    for (shadows, wanted) in [("with shadows", COLOURS), ("without shadows", bare)] {
+        measure(&mut renderer, &format!("a full street {shadows}"), run.network(), &bodies, wanted)?;
+        measure(&mut renderer, &format!("four road users {shadows}"), run.network(), few, wanted)?;
     }
-    let medians: Vec<f64> = times
-        .into_iter()
-        .map(|mut times| {
-            times.sort_by(f64::total_cmp);
-            times[ROUNDS / 2]
-        })
-        .collect();
-    for (look, median) in Look::ALL.iter().zip(&medians) {
-        println!("{look}: {:.0} images of 200 x 66 pixels a second", BATCH as f64 / median);
-    }
-    println!("textured / flat: {:.2}", medians[0] / medians[1]);
     Ok(())
 }

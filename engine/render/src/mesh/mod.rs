@@ -14,6 +14,7 @@ pub(crate) mod motorcycle;
 pub(crate) mod person;
 pub(crate) mod picture;
 mod plant;
+pub(crate) mod signs;
 pub(crate) mod truck;
 pub(crate) mod van;
 

@@ -3,6 +3,7 @@
 use super::furniture::{self, Plate};
 use super::garb::{GARBS, Garb, USUAL};
 use super::house::{Plan, Walls};
+use super::signs::SIGNS;
 use super::{Mesh, SurfaceKind, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
@@ -25,6 +26,8 @@ pub(crate) struct Models {
     pub lantern: Arc<Mesh>,
     /// The meshes of the plates of traffic signs, in the order of [`PLATES`].
     pub plates: [Arc<Mesh>; 4],
+    /// The traffic signs of the look `textured`.
+    pub signs: [Arc<Mesh>; SIGNS.len()],
     pub cone: Arc<Mesh>,
     pub barrel: Arc<Mesh>,
     pub ball: Arc<Mesh>,
@@ -89,6 +92,7 @@ impl Models {
             pole: furniture::pole().into(),
             lantern: furniture::lantern().into(),
             plates: PLATES.map(|plate| furniture::plate(plate).into()),
+            signs: SIGNS.map(|sign| sign().into()),
             cone: furniture::cone().into(),
             barrel: furniture::barrel().into(),
             ball: furniture::ball().into(),

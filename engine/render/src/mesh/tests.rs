@@ -1,6 +1,7 @@
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::furniture::{self, Plate};
 use super::garb::{GARBS, USUAL};
+use super::signs::SIGNS;
 use super::{Mesh, Semantic, SurfaceKind, bicycle, bus, car, house, motorcycle, person, plant, truck, van};
 use std::collections::BTreeMap;
 
@@ -47,7 +48,12 @@ fn all() -> Vec<(String, Mesh)> {
     ];
     let named = named.into_iter().map(|(name, mesh)| (name.to_owned(), mesh));
     let plates = plates.into_iter().map(|plate| (format!("{plate:?}"), furniture::plate(plate)));
-    named.chain(plates).chain(plans().map(|plan| (format!("{plan:?}"), plan.mesh(house::Walls::Flat)))).collect()
+    let signs = SIGNS.iter().enumerate().map(|(i, sign)| (format!("sign {i}"), sign()));
+    named
+        .chain(plates)
+        .chain(signs)
+        .chain(plans().map(|plan| (format!("{plan:?}"), plan.mesh(house::Walls::Flat))))
+        .collect()
 }
 
 fn triangles(mesh: &Mesh) -> impl Iterator<Item = [(Point, Point); 3]> {

@@ -128,7 +128,11 @@ impl<'a> Figure<'a> {
                 [1.0; 3],
             ));
         } else {
-            let plate = &models.plates[self.chance() as usize % models.plates.len()];
+            let plates = match self.look {
+                Look::Flat => models.plates.as_slice(),
+                Look::Textured => models.signs.as_slice(),
+            };
+            let plate = &plates[self.chance() as usize % plates.len()];
             let scale = (0.4 * height / furniture::PLATE).min(1.0);
             let up = height - furniture::PLATE * scale;
             scene.push(self.part(plate, Isometry3::translation(0.5 * length + 0.015, 0.0, up), [scale; 3]));
