@@ -2,7 +2,7 @@
 
 use super::adapter::Gpu;
 use super::raw::{RawCorner, Shape};
-use super::textures::pictures;
+use super::textures::{layer, pictures};
 use crate::{InstanceFlaw, Mesh, SurfaceKind, Vertex};
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
@@ -174,7 +174,7 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
         let Vertex { surface, semantic, .. } = mesh.vertices()[a as usize];
         // A triangle without an area has no pixels; its values only have to be finite.
         speaker.face = face(mesh, triangle).unwrap_or_default().into();
-        speaker.kind = [surface as u8, semantic as u8, picture.unwrap_or_default(), 0];
+        speaker.kind = [surface as u8, semantic as u8, picture.unwrap_or_else(|| layer(surface)), 0];
         free[turned[0] as usize] = false;
         triangles.push((if picture.is_some() { Finish::Pictured } else { Finish::of(surface) }, turned));
     }

@@ -34,7 +34,7 @@ pub(super) struct RawCorner {
     pub normal: [i16; 4],
     pub uv: [f32; 2],
     pub colour: [u16; 4],
-    /// The surface kind, the class and the place of the picture as bytes, followed by an unused byte.
+    /// The surface kind, the class and the layer of the texture or picture as bytes, followed by an unused byte.
     pub kind: [u8; 4],
 }
 

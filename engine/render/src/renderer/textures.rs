@@ -2,6 +2,7 @@
 //! mipmaps.
 
 use super::adapter::Gpu;
+use crate::SurfaceKind;
 use crate::mesh::picture::{Picture, SIDE};
 use crate::texture::{ALL, TEXELS, levels};
 use wgpu::{FilterMode, MipmapFilterMode};
@@ -9,16 +10,17 @@ use wgpu::{FilterMode, MipmapFilterMode};
 /// The number of kinds of surfaces.
 const KINDS: usize = 16;
 
-/// Returns the table of the layers as a constant of the shaders: for each kind of surface the repetitions in a metre, its
-/// layer, and the layer of the texture that lies over it.
+/// Returns the constants of the shaders: for each kind of surface the repetitions of its texture in a metre.
 pub(super) fn table() -> String {
-    let row = |kind: usize| {
-        let layer = ALL.iter().position(|texture| texture.surface.is_some_and(|of| of as usize == kind));
-        let (period, layer, over) = layer.map_or((1.0, 0, 0), |layer| (ALL[layer].period, layer, ALL[layer].over));
-        format!("vec3f(1.0 / {period:?}, {layer}.0, {over}.0)")
-    };
-    let rows: Vec<String> = (0..KINDS).map(row).collect();
-    format!("const LAYERS = array<vec3f, {KINDS}>({});\n", rows.join(", "))
+    let of = |kind: usize| ALL.iter().find(|texture| texture.surface.is_some_and(|of| of as usize == kind));
+    let rows: Vec<String> =
+        (0..KINDS).map(|kind| format!("1.0 / {:?}", of(kind).map_or(1.0, |texture| texture.period))).collect();
+    format!("const REPEATS = array<f32, {KINDS}>({});\n", rows.join(", "))
+}
+
+/// Returns the layer of the texture of a kind of surface; 0 without a texture.
+pub(super) fn layer(surface: SurfaceKind) -> u8 {
+    ALL.iter().position(|texture| texture.surface == Some(surface)).unwrap_or_default() as u8
 }
 
 /// Makes the textures, and returns them as an input of the programs that draw surfaces.

@@ -44,28 +44,23 @@ pub(crate) struct Texture {
     pub surface: Option<SurfaceKind>,
     /// The length after which the texture repeats, in units of texture coordinates (metres, mostly).
     pub period: f32,
-    /// The place in [`ALL`] of the second texture that lies over this one.
-    pub over: usize,
     /// The look of the surface at a place, whose coordinates are shares of the period.
     texel: fn([f32; 2]) -> Texel,
 }
 
-const MENDED: usize = 0;
-const STAINED: usize = 1;
-
 const fn over(texel: fn([f32; 2]) -> Texel) -> Texture {
-    Texture { surface: None, period: 1.0, over: STAINED, texel }
+    Texture { surface: None, period: 1.0, texel }
 }
 
 const fn of(surface: SurfaceKind, period: f32, texel: fn([f32; 2]) -> Texel) -> Texture {
-    Texture { surface: Some(surface), period, over: STAINED, texel }
+    Texture { surface: Some(surface), period, texel }
 }
 
-/// All textures, in the order of their layers on the adapter.
+/// All textures, in the order of their layers on the adapter. The first lies over asphalt, the second over all others.
 pub(crate) const ALL: [Texture; 12] = [
     over(paved::mended),
     over(paved::stained),
-    Texture { over: MENDED, ..of(SurfaceKind::Asphalt, 7.0, paved::asphalt) },
+    of(SurfaceKind::Asphalt, 7.0, paved::asphalt),
     of(SurfaceKind::Grown, 1.0, grown::leaves),
     of(SurfaceKind::Slabs, 4.0, paved::slabs),
     of(SurfaceKind::Concrete, 5.0, paved::concrete),

@@ -6,8 +6,8 @@ fn laid(uv: vec2f, kind: u32) -> vec2f {
     return uv;
 }
 
-fn grained(colour: vec3f, uv: vec2f, pixel: f32, kind: u32) -> vec3f {
-    return colour * grain(uv, pixel, kind);
+fn grained(colour: vec3f, seen: Seen, pixel: f32) -> vec3f {
+    return colour * grain(seen.uv, pixel, seen.kind & 15u);
 }
 
 fn pictured(uv: vec2f, layer: u32) -> vec3f {

@@ -30,7 +30,7 @@ struct Seen {
     @location(2) uv: vec2f,
     // The plane of the triangle: those p with dot(plane.xyz, p) = plane.w.
     @location(3) @interpolate(flat) plane: vec4f,
-    // Surface in 4 bits, picture in 4 bits, class, and id in the upper half.
+    // Surface in 4 bits, layer of its texture or picture in 4 bits, class, and id in the upper half.
     @location(4) @interpolate(flat) kind: u32,
 }
 
@@ -104,7 +104,7 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     var colour = seen.colour;
     if GRAINED {
         let slant = max(abs(dot(normal, towards_eye)), 0.02);
-        colour = grained(colour, seen.uv, distance * view.image.z / slant, kind);
+        colour = grained(colour, seen, distance * view.image.z / slant);
     }
     if PICTURED {
         colour *= pictured(seen.uv, (seen.kind >> 4u) & 15u);

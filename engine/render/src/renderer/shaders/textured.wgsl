@@ -6,33 +6,35 @@
 // How often the second texture repeats for one repetition of the first, and as what turn it lies: lattices that meet nowhere.
 const OVER: mat2x2f = mat2x2f(0.171, 0.064, -0.064, 0.171);
 
+const ASPHALT: u32 = 4u;
+// The layers of the second textures: of asphalt, and of everything else.
+const MENDED: u32 = 0u;
+const STAINED: u32 = 1u;
+
 // The row of trees and houses around.
 const HEDGE: f32 = 0.22;
 
 fn laid(uv: vec2f, kind: u32) -> vec2f {
-    return uv * LAYERS[kind].x;
+    return uv * REPEATS[kind];
 }
 
-fn grained(colour: vec3f, uv: vec2f, pixel: f32, kind: u32) -> vec3f {
-    let layer = LAYERS[kind];
-    let texel = long_texel(uv, u32(layer.y));
-    let over = textureSample(textures, texture_sampler, OVER * uv, u32(layer.z));
+fn grained(colour: vec3f, seen: Seen, pixel: f32) -> vec3f {
+    let texel = long_texel(seen.uv, (seen.kind >> 4u) & 15u);
+    let over = textureSample(textures, texture_sampler, OVER * seen.uv, select(STAINED, MENDED, (seen.kind & 15u) == ASPHALT));
     return (2.0 * texel.w * colour + texel.xyz) * (2.0 * over.w);
 }
 
-// The mean of a texture over a pixel. A pixel of the ground is much longer than wide, so the means of four pieces one behind
+// The mean of a texture over a pixel. A pixel of the ground is much longer than wide, so the means of two pieces one behind
 // the other are less blurred than the mean of a square, and cost less than the anisotropic filter of a software adapter.
 fn long_texel(uv: vec2f, layer: u32) -> vec4f {
     let across = dpdx(uv);
     let down = dpdy(uv);
     let is_across = dot(across, across) > dot(down, down);
-    let long = 0.25 * select(down, across, is_across);
+    let long = 0.5 * select(down, across, is_across);
     let short = select(across, down, is_across);
-    var sum = textureSampleGrad(textures, texture_sampler, uv - 1.5 * long, layer, long, short);
-    sum += textureSampleGrad(textures, texture_sampler, uv - 0.5 * long, layer, long, short);
+    var sum = textureSampleGrad(textures, texture_sampler, uv - 0.5 * long, layer, long, short);
     sum += textureSampleGrad(textures, texture_sampler, uv + 0.5 * long, layer, long, short);
-    sum += textureSampleGrad(textures, texture_sampler, uv + 1.5 * long, layer, long, short);
-    return 0.25 * sum;
+    return 0.5 * sum;
 }
 
 // The picture of a user's model.
