@@ -6,7 +6,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::object::{Body, BodyState, Class};
-use paracosm_engine::road::RoadNetwork;
+use paracosm_engine::road::{CrossIntersection, RoadNetwork};
 use paracosm_engine::{AutonomousVehicle, Environment, Pose, Program, RoadSegment, Roadside, Run, Scenario, Setup};
 use paracosm_render::{Atmosphere, Camera, Look, Renderer, Scene, Stage, View, WantedImages};
 use std::error::Error;
@@ -74,6 +74,18 @@ fn write(path: &Path, [width, height]: [u32; 2], rgb: &[u8]) -> Result<(), Box<d
     encoder.set_depth(png::BitDepth::Eight);
     encoder.write_header()?.write_image_data(rgb)?;
     Ok(())
+}
+
+/// Draws a crossing of wide roads, as a car sees it that comes to it.
+fn crossing(renderer: &mut Renderer, file: &Path) -> Result<(), Box<dyn Error>> {
+    let arm = |name: &str| RoadSegment::new(150.0).lanes(6).named(name);
+    let cross =
+        CrossIntersection::new().lanes(6).connect("one", arm("east"), "one").connect("three", arm("west"), "one");
+    let scene = Stage::in_look(&*cross.build()?, Look::Textured).scene_of([], Atmosphere::default());
+    let view = camera(1280, 720)?;
+    let pose = Isometry3::translation(-58.0, -5.2, 1.2);
+    let frame = renderer.render(&[View::new(&scene, &view, pose)], COLOURS)?.remove(0)?;
+    write(file, [1280, 720], &frame.rgb.ok_or("the frame has no colours")?)
 }
 
 /// The columns and rows of a sheet of portraits, and the width and the height of a portrait in pixels.
@@ -176,6 +188,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
+    crossing(&mut renderer, &folder.join("crossing.png"))?;
     portraits(&mut renderer, &folder.join("cars.png"), Body::car(), 7.5)?;
     portraits(&mut renderer, &folder.join("people.png"), Body::adult(), 4.5)?;
     portraits(&mut renderer, &folder.join("signs.png"), Body::disc(Class::Sign, 0.05, 2.5), 3.0)?;

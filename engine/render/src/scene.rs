@@ -2,6 +2,7 @@
 
 mod figure;
 mod ground;
+mod markings;
 mod pavement;
 mod stage;
 

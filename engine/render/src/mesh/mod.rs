@@ -5,7 +5,7 @@ pub(crate) mod bus;
 pub(crate) mod car;
 pub(crate) mod cars;
 pub(crate) mod clay;
-mod colours;
+pub(crate) mod colours;
 pub(crate) mod furniture;
 pub(crate) mod garb;
 pub(crate) mod house;

@@ -1,5 +1,6 @@
 //! The built-in shapes, made once for a process, so that a renderer uploads each only once.
 
+use super::colours::linear;
 use super::furniture::{self, Plate};
 use super::garb::{GARBS, Garb, USUAL};
 use super::house::{Plan, Walls};
@@ -129,12 +130,4 @@ impl Models {
 fn take<K: Ord, V: Clone>(shelf: &Shelf<K, V>, key: K, make: impl FnOnce() -> V) -> V {
     let mut shelf = shelf.lock().unwrap_or_else(PoisonError::into_inner);
     shelf.entry(key).or_insert_with(make).clone()
-}
-
-/// Converts a colour from sRGB to linear light (IEC 61966-2-1).
-pub(crate) fn linear(colour: Colour) -> [f32; 3] {
-    colour.map(|level| {
-        let share = f32::from(level) / 255.0;
-        if share <= 0.04045 { share / 12.92 } else { libm::powf((share + 0.055) / 1.055, 2.4) }
-    })
 }

@@ -27,7 +27,7 @@ pub(crate) struct Pictures {
 /// Returns the linear light of every level of sRGB (IEC 61966-2-1).
 fn linear() -> &'static [f32; 256] {
     static LINEAR: LazyLock<[f32; 256]> =
-        LazyLock::new(|| std::array::from_fn(|i| super::models::linear([i as u8; 3])[0]));
+        LazyLock::new(|| std::array::from_fn(|i| super::colours::linear([i as u8; 3])[0]));
     &LINEAR
 }
 

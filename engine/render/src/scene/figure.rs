@@ -8,8 +8,9 @@ mod variety;
 
 use super::Instance;
 use crate::Look;
+use crate::mesh::colours::linear;
 use crate::mesh::house::Walls;
-use crate::mesh::models::{Models, linear};
+use crate::mesh::models::Models;
 use crate::mesh::{Mesh, bicycle, bus, car, cars, furniture, house, motorcycle, truck, van};
 use gait::walker;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};

@@ -4,6 +4,7 @@
 //! squares, so that a renderer can skip those that are out of view.
 
 use super::Instance;
+use super::markings::{arrows, edge_lines};
 use crate::Look;
 use crate::mesh::clay::{Clay, Matter, at};
 use crate::mesh::{Mesh, Semantic, SurfaceKind};
@@ -79,11 +80,31 @@ pub(super) fn ground(network: &RoadNetwork, look: Look) -> Vec<Instance> {
     for strip in network.strips().iter().flat_map(Strip::solid_parts) {
         lay(&strip, look, &mut chunks);
     }
+    if look == Look::Textured {
+        edge_lines(network).iter().for_each(|line| lay(line, look, &mut chunks));
+        arrows(network).iter().for_each(|part| paint(part, &mut chunks));
+    }
     let chunks = chunks.into_iter().map(|(chunk, clay)| {
         let origin = origin(chunk);
         standing(clay.mesh_at(origin.into()), origin)
     });
     chunks.chain([plain(&network.bounds(), look)]).collect()
+}
+
+/// Adds a convex polygon of paint to the meshes of the ground.
+fn paint(part: &[Vector2<f64>], chunks: &mut BTreeMap<[i64; 2], Clay>) {
+    let chunk = chunk_of(part[0]);
+    let corners = part.iter().map(|point| {
+        let point = point - origin(chunk);
+        at(point.x as f32, point.y as f32, PAINT as f32)
+    });
+    let matter = lie(Paved::LaneLine, Look::Textured).matter;
+    chunks.entry(chunk).or_default().facet(&corners.collect::<Vec<_>>(), matter);
+}
+
+/// Returns the chunk of the ground at a place.
+fn chunk_of(place: Vector2<f64>) -> [i64; 2] {
+    place.map(|metres| (metres / CHUNK).floor() as i64).into()
 }
 
 fn origin(chunk: [i64; 2]) -> Vector2<f64> {
@@ -114,7 +135,7 @@ fn lay(strip: &Strip, look: Look, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     for i in 0..last {
         let ends = [cuts[i], cuts[i + 1]];
         let middle = strip.curve.beside(0.5 * (ends[0] + ends[1]), 0.5 * (left + right));
-        let chunk: [i64; 2] = middle.map(|metres| (metres / CHUNK).floor() as i64).into();
+        let chunk = chunk_of(middle);
         let corners = |z: f64| {
             [(ends[0], right), (ends[1], right), (ends[1], left), (ends[0], left)].map(|(along, offset)| {
                 let point = strip.curve.beside(along, offset) - origin(chunk);
