@@ -5,6 +5,10 @@
 //! at once, with or without a graphics card, and returns a [`Frame`] for each: colours, depth, semantic classes and
 //! instances.
 //!
+//! Images have a [`Look`], which a [`Stage`] or a cache of [`Stages`] gives to all of its scenes. The look
+//! [`Flat`](Look::Flat) is the default and never changes. The look [`Textured`](Look::Textured) has textures, and cars and
+//! people of many shapes.
+//!
 //! [`Optics`] makes a camera from its description, by the table [`camera_settings`]. An [`Exposure`] is a moment of a
 //! run that a camera is to draw. A [`Developer`] draws many exposures.
 //!
