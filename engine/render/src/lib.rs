@@ -5,6 +5,10 @@
 //! at once, with or without a graphics card, and returns a [`Frame`] for each: colours, depth, semantic classes and
 //! instances.
 //!
+//! Images have a [`Look`], which a [`Stage`] or a cache of [`Stages`] gives to all of its scenes. The look
+//! [`Flat`](Look::Flat) is the default and never changes. The look [`Textured`](Look::Textured) has textures, and cars and
+//! people of many shapes.
+//!
 //! [`Optics`] makes a camera from its description, by the table [`camera_settings`]. An [`Exposure`] is a moment of a
 //! run that a camera is to draw. A [`Developer`] draws many exposures.
 //!
@@ -35,12 +39,14 @@ mod frame;
 pub mod gltf;
 pub mod lens;
 mod light;
+mod look;
 pub mod mesh;
 mod optics;
 mod palette;
 mod renderer;
 mod scene;
 mod settings;
+mod texture;
 mod view;
 
 pub use boxes::{Box2, Box3, boxes, boxes_in_space};
@@ -49,6 +55,7 @@ pub use developer::{Developer, Rendering, Undrawn, at_once};
 pub use error::{CameraError, GraphicsCause, InstanceFlaw, LossReason, RenderError, ViewError};
 pub use exposure::{Exposure, Sight};
 pub use frame::{Extent, Frame};
+pub use look::{Look, UnknownLook};
 pub use mesh::{Mesh, Semantic, SurfaceKind, Vertex};
 pub use optics::Optics;
 pub use renderer::{Adapter, Renderer, adapter};

@@ -2,12 +2,13 @@
 
 mod figure;
 mod ground;
+mod markings;
 mod pavement;
 mod stage;
 
 pub use stage::{Cast, Model, Stage, Stages};
 
-use crate::Mesh;
+use crate::{Look, Mesh};
 use nalgebra::Isometry3;
 use paracosm_engine::{Weather, sensor};
 use std::sync::Arc;
@@ -19,6 +20,8 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// The light and the fog of the scene.
     pub air: Atmosphere,
+    /// The look in which surfaces are drawn. A [`Stage`] also chooses the shapes of bodies by it.
+    pub look: Look,
 }
 
 /// A mesh with its place, its size and its colour in a scene.

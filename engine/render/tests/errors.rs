@@ -67,7 +67,7 @@ fn what_is_wrong_with_a_thing_or_the_air_is_said() {
     let mesh = Arc::new(cuboid([1.0; 3], grey()));
     let sound = thing(&mesh, [9.0, 0.0, 0.0], 0.0, 7);
     let mut message = |instance: Instance, air: Atmosphere| {
-        let scene = Scene { instances: vec![sound.clone(), instance], air };
+        let scene = Scene { instances: vec![sound.clone(), instance], air, ..scene(Vec::new()) };
         refused(&mut renderer, &View::new(&scene, &camera, Isometry3::identity())).to_string()
     };
     let air = Atmosphere::default();

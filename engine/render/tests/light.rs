@@ -144,7 +144,7 @@ fn lamps_shine_at_night_and_not_by_day() {
     let pose = Isometry3::translation(0.0, -1.7, 0.0);
     let mut scene = street();
     scene.air = Atmosphere { light: 0.0, sun_elevation: -0.3, ..Atmosphere::default() };
-    let dark = Scene { instances: without_lamps(&scene.instances), air: scene.air };
+    let dark = Scene { instances: without_lamps(&scene.instances), ..scene };
     let head_lamps = Some(Point3::new(2.0, 0.0, 0.6));
     let mut seen = |scene: &Scene, head_lamps| {
         let view = View { head_lamps, ..View::new(scene, &camera, pose) };
@@ -175,7 +175,7 @@ fn the_sky_meets_the_fog_at_the_horizon() {
     let Some(mut renderer) = renderer() else { return };
     let camera = camera(31, 400);
     for extinction in [0.0, 0.002, 0.1] {
-        let scene = Scene { instances: Vec::new(), air: Atmosphere { extinction, ..Atmosphere::default() } };
+        let scene = Scene { air: Atmosphere { extinction, ..Atmosphere::default() }, ..scene(Vec::new()) };
         let frame = one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), LIGHT);
         let linear = frame.linear.expect("asked for");
         let horizon = &linear[3 * (31 * 200 + 15)..][..3];

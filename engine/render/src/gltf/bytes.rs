@@ -48,6 +48,22 @@ fn beside(model: &Path, uri: &str) -> Result<PathBuf, GltfError> {
     Ok(file)
 }
 
+/// Returns the bytes to which a model refers, in its own text or in a file that may have as many bytes as are left.
+pub(super) fn referred(model: &Path, uri: &str, left: &mut u64) -> Result<Vec<u8>, GltfError> {
+    let broken = |problem| GltfError::Format { path: model.to_owned(), problem };
+    match uri.strip_prefix("data:") {
+        Some(data) => {
+            let text = data.split_once(";base64,").map(|(_, text)| text);
+            text.and_then(base64).ok_or_else(|| broken(GltfFlaw::NoBase64))
+        }
+        None => {
+            let file = beside(model, uri)?;
+            let bytes = read(&file, left).map_err(|source| GltfError::Read { path: file, source })?;
+            bytes.ok_or_else(|| broken(GltfFlaw::TooLarge))
+        }
+    }
+}
+
 /// The buffers of a model.
 pub(super) struct Bytes(Vec<Vec<u8>>);
 
@@ -57,19 +73,14 @@ impl Bytes {
         let broken = |problem| GltfError::Format { path: path.to_owned(), problem };
         let mut read = |buffer: buffer::Buffer<'_>| match buffer.source() {
             buffer::Source::Bin => blob.take().ok_or_else(|| broken(GltfFlaw::NoBinary)),
-            buffer::Source::Uri(uri) => match uri.strip_prefix("data:") {
-                Some(data) => {
-                    let text = data.split_once(";base64,").map(|(_, text)| text);
-                    text.and_then(base64).ok_or_else(|| broken(GltfFlaw::NoBase64))
-                }
-                None => {
-                    let file = beside(path, uri)?;
-                    let bytes = self::read(&file, left).map_err(|source| GltfError::Read { path: file, source })?;
-                    bytes.ok_or_else(|| broken(GltfFlaw::TooLarge))
-                }
-            },
+            buffer::Source::Uri(uri) => referred(path, uri, left),
         };
         Ok(Self(document.buffers().map(&mut read).collect::<Result<_, _>>()?))
+    }
+
+    /// Returns the bytes of a view of a buffer; `None` if the buffer has too few.
+    pub fn view(&self, view: &buffer::View<'_>) -> Option<&[u8]> {
+        self.0.get(view.buffer().index())?.get(view.offset()..view.offset().checked_add(view.length())?)
     }
 
     /// Returns the bytes of every element of an accessor, `size` bytes each.
@@ -79,9 +90,7 @@ impl Bytes {
             (Some(view), None) => view,
             _ => return Err(GltfFlaw::NoView { accessor: index }),
         };
-        let buffer = self.0.get(view.buffer().index()).map_or(&[][..], Vec::as_slice);
-        let end = view.offset().checked_add(view.length());
-        let bytes = end.and_then(|end| buffer.get(view.offset()..end));
+        let bytes = self.view(&view);
         let element = |i: usize| {
             let from = view.stride().unwrap_or(size).max(size).checked_mul(i)?.checked_add(accessor.offset())?;
             bytes?.get(from..from.checked_add(size)?)

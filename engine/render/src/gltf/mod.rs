@@ -1,8 +1,9 @@
 //! Reads models of users: glTF 2.0, as text or binary.
 //!
 //! A file becomes one mesh. The reader takes the triangles of all nodes of the file's scene, with their normals and
-//! texture coordinates, and the base colours of the materials. It ignores textures, animations, skins and morph
-//! targets.
+//! texture coordinates, and the base colours of the materials. In the look `textured` it also takes the images of the base
+//! colours, which are PNG or JPEG images, repeat, and have no transparency. It ignores other textures, animations, skins
+//! and morph targets.
 //!
 //! The name of a material says how the surface reacts to light, because glTF has no property for it. A material whose
 //! name contains `paint` gets the colour of the body. A material whose name contains `glass`, or that lets light
@@ -10,13 +11,19 @@
 //! have their own colour.
 
 mod bytes;
+mod pictures;
 
+pub use pictures::ImageFlaw;
+
+use crate::Look;
+use crate::mesh::picture::MOST;
 use crate::mesh::{Mesh, Semantic, SurfaceKind, Vertex};
 use bytes::{Bytes, MOST_MEBIBYTES, floats, indices};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Document, Gltf, Material, Node, Primitive};
 use nalgebra::{Matrix4, Point3, Vector3};
+use pictures::Pictures;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -80,7 +87,7 @@ pub enum GltfFlaw {
     #[error("a buffer refers to the binary part of the file, but the file has none")]
     NoBinary,
     /// The text of a buffer in the file is not valid base64.
-    #[error("a buffer in it is not valid base64")]
+    #[error("a buffer or an image in it is not valid base64")]
     NoBase64,
     /// A glTF accessor is sparse or has no buffer view, which is not supported.
     #[error("its accessor {accessor} is sparse or has no buffer view")]
@@ -130,14 +137,14 @@ pub enum GltfFlaw {
     /// The file, together with the files of its buffers, is too large.
     #[error("it has more than {MOST_MEBIBYTES} MiB with its buffers, which is the limit: reduce the model")]
     TooLarge,
-    /// A buffer is in a file that is not below the folder of the model.
-    #[error("a buffer is in `{uri}`, expected a file in the folder of the model or below this folder")]
+    /// A buffer or an image is in a file that is not below the folder of the model.
+    #[error("a buffer or an image is in `{uri}`, expected a file in the folder of the model or below this folder")]
     Outside {
         /// The reference to the file, as it is in the model.
         uri: String,
     },
-    /// A buffer is in something that is no regular file, for example a pipe or a device.
-    #[error("a buffer is in `{uri}`, which is no regular file")]
+    /// A buffer or an image is in something that is no regular file, for example a pipe or a device.
+    #[error("a buffer or an image is in `{uri}`, which is no regular file")]
     NoFile {
         /// The reference to the file, as it is in the model.
         uri: String,
@@ -163,6 +170,17 @@ pub enum GltfFlaw {
     /// A position in the model has a number that is not finite.
     #[error("a position in it is not a finite number")]
     NoPlace,
+    /// The model has too many images.
+    #[error("its base colours have more than {MOST} images, which is the limit: join them")]
+    TooManyImages,
+    /// An image of a base colour cannot be used.
+    #[error("its image {image} cannot be used: {problem}")]
+    NoImage {
+        /// The index of the image in the glTF file.
+        image: usize,
+        /// The flaw of the image.
+        problem: ImageFlaw,
+    },
     /// The model has no triangles.
     #[error("it has no triangles")]
     NoTriangles,
@@ -173,6 +191,9 @@ pub enum GltfFlaw {
 struct Found {
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
+    pictures: Pictures,
+    /// For each triangle the place of its picture, if it has one.
+    pictured: Vec<Option<u8>>,
     /// True for each node that was found.
     nodes: Vec<bool>,
     /// The number of corners and indices that were read.
@@ -186,6 +207,15 @@ struct Found {
 /// A file cannot be read, is not glTF 2.0, has no triangles, is beyond a limit, or needs an extension. Buffers are read
 /// only from regular files in the folder of the model.
 pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfError> {
+    load_in_look(path, semantic, Look::Flat)
+}
+
+/// Reads a glTF file as a mesh like [`load`], for scenes of one look. In the look [`Textured`](Look::Textured), the mesh
+/// has the images of the base colours.
+///
+/// # Errors
+/// As for [`load`]; or an image is neither a PNG nor a JPEG image, is broken, or is beyond a limit.
+pub fn load_in_look(path: impl AsRef<Path>, semantic: Semantic, look: Look) -> Result<Mesh, GltfError> {
     let path = path.as_ref();
     let broken = |problem| GltfError::Format { path: path.to_owned(), problem };
     let mut left = MOST_MEBIBYTES << 20;
@@ -193,7 +223,11 @@ pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfErro
     let file = file.ok_or_else(|| broken(GltfFlaw::TooLarge))?;
     let (document, blob) = parse(&file).map_err(broken)?;
     let bytes = Bytes::of(&document, blob, path, &mut left)?;
-    let mut found = Found { nodes: vec![false; document.nodes().len()], ..Found::default() };
+    let pictures = match look {
+        Look::Flat => Pictures::default(),
+        Look::Textured => Pictures::of(&document, &bytes, path, &mut left)?,
+    };
+    let mut found = Found { pictures, nodes: vec![false; document.nodes().len()], ..Found::default() };
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let children: BTreeSet<usize> =
         document.nodes().flat_map(|node| node.children()).map(|node| node.index()).collect();
@@ -207,7 +241,7 @@ pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfErro
     if found.indices.is_empty() {
         return Err(broken(GltfFlaw::NoTriangles));
     }
-    Ok(Mesh::new(found.vertices, found.indices))
+    Ok(Mesh::new(found.vertices, found.indices).with_pictures(found.pictures.all, found.pictured))
 }
 
 /// Returns the checked document, and the binary part of the file.
@@ -292,10 +326,12 @@ impl Found {
         let of_each = |semantic| primitive.get(&semantic).map(|accessor| (semantic, accessor));
         let normals: Option<Vec<[f32; 3]>> =
             of_each(gltf::Semantic::Normals).map(|(_, normals)| floats(&normals, bytes)).transpose()?;
-        let uvs: Option<Vec<[f32; 2]>> = match of_each(gltf::Semantic::TexCoords(0)) {
-            Some((_, uvs)) if uvs.data_type() == DataType::F32 => Some(floats(&uvs, bytes)?),
+        let picture = self.pictures.place(&primitive.material());
+        let uvs: Option<Vec<[f32; 2]>> = match of_each(gltf::Semantic::TexCoords(picture.map_or(0, |(_, set)| set))) {
+            Some((_, uvs)) if picture.is_some() || uvs.data_type() == DataType::F32 => Some(floats(&uvs, bytes)?),
             _ => None,
         };
+        let picture = picture.filter(|_| uvs.is_some()).map(|(place, _)| place);
         let indices = match primitive.indices() {
             Some(accessor) => indices(&accessor, bytes)?,
             None => (0..count as u32).collect(),
@@ -307,7 +343,7 @@ impl Found {
         let place = frame.fixed_view::<3, 3>(0, 0).into_owned();
         let Some(turn) = place.try_inverse().map(|inverse| inverse.transpose()) else { return Ok(()) };
         let mirrored = place.determinant() < 0.0;
-        let (surface, colour) = look(&primitive.material());
+        let (surface, colour) = finish(&primitive.material());
         for triangle in indices.chunks_exact(3) {
             let at = |corner: u32| frame.transform_point(&Point3::from(positions[corner as usize])).coords;
             let corners = [triangle[0], triangle[if mirrored { 2 } else { 1 }], triangle[if mirrored { 1 } else { 2 }]];
@@ -316,6 +352,7 @@ impl Found {
             if !flat.iter().all(|number| number.is_finite()) {
                 return Err(GltfFlaw::NoPlace);
             }
+            self.pictured.push(picture);
             for (corner, position) in corners.into_iter().zip([a, b, c]) {
                 let own = normals.as_ref().and_then(|normals| {
                     (turn * Vector3::from(normals[corner as usize])).try_normalize(f32::MIN_POSITIVE)
@@ -337,7 +374,7 @@ impl Found {
 }
 
 /// Returns the surface kind and the colour of a material.
-fn look(material: &Material<'_>) -> (SurfaceKind, [f32; 3]) {
+fn finish(material: &Material<'_>) -> (SurfaceKind, [f32; 3]) {
     let [red, green, blue, _] = material.pbr_metallic_roughness().base_color_factor();
     let base = [red, green, blue];
     let name = material.name().unwrap_or_default().to_lowercase();

@@ -22,6 +22,8 @@ const BAY: f32 = 2.9;
 const GABLED: usize = 3;
 const STOREYS: usize = 30;
 const BAYS: usize = 20;
+/// The colour of a roof of slate, in linear light.
+const SLATE: [f32; 3] = [0.085, 0.085, 0.095];
 /// The distance by which the roof extends beyond the walls.
 const EAVES: f32 = 0.2;
 
@@ -29,8 +31,34 @@ fn matter(surface: SurfaceKind, colour: [f32; 3]) -> Matter {
     Matter::new(surface, colour, Semantic::Building)
 }
 
-fn wall() -> Matter {
-    Matter::painted(SurfaceKind::Cloth, Semantic::Building)
+/// The surfaces of a house.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Walls {
+    /// Walls and roofs of one colour, in the look `flat`.
+    Flat,
+    /// Walls of brick under tiles.
+    Brick,
+    /// Plastered walls under tiles.
+    Plaster,
+}
+
+impl Walls {
+    fn wall(self) -> Matter {
+        let surface = match self {
+            Self::Flat => SurfaceKind::Cloth,
+            Self::Brick => SurfaceKind::Brick,
+            Self::Plaster => SurfaceKind::Plaster,
+        };
+        Matter::painted(surface, Semantic::Building)
+    }
+
+    fn roof(self) -> Matter {
+        match self {
+            Self::Flat => matter(SurfaceKind::Plain, TILES),
+            Self::Brick => matter(SurfaceKind::Tiles, SLATE),
+            Self::Plaster => matter(SurfaceKind::Tiles, TILES),
+        }
+    }
 }
 
 impl Plan {
@@ -53,7 +81,7 @@ impl Plan {
         [length, width, self.storeys as f32 * STOREY + roof]
     }
 
-    pub fn mesh(&self) -> Mesh {
+    pub fn mesh(&self, walls: Walls) -> Mesh {
         let [length, width, height] = self.size();
         let eaves = self.storeys as f32 * STOREY;
         let (x, y) = (0.5 * length - EAVES, 0.5 * width - EAVES);
@@ -62,10 +90,10 @@ impl Plan {
             let gable = |x: f32| {
                 vec![at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, 0.0, height - 0.1), at(x, -y, eaves)]
             };
-            clay.loft(&[gable(-x), gable(x)], wall());
-            clay.mirrored(|clay| roof(clay, 0.5 * length, 0.5 * width, eaves, height));
+            clay.loft(&[gable(-x), gable(x)], walls.wall());
+            clay.mirrored(|clay| roof(clay, [0.5 * length, 0.5 * width], [eaves, height], walls.roof()));
         } else {
-            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], wall());
+            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], walls.wall());
             clay.cuboid(
                 [-x - EAVES, -y - EAVES, height - 0.3],
                 [x + EAVES, y + EAVES, height],
@@ -102,7 +130,7 @@ impl Plan {
 }
 
 /// Adds the left half of a gable roof.
-fn roof(clay: &mut Clay, x: f32, y: f32, eaves: f32, ridge: f32) {
+fn roof(clay: &mut Clay, [x, y]: [f32; 2], [eaves, ridge]: [f32; 2], of: Matter) {
     let slab = |x: f32| vec![at(x, y, eaves - 0.18), at(x, y, eaves), at(x, 0.0, ridge), at(x, 0.0, ridge - 0.18)];
-    clay.loft(&[slab(-x), slab(x)], matter(SurfaceKind::Plain, TILES));
+    clay.loft(&[slab(-x), slab(x)], of);
 }

@@ -3,20 +3,28 @@
 pub(crate) mod bicycle;
 pub(crate) mod bus;
 pub(crate) mod car;
+pub(crate) mod cars;
 pub(crate) mod clay;
-mod colours;
+pub(crate) mod colours;
 pub(crate) mod furniture;
+pub(crate) mod garb;
 pub(crate) mod house;
 pub(crate) mod models;
 pub(crate) mod motorcycle;
 pub(crate) mod person;
+pub(crate) mod picture;
 mod plant;
+pub(crate) mod signs;
 pub(crate) mod truck;
 pub(crate) mod van;
 
+use picture::{Picture, Pictures};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The finish of a surface, which determines how the surface reflects or emits light.
+/// The finish of a surface, which determines how the surface reflects or emits light. In the look
+/// [`Textured`](crate::Look::Textured), the kinds from [`Asphalt`](Self::Asphalt) on that are not lamps have textures,
+/// which follow the texture coordinates in metres. In the look [`Flat`](crate::Look::Flat) they have a grain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum SurfaceKind {
@@ -36,6 +44,22 @@ pub enum SurfaceKind {
     WhiteLamp = 6,
     /// A red lamp that shines in the dark, for example a rear lamp.
     RedLamp = 7,
+    /// Paving slabs in the colour of their corners, for example a sidewalk.
+    Slabs = 8,
+    /// Concrete in the colour of its corners, for example a kerb.
+    Concrete = 9,
+    /// Worn paint on a road in the colour of its corners.
+    Marking = 10,
+    /// Grass in the colour of its corners.
+    Grass = 11,
+    /// A wall of bricks in the colour of the instance.
+    Brick = 12,
+    /// A plastered wall in the colour of the instance.
+    Plaster = 13,
+    /// Roof tiles in the colour of their corners.
+    Tiles = 14,
+    /// The bark of a tree in the colour of its corners.
+    Bark = 15,
 }
 
 /// The semantic class of an object, with the numbers of CARLA's classes since its version 0.9.14.
@@ -97,6 +121,8 @@ pub struct Mesh {
     key: u64,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
+    coarse: Option<Arc<Mesh>>,
+    pictures: Option<Pictures>,
 }
 
 impl Mesh {
@@ -109,7 +135,29 @@ impl Mesh {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         assert!(indices.len().is_multiple_of(3), "three indices make a triangle");
         assert!(indices.iter().all(|index| (*index as usize) < vertices.len()), "an index names a corner");
-        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices }
+        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices, coarse: None, pictures: None }
+    }
+
+    /// Sets a mesh of the same shape with fewer triangles. A renderer draws it where the object is small in the image, and
+    /// for shadows.
+    pub fn with_coarse(self, coarse: impl Into<Arc<Self>>) -> Self {
+        Self { coarse: Some(coarse.into()), ..self }
+    }
+
+    /// Adds the pictures of the surface, and for each triangle the place of its picture, if it has one.
+    pub(crate) fn with_pictures(self, all: Vec<Picture>, of: Vec<Option<u8>>) -> Self {
+        let pictures = (!all.is_empty()).then_some(Pictures { all, of });
+        Self { pictures, ..self }
+    }
+
+    /// Returns the pictures of the surface, if it has any.
+    pub(crate) fn pictures(&self) -> Option<&Pictures> {
+        self.pictures.as_ref()
+    }
+
+    /// Returns the mesh of the same shape with fewer triangles, if there is one.
+    pub fn coarse(&self) -> Option<&Arc<Self>> {
+        self.coarse.as_ref()
     }
 
     /// Returns a number that identifies the mesh within the process. A renderer uses it to know which meshes it has

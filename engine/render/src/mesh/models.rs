@@ -1,8 +1,11 @@
 //! The built-in shapes, made once for a process, so that a renderer uploads each only once.
 
+use super::colours::linear;
 use super::furniture::{self, Plate};
-use super::house::Plan;
-use super::{Mesh, bicycle, bus, car, motorcycle, person, plant, truck, van};
+use super::garb::{GARBS, Garb, USUAL};
+use super::house::{Plan, Walls};
+use super::signs::SIGNS;
+use super::{Mesh, SurfaceKind, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -16,29 +19,56 @@ pub(crate) struct Models {
     pub motorcycle: Arc<Mesh>,
     pub bicycle: Arc<Mesh>,
     pub parked_bicycle: Arc<Mesh>,
-    pub adult: Arc<Mesh>,
-    pub child: Arc<Mesh>,
-    /// The meshes of a person's left arm and right arm.
-    pub arms: [Arc<Mesh>; 2],
-    pub thigh: Arc<Mesh>,
-    pub shin: Arc<Mesh>,
-    pub trunk: Arc<Mesh>,
+    /// The people of the look `flat`: an adult and a child.
+    pub usual: [Person; 2],
+    /// The trunks of trees, in the order of [`Look::ALL`](crate::Look::ALL).
+    pub trunks: [Arc<Mesh>; 2],
     pub pole: Arc<Mesh>,
     pub lantern: Arc<Mesh>,
     /// The meshes of the plates of traffic signs, in the order of [`PLATES`].
     pub plates: [Arc<Mesh>; 4],
+    /// The traffic signs of the look `textured`.
+    pub signs: [Arc<Mesh>; SIGNS.len()],
     pub cone: Arc<Mesh>,
     pub barrel: Arc<Mesh>,
     pub ball: Arc<Mesh>,
     pub parcel: Arc<Mesh>,
     pub barrier: Arc<Mesh>,
-    houses: Shelf<Plan>,
+    /// People by the place of their garb in [`GARBS`]; `true` for children.
+    people: Shelf<(usize, bool), Person>,
+    /// The meshes of cars of many kinds, by kind and size in millimetres.
+    cars: Shelf<(usize, [u32; 3])>,
+    houses: Shelf<(Plan, Walls)>,
     /// The meshes of the crowns of trees, by colour; `true` for conifers.
     crowns: Shelf<(bool, Colour)>,
 }
 
 /// Shapes that are made when they are first asked for.
-type Shelf<K> = Mutex<BTreeMap<K, Arc<Mesh>>>;
+type Shelf<K, V = Arc<Mesh>> = Mutex<BTreeMap<K, V>>;
+
+/// The meshes of the parts of a person.
+#[derive(Debug, Clone)]
+pub(crate) struct Person {
+    pub trunk: Arc<Mesh>,
+    /// The left arm and the right arm.
+    pub arms: [Arc<Mesh>; 2],
+    pub thigh: Arc<Mesh>,
+    pub shin: Arc<Mesh>,
+}
+
+/// The size of a child's head, relative to that of an adult of the same height.
+const CHILD: f32 = 1.3;
+
+impl Person {
+    fn new(child: bool, garb: &Garb) -> Self {
+        Self {
+            trunk: person::trunk(if child { CHILD } else { 1.0 }, garb).into(),
+            arms: [1.0, -1.0].map(|side| person::arm(side, garb).into()),
+            thigh: person::thigh(garb).into(),
+            shin: person::shin(garb).into(),
+        }
+    }
+}
 
 const PLATES: [Plate; 4] = [Plate::Limit, Plate::GiveWay, Plate::Stop, Plate::Hint];
 
@@ -58,43 +88,46 @@ impl Models {
             motorcycle: motorcycle::motorcycle().into(),
             bicycle: bicycle::bicycle().into(),
             parked_bicycle: bicycle::parked().into(),
-            adult: person::trunk(1.0).into(),
-            child: person::trunk(1.3).into(),
-            arms: [1.0, -1.0].map(|side| person::arm(side).into()),
-            thigh: person::thigh().into(),
-            shin: person::shin().into(),
-            trunk: plant::trunk().into(),
+            usual: [false, true].map(|child| Person::new(child, &USUAL)),
+            trunks: [SurfaceKind::Plain, SurfaceKind::Bark].map(|bark| plant::trunk(bark).into()),
             pole: furniture::pole().into(),
             lantern: furniture::lantern().into(),
             plates: PLATES.map(|plate| furniture::plate(plate).into()),
+            signs: SIGNS.map(|sign| sign().into()),
             cone: furniture::cone().into(),
             barrel: furniture::barrel().into(),
             ball: furniture::ball().into(),
             parcel: furniture::parcel().into(),
             barrier: furniture::barrier().into(),
+            people: Shelf::default(),
+            cars: Shelf::default(),
             houses: Shelf::default(),
             crowns: Shelf::default(),
         }
     }
 
-    pub fn house(&self, plan: Plan) -> Arc<Mesh> {
-        take(&self.houses, plan, || plan.mesh())
+    /// Returns the meshes of a person in one of [`GARBS`], by a number that chance has chosen.
+    pub fn person(&self, chance: u32, child: bool) -> Person {
+        let garb = chance as usize % GARBS.len();
+        take(&self.people, (garb, child), || Person::new(child, &GARBS[garb]))
+    }
+
+    /// Returns the mesh of a car of a kind, with a length, a width and a height in metres.
+    pub fn car_of(&self, kind: usize, size: [f32; 3]) -> Arc<Mesh> {
+        let millimetres = size.map(|metres| (1000.0 * metres).round() as u32);
+        take(&self.cars, (kind, millimetres), || cars::car(kind, size).into())
+    }
+
+    pub fn house(&self, plan: Plan, walls: Walls) -> Arc<Mesh> {
+        take(&self.houses, (plan, walls), || plan.mesh(walls).into())
     }
 
     pub fn crown(&self, conifer: bool, colour: Colour) -> Arc<Mesh> {
-        take(&self.crowns, (conifer, colour), || plant::crown(conifer, linear(colour)))
+        take(&self.crowns, (conifer, colour), || plant::crown(conifer, linear(colour)).into())
     }
 }
 
-fn take<K: Ord>(shelf: &Shelf<K>, key: K, make: impl FnOnce() -> Mesh) -> Arc<Mesh> {
+fn take<K: Ord, V: Clone>(shelf: &Shelf<K, V>, key: K, make: impl FnOnce() -> V) -> V {
     let mut shelf = shelf.lock().unwrap_or_else(PoisonError::into_inner);
-    shelf.entry(key).or_insert_with(|| make().into()).clone()
-}
-
-/// Converts a colour from sRGB to linear light (IEC 61966-2-1).
-pub(crate) fn linear(colour: Colour) -> [f32; 3] {
-    colour.map(|level| {
-        let share = f32::from(level) / 255.0;
-        if share <= 0.04045 { share / 12.92 } else { libm::powf((share + 0.055) / 1.055, 2.4) }
-    })
+    shelf.entry(key).or_insert_with(make).clone()
 }

@@ -4,10 +4,10 @@ use super::clay::{Clay, Matter, at, oval};
 use super::colours::BARK;
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// A trunk of radius 1 and height 1.
-pub(crate) fn trunk() -> Mesh {
+/// A trunk of radius 1 and height 1, whose bark has the given surface.
+pub(crate) fn trunk(surface: SurfaceKind) -> Mesh {
     let mut clay = Clay::default();
-    let bark = Matter::new(SurfaceKind::Plain, BARK, Semantic::Vegetation);
+    let bark = Matter::new(surface, BARK, Semantic::Vegetation);
     clay.loft(&[oval(at(0.0, 0.0, 0.0), 1.0, 1.0, 8), oval(at(0.0, 0.0, 1.0), 0.6, 0.6, 8)], bark);
     clay.mesh()
 }

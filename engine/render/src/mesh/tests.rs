@@ -1,5 +1,7 @@
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::furniture::{self, Plate};
+use super::garb::{GARBS, USUAL};
+use super::signs::SIGNS;
 use super::{Mesh, Semantic, SurfaceKind, bicycle, bus, car, house, motorcycle, person, plant, truck, van};
 use std::collections::BTreeMap;
 
@@ -27,13 +29,13 @@ fn all() -> Vec<(String, Mesh)> {
         ("bus", bus::bus()),
         ("motorcycle", motorcycle::motorcycle()),
         ("bicycle", bicycle::bicycle()),
-        ("adult", person::trunk(1.0)),
-        ("child", person::trunk(1.3)),
-        ("left arm", person::arm(1.0)),
-        ("right arm", person::arm(-1.0)),
-        ("thigh", person::thigh()),
-        ("shin", person::shin()),
-        ("trunk", plant::trunk()),
+        ("adult", person::trunk(1.0, &USUAL)),
+        ("child", person::trunk(1.3, &USUAL)),
+        ("left arm", person::arm(1.0, &USUAL)),
+        ("right arm", person::arm(-1.0, &USUAL)),
+        ("thigh", person::thigh(&USUAL)),
+        ("shin", person::shin(&USUAL)),
+        ("trunk", plant::trunk(SurfaceKind::Bark)),
         ("conifer", plant::crown(true, [0.1; 3])),
         ("broad leaves", plant::crown(false, [0.1; 3])),
         ("pole", furniture::pole()),
@@ -46,7 +48,12 @@ fn all() -> Vec<(String, Mesh)> {
     ];
     let named = named.into_iter().map(|(name, mesh)| (name.to_owned(), mesh));
     let plates = plates.into_iter().map(|plate| (format!("{plate:?}"), furniture::plate(plate)));
-    named.chain(plates).chain(plans().map(|plan| (format!("{plan:?}"), plan.mesh()))).collect()
+    let signs = SIGNS.iter().enumerate().map(|(i, sign)| (format!("sign {i}"), sign()));
+    named
+        .chain(plates)
+        .chain(signs)
+        .chain(plans().map(|plan| (format!("{plan:?}"), plan.mesh(house::Walls::Flat))))
+        .collect()
 }
 
 fn triangles(mesh: &Mesh) -> impl Iterator<Item = [(Point, Point); 3]> {
@@ -103,7 +110,7 @@ fn vehicles_houses_and_things_fill_their_boxes_and_stand_on_the_ground() {
         (plant::crown(true, one), one),
         (plant::crown(false, one), one),
     ];
-    boxes.extend(plans().map(|plan| (plan.mesh(), plan.size())));
+    boxes.extend(plans().map(|plan| (plan.mesh(house::Walls::Flat), plan.size())));
     for (mesh, [length, width, height]) in boxes {
         let [min, max] = bounds(&mesh);
         let expected = [at(-0.5 * length, -0.5 * width, 0.0), at(0.5 * length, 0.5 * width, height)];
@@ -193,14 +200,26 @@ fn a_mirrored_shape_faces_outward_on_both_sides() {
 
 #[test]
 fn a_person_of_parts_has_the_height_and_the_width_of_its_body() {
-    let [min, max] = bounds(&person::trunk(1.0));
+    let [min, max] = bounds(&person::trunk(1.0, &USUAL));
     assert!((max.z - person::SIZE[2]).abs() < 0.01, "{max}");
-    let [_, arm] = bounds(&person::arm(1.0));
+    let [_, arm] = bounds(&person::arm(1.0, &USUAL));
     assert!((arm.y + person::SHOULDER[0] - 0.5 * person::SIZE[1]).abs() < 0.01, "{arm}");
     assert!(max.y - min.y < person::SIZE[1] && max.x - min.x < person::SIZE[0]);
-    let sole = bounds(&person::shin())[0].z;
+    let sole = bounds(&person::shin(&USUAL))[0].z;
     assert!((sole + person::SHIN).abs() < 1e-6 && (person::THIGH + person::SHIN - person::HIP[1]).abs() < 1e-6);
-    assert!((bounds(&person::trunk(1.3))[1].z - person::SIZE[2]).abs() < 0.01);
+    assert!((bounds(&person::trunk(1.3, &USUAL))[1].z - person::SIZE[2]).abs() < 0.01);
+}
+
+#[test]
+fn people_of_every_build_keep_within_the_outline_of_their_body() {
+    for (index, garb) in GARBS.iter().enumerate() {
+        for head in [1.0, 1.3] {
+            let [min, max] = bounds(&person::trunk(head, garb));
+            let half = 0.5 * person::SIZE[1] + 1e-6;
+            assert!(max.y <= half && max.x <= half && min.x >= -half, "{index}: {min} {max}");
+            assert!((max.z - person::SIZE[2]).abs() < 0.01, "{index}: {max}");
+        }
+    }
 }
 
 #[test]
@@ -216,7 +235,7 @@ fn texture_coordinates_are_metres_of_the_place() {
 #[test]
 fn there_are_few_enough_triangles_to_draw_many() {
     let count = |mesh: &Mesh| mesh.indices().len() / 3;
-    let limbs = 2 * (count(&person::arm(1.0)) + count(&person::thigh()) + count(&person::shin()));
+    let limbs = 2 * (count(&person::arm(1.0, &USUAL)) + count(&person::thigh(&USUAL)) + count(&person::shin(&USUAL)));
     for (what, found) in [
         ("car", count(&car::car())),
         ("van", count(&van::van())),
@@ -224,7 +243,7 @@ fn there_are_few_enough_triangles_to_draw_many() {
         ("bus", count(&bus::bus())),
         ("motorcycle", count(&motorcycle::motorcycle())),
         ("bicycle", count(&bicycle::bicycle())),
-        ("person", count(&person::trunk(1.0)) + limbs),
+        ("person", count(&person::trunk(1.0, &USUAL)) + limbs),
     ] {
         assert!((300..=800).contains(&found), "{what}: {found}");
     }

@@ -2,6 +2,7 @@
 
 use super::adapter::Gpu;
 use super::raw::{RawCorner, Shape};
+use super::textures::{layer, pictures};
 use crate::{InstanceFlaw, Mesh, SurfaceKind, Vertex};
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
@@ -17,7 +18,9 @@ pub(super) struct GpuMesh {
     pub corners: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     /// The ranges of the mesh's indices that belong to each finish, in the order of [`Finish::ALL`].
-    pub parts: [Range<u32>; 3],
+    pub parts: [Range<u32>; 4],
+    /// The pictures of the surface as an input of the programs that draw surfaces, if the mesh has any.
+    pub pictures: Option<wgpu::BindGroup>,
     pub low: Vector3<f64>,
     pub high: Vector3<f64>,
     /// The position of the mesh's lamp that lights the ground, if the mesh has a lamp.
@@ -30,17 +33,28 @@ pub(super) enum Finish {
     /// A surface that is neither glossy nor grained.
     Dull,
     Glossy,
+    /// A surface with a picture.
+    Pictured,
     /// A grained surface, mostly the ground. It is drawn last, since most other objects hide parts of it.
     Grained,
 }
 
 impl Finish {
-    pub const ALL: [Self; 3] = [Self::Dull, Self::Glossy, Self::Grained];
+    pub const ALL: [Self; 4] = [Self::Dull, Self::Glossy, Self::Pictured, Self::Grained];
 
     fn of(surface: SurfaceKind) -> Self {
         match surface {
             SurfaceKind::Paint | SurfaceKind::Glass => Self::Glossy,
-            SurfaceKind::Asphalt | SurfaceKind::Grown => Self::Grained,
+            SurfaceKind::Asphalt
+            | SurfaceKind::Grown
+            | SurfaceKind::Slabs
+            | SurfaceKind::Concrete
+            | SurfaceKind::Marking
+            | SurfaceKind::Grass
+            | SurfaceKind::Brick
+            | SurfaceKind::Plaster
+            | SurfaceKind::Tiles
+            | SurfaceKind::Bark => Self::Grained,
             SurfaceKind::Plain | SurfaceKind::Cloth | SurfaceKind::WhiteLamp | SurfaceKind::RedLamp => Self::Dull,
         }
     }
@@ -56,39 +70,49 @@ pub(super) enum Unfit {
 }
 
 /// The meshes that are on the adapter, by key.
-#[derive(Debug, Default)]
-pub(super) struct Meshes(BTreeMap<u64, (Weak<Mesh>, Result<GpuMesh, Unfit>)>);
+#[derive(Debug)]
+pub(super) struct Meshes {
+    all: BTreeMap<u64, (Weak<Mesh>, Result<GpuMesh, Unfit>)>,
+    /// The layout of textures as an input of the programs that draw surfaces.
+    textures: wgpu::BindGroupLayout,
+}
 
 impl Meshes {
+    pub fn new(textures: wgpu::BindGroupLayout) -> Self {
+        Self { all: BTreeMap::new(), textures }
+    }
+
     /// Removes the meshes that no caller holds any more.
     pub fn evict(&mut self) {
-        self.0.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+        self.all.retain(|_, (mesh, _)| mesh.strong_count() > 0);
     }
 
     /// Copies a mesh to the adapter unless the adapter already has it.
     pub fn upload(&mut self, gpu: &Gpu, mesh: &Arc<Mesh>) -> &Result<GpuMesh, Unfit> {
-        let (_, uploaded) = self.0.entry(mesh.key()).or_insert_with(|| (Arc::downgrade(mesh), GpuMesh::new(gpu, mesh)));
+        let Self { all, textures } = self;
+        let make = || (Arc::downgrade(mesh), GpuMesh::new(gpu, textures, mesh));
+        let (_, uploaded) = all.entry(mesh.key()).or_insert_with(make);
         uploaded
     }
 
     /// Returns the uploaded mesh with the given key.
     pub fn get(&self, key: u64) -> &GpuMesh {
-        self.0[&key].1.as_ref().expect("only meshes that are fit are drawn")
+        self.all[&key].1.as_ref().expect("only meshes that are fit are drawn")
     }
 
     #[cfg(test)]
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.all.len()
     }
 }
 
 impl GpuMesh {
     /// Returns the number of corner indices of the mesh.
     pub fn count(&self) -> u32 {
-        self.parts[2].end
+        self.parts[3].end
     }
 
-    fn new(gpu: &Gpu, mesh: &Mesh) -> Result<Self, Unfit> {
+    fn new(gpu: &Gpu, textures: &wgpu::BindGroupLayout, mesh: &Mesh) -> Result<Self, Unfit> {
         let finite = |vertex: &Vertex| vertex.position.iter().chain(&vertex.uv).all(|number| number.is_finite());
         if let Some(index) = mesh.vertices().iter().position(|vertex| !finite(vertex)) {
             let Vertex { position, uv, .. } = mesh.vertices()[index];
@@ -114,6 +138,7 @@ impl GpuMesh {
             corners: buffer(bytemuck::cast_slice(&corners), wgpu::BufferUsages::VERTEX),
             indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             parts,
+            pictures: mesh.pictures().map(|of| pictures(gpu, textures, &of.all)),
             low: positions().reduce(|low, position| low.inf(&position)).unwrap_or_default(),
             high: positions().reduce(|high, position| high.sup(&position)).unwrap_or_default(),
             lamp: lamp_of(mesh),
@@ -136,7 +161,8 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
     let mut corners: Vec<RawCorner> = mesh.vertices().iter().map(raw).collect();
     let mut free = vec![true; corners.len()];
     let mut triangles = Vec::with_capacity(mesh.indices().len() / 3);
-    for triangle in mesh.indices().chunks_exact(3) {
+    for (index, triangle) in mesh.indices().chunks_exact(3).enumerate() {
+        let picture = mesh.pictures().and_then(|pictures| pictures.of[index]);
         let [a, b, c] = [0, 1, 2].map(|corner| triangle[corner]);
         let turned = [[a, b, c], [b, c, a], [c, a, b]];
         let turned = turned.into_iter().find(|turned| free[turned[0] as usize]).unwrap_or_else(|| {
@@ -148,15 +174,15 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
         let Vertex { surface, semantic, .. } = mesh.vertices()[a as usize];
         // A triangle without an area has no pixels; its values only have to be finite.
         speaker.face = face(mesh, triangle).unwrap_or_default().into();
-        speaker.kind = [surface as u8, semantic as u8, 0, 0];
+        speaker.kind = [surface as u8, semantic as u8, picture.unwrap_or_else(|| layer(surface)), 0];
         free[turned[0] as usize] = false;
-        triangles.push((Finish::of(surface), turned));
+        triangles.push((if picture.is_some() { Finish::Pictured } else { Finish::of(surface) }, turned));
     }
     (corners, triangles)
 }
 
 /// Returns the corner indices of triangles, sorted by finish, and the range of each finish.
-fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
+fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 4]) {
     let mut indices = Vec::with_capacity(3 * triangles.len());
     let parts = Finish::ALL.map(|finish| {
         let begin = indices.len() as u32;

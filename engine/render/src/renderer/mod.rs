@@ -17,14 +17,15 @@ mod shadow;
 mod targets;
 #[cfg(test)]
 mod tests;
+mod textures;
 
 pub use adapter::{Adapter, adapter};
 
-use crate::{Camera, Frame, RenderError, View, ViewError, WantedImages};
+use crate::{Camera, Frame, Look, RenderError, View, ViewError, WantedImages};
 use adapter::Gpu;
 use deal::{Hand, Layer, deal};
 use meshes::{Finish, Meshes};
-use pipelines::Pipelines;
+use pipelines::{PLAIN, Pipelines};
 use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
 use targets::{Format, Targets, cleared, view_stride};
@@ -62,7 +63,8 @@ impl Renderer {
         gpu.trouble.check()?;
         let wgpu::Limits { max_buffer_size, max_storage_buffer_binding_size, .. } = gpu.limits;
         let most_masks = bands::MOST_BYTES.min(max_buffer_size).min(max_storage_buffer_binding_size);
-        Ok(Self { gpu, pipelines, meshes: Meshes::default(), idle: Vec::new(), most_masks })
+        let meshes = Meshes::new(pipelines.texture_layout.clone());
+        Ok(Self { gpu, pipelines, meshes, idle: Vec::new(), most_masks })
     }
 
     /// Returns a description of the graphics adapter that the renderer draws with.
@@ -194,7 +196,13 @@ impl Renderer {
         let offset = layer * view_stride(&self.gpu) as u32;
         // If nothing throws a shadow, there is no shadow map to clear or to read.
         let wanted = WantedImages { shadows: !prepared.casters.is_empty(), ..targets.format.wanted };
-        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
+        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather(), prepared.look);
+        let has_pictures = |draw: &Draw| self.meshes.get(draw.mesh).pictures.is_some();
+        let pictured = prepared.draws.iter().any(has_pictures).then(|| match prepared.look {
+            // Surfaces with pictures have no pictures in this look, and no gloss.
+            Look::Flat => drawing.surfaces[0].clone(),
+            Look::Textured => self.pipelines.pictured(&self.gpu, wanted, prepared.weather()),
+        });
         if wanted.shadows {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
@@ -208,7 +216,14 @@ impl Renderer {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
             pass.set_bind_group(1, &self.pipelines.sun, &[]);
-            for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
+            if let Some(pictured) = &pictured {
+                pass.set_pipeline(pictured);
+                self.draw(&mut pass, targets, &prepared.draws, first, Some(Finish::Pictured));
+            }
+            if let Some(textures) = &drawing.textures {
+                pass.set_bind_group(2, textures, &[]);
+            }
+            for (finish, surface) in PLAIN.into_iter().zip(&drawing.surfaces) {
                 pass.set_pipeline(surface);
                 self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));
             }
@@ -252,6 +267,9 @@ impl Renderer {
             let mesh = self.meshes.get(*mesh);
             let part = finish.map_or(0..mesh.count(), |finish| mesh.parts[finish as usize].clone());
             if !part.is_empty() {
+                if let (Some(Finish::Pictured), Some(pictures)) = (finish, &mesh.pictures) {
+                    pass.set_bind_group(2, pictures, &[]);
+                }
                 pass.set_vertex_buffer(0, mesh.corners.slice(..));
                 pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
                 pass.draw_indexed(part, 0, first + instances.start..first + instances.end);

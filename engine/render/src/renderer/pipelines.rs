@@ -6,7 +6,8 @@ use super::meshes::Finish;
 use super::prepare::Weather;
 use super::raw::{RawCorner, RawInstance, RawView};
 use super::shadow::TEXELS;
-use crate::WantedImages;
+use super::textures::{table, textures};
+use crate::{Look, WantedImages};
 use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use wgpu::{BindingType, CompareFunction, ShaderStages};
@@ -20,28 +21,40 @@ pub(super) struct Pipelines {
     /// The shadow map as an input of the programs that draw surfaces, and as the image into which it is drawn.
     pub sun: wgpu::BindGroup,
     pub sun_depth: wgpu::TextureView,
-    shaded: wgpu::PipelineLayout,
+    /// The layouts of the inputs of the programs that draw surfaces, in the order of [`Look::ALL`].
+    shaded: [wgpu::PipelineLayout; 2],
+    pub texture_layout: wgpu::BindGroupLayout,
+    /// The textures as an input of the programs that draw surfaces; made when they are first needed.
+    textures: Option<wgpu::BindGroup>,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
-    drawing: BTreeMap<(WantedImages, Weather), Drawing>,
+    drawing: BTreeMap<(WantedImages, Weather, Look), Drawing>,
+    /// The programs that draw surfaces with pictures; made when they are first needed.
+    pictured: BTreeMap<(WantedImages, Weather), wgpu::RenderPipeline>,
 }
 
 /// The programs that draw a set of images.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
-    /// The programs that draw surfaces, in the order of [`Finish::ALL`].
+    /// The programs that draw surfaces without pictures, in the order of [`PLAIN`].
     pub surfaces: [wgpu::RenderPipeline; 3],
     /// The program that draws the sky; `None` if no colours are wanted.
     pub sky: Option<wgpu::RenderPipeline>,
+    /// The textures of surfaces; `None` if the programs read none.
+    pub textures: Option<wgpu::BindGroup>,
 }
 
 #[derive(Debug)]
 struct Modules {
-    surface: wgpu::ShaderModule,
+    /// The programs that draw surfaces, in the order of [`Look::ALL`].
+    surfaces: [wgpu::ShaderModule; 2],
     sky: wgpu::ShaderModule,
 }
 
 const CORNERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [Some(RawCorner::LAYOUT), Some(RawInstance::LAYOUT)];
+
+/// The finishes of surfaces without pictures.
+pub(super) const PLAIN: [Finish; 3] = [Finish::Dull, Finish::Glossy, Finish::Grained];
 
 const VIEW: &str = include_str!("shaders/view.wgsl");
 
@@ -64,23 +77,69 @@ impl Pipelines {
         };
         let masks = layout(gpu, &[(ShaderStages::FRAGMENT, words)]);
         let (sun_depth, sun_layout, sun) = sun(gpu);
-        let shaded = pipeline_layout(gpu, &[&views, &sun_layout]);
+        let texture = BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        };
+        let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let texture_layout = layout(gpu, &[(ShaderStages::FRAGMENT, texture), (ShaderStages::FRAGMENT, sampler)]);
+        let shaded = [
+            pipeline_layout(gpu, &[&views, &sun_layout]),
+            pipeline_layout(gpu, &[&views, &sun_layout, &texture_layout]),
+        ];
         let shadow = depth_only(gpu, &module(include_str!("shaders/shadow.wgsl")), &pipeline_layout(gpu, &[&views]));
         let masked = pipeline_layout(gpu, &[&views, &masks]);
         let alone = alone(gpu, &module(include_str!("shaders/alone.wgsl")), &masked);
         let modules = Modules {
-            surface: module(include_str!("shaders/surface.wgsl")),
+            surfaces: [
+                module(concat!(include_str!("shaders/surface.wgsl"), include_str!("shaders/flat.wgsl"))),
+                module(&format!(
+                    "{}{}{}",
+                    include_str!("shaders/surface.wgsl"),
+                    table(),
+                    include_str!("shaders/textured.wgsl")
+                )),
+            ],
             sky: module(include_str!("shaders/sky.wgsl")),
         };
-        Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
+        let (textures, drawing, pictured) = (None, BTreeMap::new(), BTreeMap::new());
+        Self {
+            modules,
+            views,
+            masks,
+            sun,
+            sun_depth,
+            shaded,
+            texture_layout,
+            textures,
+            shadow,
+            alone,
+            drawing,
+            pictured,
+        }
     }
 
-    /// Returns the programs that draw the wanted images in the given weather.
-    pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> Drawing {
-        // Without light, the weather makes no difference.
+    /// Returns the programs that draw the wanted images in the given weather and look.
+    pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather, look: Look) -> Drawing {
+        // Without light, the weather and the look make no difference.
+        let (weather, look) = if wanted.light() { (weather, look) } else { Default::default() };
+        let Self { modules, shaded, texture_layout, textures, drawing, .. } = self;
+        let make = || {
+            let textures = (look == Look::Textured)
+                .then(|| textures.get_or_insert_with(|| self::textures(gpu, texture_layout)).clone());
+            Drawing::new(gpu, modules, &shaded[look as usize], wanted, (weather, look), textures)
+        };
+        drawing.entry((wanted, weather, look)).or_insert_with(make).clone()
+    }
+
+    /// Returns the program that draws surfaces with pictures, in the look `textured`.
+    pub fn pictured(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> wgpu::RenderPipeline {
         let weather = if wanted.light() { weather } else { Weather::default() };
-        let Self { modules, shaded, drawing, .. } = self;
-        drawing.entry((wanted, weather)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, weather)).clone()
+        let Self { modules, shaded, pictured, .. } = self;
+        let look = Look::Textured;
+        let make = || pipeline(gpu, modules, &shaded[look as usize], wanted, (weather, look), Some(Finish::Pictured));
+        pictured.entry((wanted, weather)).or_insert_with(make).clone()
     }
 }
 
@@ -90,56 +149,67 @@ impl Drawing {
         modules: &Modules,
         layout: &wgpu::PipelineLayout,
         wanted: WantedImages,
-        weather: Weather,
+        conditions: (Weather, Look),
+        textures: Option<wgpu::BindGroup>,
     ) -> Self {
-        let pipeline = |finish: Option<Finish>| {
-            let sky = finish.is_none();
-            let choices = [
-                ("RGB", wanted.light()),
-                ("SHADOWS", wanted.shadows),
-                ("LAMPS", weather.lamps),
-                ("FOG", weather.fog),
-                ("GLOSSY", finish == Some(Finish::Glossy)),
-                ("GRAINED", finish == Some(Finish::Grained)),
-            ];
-            // The sky's program declares only one of the constants, and refuses others.
-            let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
-            let constants = if sky { &constants[3..4] } else { &constants };
-            let module = if sky { &modules.sky } else { &modules.surface };
-            // The sky has light, and no other image.
-            let writes = |image: Image| {
-                if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL }
-            };
-            let target = |image: Image| {
-                let target = wgpu::ColorTargetState { format: image.format(), blend: None, write_mask: writes(image) };
-                image.is_wanted(wanted).then_some(target)
-            };
-            let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(if sky { "sky" } else { "surfaces" }),
-                layout: Some(layout),
-                vertex: wgpu::VertexState {
-                    module,
-                    entry_point: None,
-                    compilation_options: compilation_options.clone(),
-                    buffers: if sky { &[] } else { &CORNERS },
-                },
-                primitive: wgpu::PrimitiveState { cull_mode: (!sky).then_some(wgpu::Face::Back), ..Default::default() },
-                depth_stencil: Some(depth(!sky, if sky { CompareFunction::Equal } else { CompareFunction::Greater })),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module,
-                    entry_point: None,
-                    compilation_options,
-                    targets: &Image::ALL.map(target),
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        };
-        let surfaces = Finish::ALL.map(|finish| pipeline(Some(finish)));
-        Self { surfaces, sky: wanted.light().then(|| pipeline(None)) }
+        let pipeline = |finish: Option<Finish>| pipeline(gpu, modules, layout, wanted, conditions, finish);
+        let surfaces = PLAIN.map(|finish| pipeline(Some(finish)));
+        Self { surfaces, sky: wanted.light().then(|| pipeline(None)), textures }
     }
+}
+
+/// Makes the program that draws surfaces of a finish, or the sky.
+fn pipeline(
+    gpu: &Gpu,
+    modules: &Modules,
+    layout: &wgpu::PipelineLayout,
+    wanted: WantedImages,
+    (weather, look): (Weather, Look),
+    finish: Option<Finish>,
+) -> wgpu::RenderPipeline {
+    let sky = finish.is_none();
+    let choices = [
+        ("RGB", wanted.light()),
+        ("SHADOWS", wanted.shadows),
+        ("LAMPS", weather.lamps),
+        ("FOG", weather.fog),
+        ("GLOSSY", finish == Some(Finish::Glossy)),
+        ("GRAINED", finish == Some(Finish::Grained)),
+        ("PICTURED", finish == Some(Finish::Pictured)),
+    ];
+    // The sky's program declares only one of the constants, and refuses others.
+    let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
+    let constants = if sky { &constants[3..4] } else { &constants[..] };
+    let module = if sky { &modules.sky } else { &modules.surfaces[look as usize] };
+    // The sky has light, and no other image.
+    let writes =
+        |image: Image| if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
+    let target = |image: Image| {
+        let target = wgpu::ColorTargetState { format: image.format(), blend: None, write_mask: writes(image) };
+        image.is_wanted(wanted).then_some(target)
+    };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(if sky { "sky" } else { "surfaces" }),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: None,
+            compilation_options: compilation_options.clone(),
+            buffers: if sky { &[] } else { &CORNERS },
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: (!sky).then_some(wgpu::Face::Back), ..Default::default() },
+        depth_stencil: Some(depth(!sky, if sky { CompareFunction::Equal } else { CompareFunction::Greater })),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: None,
+            compilation_options,
+            targets: &Image::ALL.map(target),
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// Returns a reversed depth state, in which nearer is greater, and 0 is infinitely far.

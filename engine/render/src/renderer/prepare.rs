@@ -6,7 +6,7 @@ use super::meshes::{GpuMesh, Meshes, Unfit};
 use super::raw::Shape;
 use super::raw::{RawInstance, RawView, four};
 use super::shadow::{ShadowMap, to_sun};
-use crate::{Camera, Instance, InstanceFlaw, View, ViewError, WantedImages};
+use crate::{Camera, Instance, InstanceFlaw, Look, View, ViewError, WantedImages};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -15,6 +15,7 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub raw: RawView,
+    pub look: Look,
     /// The instances that the camera sees, and the instances that throw shadows.
     pub instances: Vec<RawInstance>,
     pub draws: Vec<Draw>,
@@ -50,10 +51,15 @@ impl Prepared {
     }
 }
 
+/// The radius in pixels below which an object is drawn with few triangles.
+const SMALL: f64 = 14.0;
+
 /// An instance that may be drawn.
 struct Placed<'a> {
     instance: &'a Instance,
     mesh: &'a GpuMesh,
+    /// True if the object is so small in the image that few triangles are enough.
+    small: bool,
     shape: Shape,
     middle: Point3<f64>,
     radius: f64,
@@ -73,15 +79,19 @@ pub(super) fn prepare(
     for (index, instance) in seen() {
         check_instance(index, instance)?;
         let unfit = |unfit: &Unfit| not_drawable(gpu, index, instance.id, unfit);
-        meshes.upload(gpu, &instance.mesh).as_ref().map_err(unfit)?;
+        for mesh in [Some(&instance.mesh), instance.mesh.coarse()].into_iter().flatten() {
+            meshes.upload(gpu, mesh).as_ref().map_err(unfit)?;
+        }
     }
+    let focal = view.camera.focal_pixels();
     let mut placed = Vec::with_capacity(view.scene.instances.len());
     for (index, instance) in seen() {
         let mesh = meshes.get(instance.mesh.key());
         let shape = shape(instance, &to_eye);
         check_outside(index, instance, mesh, &shape)?;
         let (middle, radius) = shape.ball(mesh);
-        placed.push(Placed { instance, mesh, shape, middle, radius });
+        let small = radius * focal < SMALL * middle.coords.norm();
+        placed.push(Placed { instance, mesh, small, shape, middle, radius });
     }
     // Near objects hide far objects, whose hidden pixels then need no colour.
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
@@ -91,6 +101,7 @@ pub(super) fn prepare(
     let frustum = Frustum::new(view.camera);
     let mut prepared = Prepared {
         raw: raw_view(view, &eye, &sun, &map, &placed),
+        look: view.scene.look,
         instances: Vec::with_capacity(placed.len()),
         draws: Vec::new(),
         casters: Vec::new(),
@@ -101,21 +112,27 @@ pub(super) fn prepare(
         let ids: BTreeSet<u16> = in_sight.iter().map(|placed| placed.instance.id).collect();
         prepared.bits = ids.into_iter().zip(0..).collect();
     }
-    prepared.draws = prepared.add(in_sight.into_iter());
+    prepared.draws = prepared.add(in_sight.into_iter(), |placed| placed.small);
     if wanted.shadows && wanted.light() && prepared.raw.sun_light.iter().any(|light| *light > 0.0) {
         let throws = |placed: &&Placed<'_>| is_solid(placed) && map.catches(&placed.middle, placed.radius);
-        prepared.casters = prepared.add(placed.iter().filter(throws));
+        prepared.casters = prepared.add(placed.iter().filter(throws), |_| true);
     }
     Ok(prepared)
 }
 
 impl Prepared {
-    /// Adds the given instances, sorted by mesh.
-    fn add<'a>(&mut self, placed: impl Iterator<Item = &'a Placed<'a>>) -> Vec<Draw> {
+    /// Adds the given instances, sorted by mesh. If `coarse` is true for an instance, its mesh with fewer triangles is used,
+    /// if there is one.
+    fn add<'a>(
+        &mut self,
+        placed: impl Iterator<Item = &'a Placed<'a>>,
+        coarse: impl Fn(&Placed<'_>) -> bool,
+    ) -> Vec<Draw> {
         let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
         for placed in placed {
-            let key = placed.instance.mesh.key();
+            let mesh = &placed.instance.mesh;
+            let key = mesh.coarse().filter(|_| coarse(placed)).unwrap_or(mesh).key();
             let group = *group_of.entry(key).or_insert(groups.len());
             if group == groups.len() {
                 groups.push((key, Vec::new()));

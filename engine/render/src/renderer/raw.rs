@@ -34,7 +34,7 @@ pub(super) struct RawCorner {
     pub normal: [i16; 4],
     pub uv: [f32; 2],
     pub colour: [u16; 4],
-    /// The surface kind and the class as bytes, followed by two unused bytes.
+    /// The surface kind, the class and the layer of the texture or picture as bytes, followed by an unused byte.
     pub kind: [u8; 4],
 }
 

@@ -28,6 +28,7 @@ fn board() -> Scene {
     Scene {
         instances: vec![Instance { mesh, pose, scale: [1.0; 3], paint: [0.5; 3], id: 3 }],
         air: crate::Atmosphere::default(),
+        look: crate::Look::Flat,
     }
 }
 

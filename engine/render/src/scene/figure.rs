@@ -4,10 +4,14 @@
 //! outline, because the outline is that of the trunk or the pole.
 
 mod gait;
+mod variety;
 
 use super::Instance;
-use crate::mesh::models::{Models, linear};
-use crate::mesh::{Mesh, bicycle, bus, car, furniture, house, motorcycle, truck, van};
+use crate::Look;
+use crate::mesh::colours::linear;
+use crate::mesh::house::Walls;
+use crate::mesh::models::Models;
+use crate::mesh::{Mesh, bicycle, bus, car, cars, furniture, house, motorcycle, truck, van};
 use gait::walker;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use paracosm_engine::object::{Body, BodyState, Class, Outline};
@@ -34,16 +38,21 @@ pub(super) struct Figure<'a> {
     pub size: [f32; 3],
     pub paint: [f32; 3],
     pub id: u16,
+    pub look: Look,
 }
 
 impl<'a> Figure<'a> {
     /// Makes a drawable figure of a body that stands `raised` metres above the road.
-    pub fn new(state: &'a BodyState, raised: f32, id: u16) -> Self {
+    pub fn new(state: &'a BodyState, raised: f32, id: u16, look: Look) -> Self {
         let position = state.pose.position.map(|metres| metres as f32);
         let up = state.altitude as f32 + raised;
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), state.pose.heading as f32);
         let pose = Isometry3::from_parts(Translation3::new(position.x, position.y, up), turn);
-        Self { state, pose, size: size(&state.body), paint: linear(state.body.colour), id }
+        let colour = match look {
+            Look::Flat => state.body.colour,
+            Look::Textured => variety::colour(&state.body, id),
+        };
+        Self { state, pose, size: size(&state.body), paint: linear(colour), id, look }
     }
 
     /// Returns an instance of a mesh at the pose `at` relative to the body.
@@ -61,6 +70,10 @@ impl<'a> Figure<'a> {
     pub fn draw(&self, scene: &mut Vec<Instance>) {
         let models = Models::shared();
         match self.state.body.class {
+            Class::Car if self.look == Look::Textured => {
+                let kind = cars::kind(self.size, variety::lot(self.id, variety::KIND));
+                scene.push(self.stretched(&models.car_of(kind, self.size), self.size));
+            }
             Class::Car => scene.push(self.stretched(&models.car, car::SIZE)),
             Class::Van => scene.push(self.stretched(&models.van, van::SIZE)),
             Class::Truck => scene.push(self.stretched(&models.truck, truck::SIZE)),
@@ -73,11 +86,21 @@ impl<'a> Figure<'a> {
             Class::Pedestrian => walker(self, models, scene),
             Class::Building => {
                 let plan = house::Plan::of(self.size);
-                scene.push(self.stretched(&models.house(plan), plan.size()));
+                scene.push(self.stretched(&models.house(plan, self.walls()), plan.size()));
             }
             Class::Tree => self.tree(models, scene),
             Class::Sign => self.sign(models, scene),
             Class::Prop => scene.push(self.prop(models)),
+        }
+    }
+
+    /// Returns the surfaces of a house. A house as red as bricks has walls of brick, and so have some others.
+    fn walls(&self) -> Walls {
+        let [red, _, blue] = self.state.body.colour;
+        match self.look {
+            Look::Flat => Walls::Flat,
+            Look::Textured if red > blue.saturating_add(60) || self.chance().is_multiple_of(5) => Walls::Brick,
+            Look::Textured => Walls::Plaster,
         }
     }
 
@@ -86,7 +109,11 @@ impl<'a> Figure<'a> {
         let chance = self.chance();
         let conifer = chance.is_multiple_of(2);
         let (wide, low) = (2.0 * CROWN[usize::from(conifer)] * height, BOUGHS[usize::from(conifer)] * height);
-        scene.push(self.part(&models.trunk, Isometry3::identity(), [0.5 * length, 0.5 * width, 0.6 * height]));
+        scene.push(self.part(
+            &models.trunks[self.look as usize],
+            Isometry3::identity(),
+            [0.5 * length, 0.5 * width, 0.6 * height],
+        ));
         let turned = Isometry3::new(Vector3::z() * low, Vector3::z() * (chance % 360) as f32);
         let crown = models.crown(conifer, self.state.body.colour);
         scene.push(self.part(&crown, turned, [wide, wide, height - low]));
@@ -102,7 +129,11 @@ impl<'a> Figure<'a> {
                 [1.0; 3],
             ));
         } else {
-            let plate = &models.plates[self.chance() as usize % models.plates.len()];
+            let plates = match self.look {
+                Look::Flat => models.plates.as_slice(),
+                Look::Textured => models.signs.as_slice(),
+            };
+            let plate = &plates[self.chance() as usize % plates.len()];
             let scale = (0.4 * height / furniture::PLATE).min(1.0);
             let up = height - furniture::PLATE * scale;
             scene.push(self.part(plate, Isometry3::translation(0.5 * length + 0.015, 0.0, up), [scale; 3]));

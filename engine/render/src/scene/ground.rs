@@ -4,6 +4,8 @@
 //! squares, so that a renderer can skip those that are out of view.
 
 use super::Instance;
+use super::markings::{arrows, edge_lines};
+use crate::Look;
 use crate::mesh::clay::{Clay, Matter, at};
 use crate::mesh::{Mesh, Semantic, SurfaceKind};
 use nalgebra::{Isometry3, Vector2};
@@ -33,6 +35,9 @@ const FLAGSTONE: [f32; 3] = [0.30, 0.285, 0.26];
 const STONE: [f32; 3] = [0.42, 0.41, 0.38];
 const GRASS: [f32; 3] = [0.085, 0.16, 0.045];
 const LINE: [f32; 3] = [0.80, 0.80, 0.77];
+/// The colours of asphalt and grass in the look `textured`: asphalt that has aged, and grass as a photograph shows it.
+const OLD_ASPHALT: [f32; 3] = [0.105, 0.102, 0.098];
+const LAWN: [f32; 3] = [0.080, 0.115, 0.032];
 
 /// The shape of a surface: its height, and by how much it is widened to the right and left and lengthened at its ends.
 struct Lie {
@@ -42,36 +47,64 @@ struct Lie {
     longer: f64,
 }
 
-fn lie(surface: Paved) -> Lie {
+fn lie(surface: Paved, look: Look) -> Lie {
     let lie = |surface, colour, semantic, height, wider, longer| Lie {
         matter: Matter::new(surface, colour, semantic),
         height,
         wider,
         longer,
     };
+    let (asphalt, (slabs, stone, paint), (grass, green)) = match look {
+        Look::Flat => {
+            (ASPHALT, (SurfaceKind::Asphalt, SurfaceKind::Plain, SurfaceKind::Plain), (SurfaceKind::Grown, GRASS))
+        }
+        Look::Textured => {
+            (OLD_ASPHALT, (SurfaceKind::Slabs, SurfaceKind::Concrete, SurfaceKind::Marking), (SurfaceKind::Grass, LAWN))
+        }
+    };
     match surface {
         // Widened under the kerbs and lengthened under the next element, so that no seam shows.
-        Paved::Carriageway => lie(SurfaceKind::Asphalt, ASPHALT, Semantic::Road, 0.0, [UNDER; 2], UNDER),
-        Paved::Sidewalk => lie(SurfaceKind::Asphalt, FLAGSTONE, Semantic::Sidewalk, KERB, [0.0, -UNDER], 0.0),
-        Paved::Island => lie(SurfaceKind::Grown, GRASS, Semantic::Terrain, KERB, [-UNDER, 0.0], 0.0),
-        Paved::Kerb => lie(SurfaceKind::Plain, STONE, Semantic::Sidewalk, KERB + 0.005, [0.0; 2], 0.0),
+        Paved::Carriageway => lie(SurfaceKind::Asphalt, asphalt, Semantic::Road, 0.0, [UNDER; 2], UNDER),
+        Paved::Sidewalk => lie(slabs, FLAGSTONE, Semantic::Sidewalk, KERB, [0.0, -UNDER], 0.0),
+        Paved::Island => lie(grass, green, Semantic::Terrain, KERB, [-UNDER, 0.0], 0.0),
+        Paved::Kerb => lie(stone, STONE, Semantic::Sidewalk, KERB + 0.005, [0.0; 2], 0.0),
         Paved::CentreLine | Paved::LaneLine | Paved::EdgeLine | Paved::StopLine | Paved::GiveWayLine | Paved::Zebra => {
-            lie(SurfaceKind::Plain, LINE, Semantic::RoadLine, PAINT, [0.0; 2], 0.0)
+            lie(paint, LINE, Semantic::RoadLine, PAINT, [0.0; 2], 0.0)
         }
     }
 }
 
 /// Returns the meshes of the road network and of the plain around it.
-pub(super) fn ground(network: &RoadNetwork) -> Vec<Instance> {
+pub(super) fn ground(network: &RoadNetwork, look: Look) -> Vec<Instance> {
     let mut chunks: BTreeMap<[i64; 2], Clay> = BTreeMap::new();
     for strip in network.strips().iter().flat_map(Strip::solid_parts) {
-        lay(&strip, &mut chunks);
+        lay(&strip, look, &mut chunks);
+    }
+    if look == Look::Textured {
+        edge_lines(network).iter().for_each(|line| lay(line, look, &mut chunks));
+        arrows(network).iter().for_each(|part| paint(part, &mut chunks));
     }
     let chunks = chunks.into_iter().map(|(chunk, clay)| {
         let origin = origin(chunk);
         standing(clay.mesh_at(origin.into()), origin)
     });
-    chunks.chain([plain(&network.bounds())]).collect()
+    chunks.chain([plain(&network.bounds(), look)]).collect()
+}
+
+/// Adds a convex polygon of paint to the meshes of the ground.
+fn paint(part: &[Vector2<f64>], chunks: &mut BTreeMap<[i64; 2], Clay>) {
+    let chunk = chunk_of(part[0]);
+    let corners = part.iter().map(|point| {
+        let point = point - origin(chunk);
+        at(point.x as f32, point.y as f32, PAINT as f32)
+    });
+    let matter = lie(Paved::LaneLine, Look::Textured).matter;
+    chunks.entry(chunk).or_default().facet(&corners.collect::<Vec<_>>(), matter);
+}
+
+/// Returns the chunk of the ground at a place.
+fn chunk_of(place: Vector2<f64>) -> [i64; 2] {
+    place.map(|metres| (metres / CHUNK).floor() as i64).into()
 }
 
 fn origin(chunk: [i64; 2]) -> Vector2<f64> {
@@ -89,8 +122,8 @@ pub(super) fn cuts(curve: &Curve, right: f64, left: f64) -> Vec<f64> {
 }
 
 /// Adds the surface of a strip of road to the meshes of the ground.
-fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
-    let Lie { matter, height, wider, longer } = lie(strip.surface);
+fn lay(strip: &Strip, look: Look, chunks: &mut BTreeMap<[i64; 2], Clay>) {
+    let Lie { matter, height, wider, longer } = lie(strip.surface, look);
     let (right, left) = (strip.right - wider[0], strip.left + wider[1]);
     if right >= left {
         return;
@@ -102,7 +135,7 @@ fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     for i in 0..last {
         let ends = [cuts[i], cuts[i + 1]];
         let middle = strip.curve.beside(0.5 * (ends[0] + ends[1]), 0.5 * (left + right));
-        let chunk: [i64; 2] = middle.map(|metres| (metres / CHUNK).floor() as i64).into();
+        let chunk = chunk_of(middle);
         let corners = |z: f64| {
             [(ends[0], right), (ends[1], right), (ends[1], left), (ends[0], left)].map(|(along, offset)| {
                 let point = strip.curve.beside(along, offset) - origin(chunk);
@@ -128,15 +161,12 @@ fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
 }
 
 /// Returns the wide plain of grass around the roads.
-fn plain(bounds: &Bounds) -> Instance {
+fn plain(bounds: &Bounds, look: Look) -> Instance {
     let middle = (0.5 * (bounds.min + bounds.max)).map(f64::round);
     let half = (0.5 * (bounds.max - bounds.min)).map(|metres| (metres + HORIZON) as f32);
     let mut clay = Clay::default();
     let corners = [(-half.x, -half.y), (half.x, -half.y), (half.x, half.y), (-half.x, half.y)];
-    clay.facet(
-        &corners.map(|(x, y)| at(x, y, PLAIN as f32)),
-        Matter::new(SurfaceKind::Grown, GRASS, Semantic::Terrain),
-    );
+    clay.facet(&corners.map(|(x, y)| at(x, y, PLAIN as f32)), lie(Paved::Island, look).matter);
     standing(clay.mesh_at(middle.into()), middle)
 }
 

@@ -4,7 +4,7 @@ use super::figure::Figure;
 use super::ground::ground;
 use super::pavement::Pavement;
 use super::{Atmosphere, Instance, Scene};
-use crate::Mesh;
+use crate::{Look, Mesh};
 use nalgebra::{Isometry3, Vector3};
 use paracosm_engine::Run;
 use paracosm_engine::object::{BodyState, Class};
@@ -25,6 +25,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 /// ```
 #[derive(Debug)]
 pub struct Stage {
+    look: Look,
     still: Vec<Instance>,
     pavement: Pavement,
     models: BTreeMap<Class, Model>,
@@ -44,9 +45,19 @@ pub struct Model {
 pub type Cast = BTreeMap<usize, Arc<Model>>;
 
 impl Stage {
-    /// Makes the drawable scenery of a road network.
+    /// Makes the drawable scenery of a road network in the look [`Look::Flat`].
     pub fn of(network: &RoadNetwork) -> Self {
-        Self { still: ground(network), pavement: Pavement::of(network), models: BTreeMap::new() }
+        Self::in_look(network, Look::Flat)
+    }
+
+    /// Makes the drawable scenery of a road network. All scenes of the stage have the given look.
+    pub fn in_look(network: &RoadNetwork, look: Look) -> Self {
+        Self { look, still: ground(network, look), pavement: Pavement::of(network), models: BTreeMap::new() }
+    }
+
+    /// Returns the look of all scenes of the stage.
+    pub fn look(&self) -> Look {
+        self.look
     }
 
     /// Sets a user's own mesh as the model of all bodies of a class. The front of the mesh is along x.
@@ -79,14 +90,14 @@ impl Stage {
             let on_foot = matches!(state.body.class, Class::Pedestrian | Class::Bicycle);
             let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
             let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
-            let figure = Figure::new(state, raised as f32, id);
+            let figure = Figure::new(state, raised as f32, id, self.look);
             let of_class = || self.models.get(&state.body.class);
             match cast.get(&index).map(Arc::as_ref).or_else(of_class) {
                 Some(model) => instances.push(model.instance(&figure)),
                 None => figure.draw(&mut instances),
             }
         }
-        Scene { instances, air }
+        Scene { instances, air, look: self.look }
     }
 }
 
@@ -113,10 +124,16 @@ impl Model {
 /// A cache of the drawable sceneries of road networks, kept as long as the networks live.
 #[derive(Debug, Default)]
 pub struct Stages {
+    look: Look,
     known: Mutex<Vec<(Weak<RoadNetwork>, Arc<Stage>)>>,
 }
 
 impl Stages {
+    /// Makes an empty cache of sceneries that all have the given look; [`Stages::default`] has [`Look::Flat`].
+    pub fn in_look(look: Look) -> Self {
+        Self { look, ..Self::default() }
+    }
+
     /// Returns the drawable scenery of a road network, from the cache if possible. Tests on the same network share one
     /// stage.
     pub fn of(&self, network: &Arc<RoadNetwork>) -> Arc<Stage> {
@@ -126,7 +143,7 @@ impl Stages {
         if let Some((_, stage)) = known.iter().find(same) {
             return stage.clone();
         }
-        let stage = Arc::new(Stage::of(network));
+        let stage = Arc::new(Stage::in_look(network, self.look));
         known.push((Arc::downgrade(network), stage.clone()));
         stage
     }

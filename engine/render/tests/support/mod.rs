@@ -109,7 +109,7 @@ pub fn thing(mesh: &Arc<Mesh>, place: [f32; 3], yaw: f32, id: u16) -> Instance {
 }
 
 pub fn scene(instances: Vec<Instance>) -> Scene {
-    Scene { instances, air: Atmosphere::default() }
+    Scene { instances, air: Atmosphere::default(), look: paracosm_render::Look::Flat }
 }
 
 /// A camera 1.5 m above the origin of what carries it, that looks forward.

@@ -10,6 +10,7 @@ override LAMPS: bool = false;
 // Which kinds of surfaces are drawn.
 override GLOSSY: bool = false;
 override GRAINED: bool = false;
+override PICTURED: bool = false;
 
 @group(1) @binding(0) var sun_depth: texture_depth_2d;
 @group(1) @binding(1) var sun_sampler: sampler_comparison;
@@ -17,9 +18,10 @@ override GRAINED: bool = false;
 const PAINT: u32 = 1u;
 const CLOTH: u32 = 2u;
 const GLASS: u32 = 3u;
-const GROWN: u32 = 5u;
 const WHITE_LAMP: u32 = 6u;
 const RED_LAMP: u32 = 7u;
+const BRICK: u32 = 12u;
+const PLASTER: u32 = 13u;
 
 struct Seen {
     @builtin(position) at: vec4f,
@@ -28,7 +30,7 @@ struct Seen {
     @location(2) uv: vec2f,
     // The plane of the triangle: those p with dot(plane.xyz, p) = plane.w.
     @location(3) @interpolate(flat) plane: vec4f,
-    // Surface, class, and id in the upper half.
+    // Surface in 4 bits, layer of its texture or picture in 4 bits, class, and id in the upper half.
     @location(4) @interpolate(flat) kind: u32,
 }
 
@@ -37,14 +39,15 @@ fn corner(corner: Corner) -> Seen {
     var seen: Seen;
     seen.at = clip(before_camera(corner));
     seen.normal = turned(corner, corner.normal.xyz);
-    seen.uv = corner.uv;
+    seen.uv = laid(corner.uv, corner.kind.x);
     seen.colour = corner.colour.xyz;
-    if corner.kind.x == PAINT || corner.kind.x == CLOTH {
+    let kind = corner.kind.x;
+    if kind == PAINT || kind == CLOTH || kind == BRICK || kind == PLASTER {
         seen.colour = corner.paint;
     }
     // In the mesh's coordinates, where a level face has a level normal and nothing cancels.
     seen.plane = vec4f(turned(corner, corner.face), dot(corner.face, corner.position - corner.eye));
-    seen.kind = corner.kind.x | (corner.kind.y << 8u) | (corner.id << 16u);
+    seen.kind = corner.kind.x | (corner.kind.z << 4u) | (corner.kind.y << 8u) | (corner.id << 16u);
     return seen;
 }
 
@@ -89,7 +92,7 @@ fn fogged(light: vec3f, distance: f32) -> vec3f {
 }
 
 fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
-    let kind = seen.kind & 255u;
+    let kind = seen.kind & 15u;
     let towards_eye = place / -distance;
     let normal = normalize(seen.normal);
     if LAMPS && !GLOSSY && !GRAINED && kind == WHITE_LAMP {
@@ -101,19 +104,25 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     var colour = seen.colour;
     if GRAINED {
         let slant = max(abs(dot(normal, towards_eye)), 0.02);
-        colour *= grain(seen.uv, distance * view.image.z / slant, kind);
+        colour = grained(colour, seen, distance * view.image.z / slant);
+    }
+    if PICTURED {
+        colour *= pictured(seen.uv, (seen.kind >> 4u) & 15u);
     }
     let facing = dot(normal, view.sun.xyz);
     var sun = view.sun_light.xyz * max(facing, 0.0);
+    var open = 1.0;
     if SHADOWS {
-        sun *= sunlit(place + normal * 0.04);
+        let lit = sunlit(place + normal * 0.04);
+        sun *= lit;
+        open = sky_in_shadow(lit);
     }
-    let sky = mix(view.ground_light.xyz, view.sky_light.xyz, 0.5 + 0.5 * dot(normal, view.up.xyz));
+    let sky = open * mix(view.ground_light.xyz, view.sky_light.xyz, 0.5 + 0.5 * dot(normal, view.up.xyz));
     var light = colour * (sun + sky);
     if LAMPS {
         light += colour * lamps(place, normal);
     }
-    if GLOSSY {
+    if GLOSSY || (PICTURED && (kind == PAINT || kind == GLASS)) {
         light += gloss(normal, towards_eye, sun, kind);
     }
     return light;
@@ -125,8 +134,7 @@ fn gloss(normal: vec3f, towards_eye: vec3f, sun: vec3f, kind: u32) -> vec3f {
     let fresnel = 0.04 + 0.96 * across * across * across * across * across;
     let mirrored = 2.0 * dot(normal, towards_eye) * normal - towards_eye;
     let height = dot(mirrored, view.up.xyz);
-    let sky = mix(view.air.xyz, view.zenith.xyz, sqrt(max(height, 0.0)));
-    let seen = mix(view.ground_light.xyz, sky, smoothstep(-0.1, 0.1, height));
+    let seen = surroundings(height);
     let middle = max(dot(normal, normalize(towards_eye + view.sun.xyz)), 0.0);
     let tight = middle * middle * middle * middle;
     let tighter = tight * tight * tight * tight;
@@ -160,33 +168,4 @@ fn lamps(place: vec3f, normal: vec3f) -> vec3f {
         light += vec3f(1.0, 0.86, 0.62) * (lamp.w * caught / (squared + 1.0));
     }
     return light;
-}
-
-// Stones and leaves: cells of chance brightness, faded where they become smaller than pixels.
-fn grain(uv: vec2f, pixel: f32, kind: u32) -> f32 {
-    let grown = kind == GROWN;
-    let stone = select(0.025, 0.07, grown);
-    let stain = select(2.1, 1.3, grown);
-    let stones = (hash(vec2i(floor(uv / stone))) - 0.5) * select(0.22, 0.5, grown) * finer(stone, pixel);
-    let stains = (smooth_hash(uv / stain) - 0.5) * select(0.16, 0.5, grown) * finer(stain, pixel);
-    return 1.0 + stones + stains;
-}
-
-fn finer(cell: f32, pixel: f32) -> f32 {
-    return clamp(cell / pixel - 0.5, 0.0, 1.0);
-}
-
-fn smooth_hash(at: vec2f) -> f32 {
-    let corner = vec2i(floor(at));
-    let part = smoothstep(vec2f(0.0), vec2f(1.0), fract(at));
-    let low = mix(hash(corner), hash(corner + vec2i(1, 0)), part.x);
-    let high = mix(hash(corner + vec2i(0, 1)), hash(corner + vec2i(1, 1)), part.x);
-    return mix(low, high, part.y);
-}
-
-fn hash(cell: vec2i) -> f32 {
-    var mixed = (u32(cell.x) * 0x8da6b343u) ^ (u32(cell.y) * 0xd8163841u);
-    mixed = (mixed ^ (mixed >> 15u)) * 0x2c1b3c6du;
-    mixed ^= mixed >> 13u;
-    return f32(mixed & 0xffffu) / 65535.0;
 }

@@ -4,7 +4,8 @@
 //! against the legs. The hips are as high as the lower of the two soles requires. A walk is therefore a function of the
 //! state of the run.
 
-use super::{CHILD, Figure};
+use super::{CHILD, Figure, variety};
+use crate::Look;
 use crate::mesh::models::Models;
 use crate::mesh::person::{HIP, SHIN, SHOULDER, SIZE, SOLE, THIGH};
 use crate::scene::Instance;
@@ -50,15 +51,19 @@ pub(super) fn walker(figure: &Figure<'_>, models: &Models, scene: &mut Vec<Insta
     let legs = [phase, phase + PI].map(|phase| leg(phase, swing));
     let hips = legs.iter().map(|leg| leg.reach(x, z)).fold(0.0, f32::max);
     let lift = hips - HIP[1] * z;
-    let trunk = if height < CHILD { &models.child } else { &models.adult };
-    scene.push(figure.part(trunk, Isometry3::translation(0.0, 0.0, lift), [x, y, z]));
-    for ((side, leg), arm) in [1.0, -1.0].into_iter().zip(legs).zip(&models.arms) {
+    let child = height < CHILD;
+    let person = match figure.look {
+        Look::Flat => models.usual[usize::from(child)].clone(),
+        Look::Textured => models.person(variety::lot(figure.id, variety::KIND), child),
+    };
+    scene.push(figure.part(&person.trunk, Isometry3::translation(0.0, 0.0, lift), [x, y, z]));
+    for ((side, leg), arm) in [1.0, -1.0].into_iter().zip(legs).zip(&person.arms) {
         let shoulder = Vector3::new(0.0, side * SHOULDER[0] * y, SHOULDER[1] * z + lift);
         scene.push(figure.part(arm, forward(shoulder, -ARM * leg.hip), [x, y, z]));
         let hip = forward(Vector3::new(0.0, side * HIP[0] * y, hips), leg.hip);
-        scene.push(figure.part(&models.thigh, hip, [x, y, z]));
+        scene.push(figure.part(&person.thigh, hip, [x, y, z]));
         let knee = hip * forward(Vector3::z() * (-THIGH * z), -leg.knee);
-        scene.push(figure.part(&models.shin, knee, [x, y, z]));
+        scene.push(figure.part(&person.shin, knee, [x, y, z]));
     }
 }
 
