@@ -1,7 +1,8 @@
 //! The system under test: anything that answers images with boxes or masks.
 
 use crate::{Detection, Mask, Rect, Task};
-use thiserror::Error;
+use std::error::Error;
+use std::sync::Arc;
 
 /// An image for a perceiver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +25,7 @@ pub enum Percept {
 }
 
 /// The reason why a perceiver has no valid answer.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, thiserror::Error)]
 pub enum PerceiverError {
     /// A box has a class that the detector does not have.
     #[error("a box has the class {class}, expected a number below {classes}")]
@@ -52,12 +53,9 @@ pub enum PerceiverError {
     /// A mask has a score that is no number.
     #[error("a pixel of the mask has a score that is no number")]
     Pixel,
-    /// The perceiver failed.
-    #[error("the perceiver failed: {reason}")]
-    Failed {
-        /// The words of the perceiver.
-        reason: String,
-    },
+    /// The perceiver failed with an error of its own.
+    #[error("the perceiver failed: {0}")]
+    Failed(Arc<dyn Error + Send + Sync>),
 }
 
 /// A perception network, or another program that perceives.

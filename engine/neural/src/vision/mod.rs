@@ -13,6 +13,8 @@ use crate::plan::Plan;
 use answer::{boxes, mask};
 use frame::{Placed, tensor};
 use paracosm_perception::{Perceiver, PerceiverError, Percept, Picture, Task};
+use std::error::Error;
+use std::sync::Arc;
 
 /// A perception network from an ONNX file. Copies share the weights of the network.
 #[derive(Debug, Clone)]
@@ -78,8 +80,8 @@ impl Vision {
 }
 
 /// Returns the error of a network that cannot be run.
-fn failed(error: impl Display) -> PerceiverError {
-    PerceiverError::Failed { reason: error.to_string() }
+fn failed(error: impl Error + Send + Sync + 'static) -> PerceiverError {
+    PerceiverError::Failed(Arc::new(error))
 }
 
 fn unfit(name: &str, found: &[usize], expected: String) -> ModelError {
