@@ -251,7 +251,7 @@ impl<'a> Campaign<'a> {
             self.stop.store(true, Ordering::Relaxed);
             Err(end)
         };
-        let result = if self.darkroom.is_some() {
+        let result = if self.darkroom.is_some() && self.study.perceiver().is_none() {
             let at_once = self.at_once.get().div_ceil(pool.current_num_threads());
             let work = |desk: &Desk<Trial>| hire().run_in_lockstep((desk, at_once), (first, tests));
             from_desk(&pool, 0..tests.len(), work, sink)

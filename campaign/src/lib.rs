@@ -38,10 +38,12 @@ mod judge;
 mod lock;
 mod log;
 mod observer;
+mod perception;
 mod process;
 mod regression;
 mod samples;
 mod scales;
+mod setting_names;
 mod simulator;
 mod space_file;
 mod steering;
@@ -100,8 +102,8 @@ pub mod reasons {
     pub use crate::space_file::SpaceFileFlaw;
     pub use crate::study::{
         AppearanceFlaw, DriverFlaw, EntryFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario,
-        OddFlaw, ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted, UntrustedAddress,
-        WithoutCameras,
+        OddFlaw, ParameterMisuse, PerceiverFlaw, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, Untrusted,
+        UntrustedAddress, WithoutCameras,
     };
     pub use crate::study_file::FormatFlaw;
     pub use crate::test_set::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};

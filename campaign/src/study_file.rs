@@ -2,8 +2,8 @@
 
 use crate::json_text::{JsonFlaw, read_json};
 use crate::study::{
-    Appearances, DriverChoice, EntryFlaw, Maker, Odd, Sampling, Simulation, StatedRequirement, Study, Subject,
-    check_scale,
+    Appearances, DriverChoice, EntryFlaw, Maker, Odd, PerceiverChoice, Sampling, Simulation, StatedRequirement, Study,
+    Subject, check_scale,
 };
 use crate::{BlackBox, Catalogue, Extension, ExtensionRecord, Learned, Reason};
 use paracosm_engine::vehicle::{Resistance, VehicleModel, VehicleSetup};
@@ -51,6 +51,8 @@ struct Entries {
     fixed: Option<Values>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     driver: Option<DriverChoice>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    perceiver: Option<PerceiverChoice>,
     #[serde(skip_serializing_if = "Appearances::is_empty", default)]
     models: Appearances,
     /// True if runs ended as soon as all requirements were decided, as older versions allowed.
@@ -209,6 +211,7 @@ impl Entries {
                 vehicle: VehicleSetup { model: must("vehicle", of, self.vehicle)?, resistance: self.resistance },
                 fixed: must("fixed", of, self.fixed.take())?,
                 driver: must("driver", of, self.driver.take())?,
+                perceiver: self.perceiver.take(),
                 appearances: mem::take(&mut self.models),
                 stop_runs_early: self.stop_runs_early,
                 dt: must("dt", of, self.dt)?,
@@ -221,6 +224,7 @@ impl Entries {
         must_not("resistance", of, !self.resistance.is_none())?;
         must_not("fixed", of, self.fixed.is_some())?;
         must_not("driver", of, self.driver.is_some())?;
+        must_not("perceiver", of, self.perceiver.is_some())?;
         must_not("models", of, !self.models.is_empty())?;
         must_not("stop_runs_early", of, self.stop_runs_early)?;
         must_not("dt", of, self.dt.is_some())?;
@@ -237,6 +241,7 @@ impl Entries {
                 resistance: simulation.vehicle.resistance,
                 fixed: Some(simulation.fixed),
                 driver: Some(simulation.driver),
+                perceiver: simulation.perceiver,
                 models: simulation.appearances,
                 stop_runs_early: simulation.stop_runs_early,
                 dt: Some(simulation.dt),
@@ -305,6 +310,7 @@ impl From<StudyFile> for Entries {
             resistance: Resistance::default(),
             fixed: None,
             driver: None,
+            perceiver: None,
             models: Appearances::default(),
             stop_runs_early: false,
             dt: None,

@@ -7,8 +7,12 @@ use crate::darkroom::Darkroom;
 use crate::executor::Desk;
 use crate::expected::Expected;
 use crate::judge::judge;
+#[cfg(feature = "camera")]
+use crate::perception::{Exam, Notes};
 use crate::simulator::Simulator;
 use crate::study::Subject;
+#[cfg(not(feature = "camera"))]
+use crate::study::WithoutCameras;
 use crate::{Error, Log, Problem, ProblemKind, Study, Trial};
 #[cfg(feature = "camera")]
 use paracosm_engine::sensor::Cameras;
@@ -23,6 +27,8 @@ use std::sync::atomic::AtomicBool;
 pub struct Worker<'a> {
     study: &'a Study,
     bench: Bench<'a>,
+    #[cfg(feature = "camera")]
+    exam: Option<Exam>,
 }
 
 /// The simulator or the external system that runs the tests.
@@ -46,6 +52,10 @@ impl<'a> Worker<'a> {
         let mut worker = Self::beside(study, stop, None)?;
         if let Bench::Simulator(simulator) = &mut worker.bench {
             simulator.start()?;
+            #[cfg(feature = "camera")]
+            if let Some(exam) = &worker.exam {
+                simulator.open(exam.cameras().nominal())?;
+            }
         }
         Ok(worker)
     }
@@ -58,7 +68,18 @@ impl<'a> Worker<'a> {
             Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
             Subject::System(system) => Bench::System(Connection::new(system, stop)?),
         };
-        Ok(Self { study, bench })
+        #[cfg(feature = "camera")]
+        let exam = study.perceiver().map(|choice| Exam::new(choice, study.space())).transpose()?;
+        #[cfg(not(feature = "camera"))]
+        if study.perceiver().is_some() {
+            return Err(Error::unavailable(WithoutCameras));
+        }
+        Ok(Self {
+            study,
+            bench,
+            #[cfg(feature = "camera")]
+            exam,
+        })
     }
 
     /// Returns the study whose tests the worker runs.
@@ -80,7 +101,11 @@ impl<'a> Worker<'a> {
 
     /// Runs a test, and returns the trial and the trace; the trace is `None` if the test has no trace.
     pub fn run(&mut self, index: usize, test: &Values) -> (Trial, Option<Trace>) {
-        let Self { study, bench } = self;
+        #[cfg(feature = "camera")]
+        if self.exam.is_some() {
+            return self.examine(index, test, |_| ());
+        }
+        let Self { study, bench, .. } = self;
         match bench {
             Bench::Simulator(simulator) => {
                 let outcome = simulator.run(Test::new(&study.complete(test), study.space()));
@@ -93,6 +118,10 @@ impl<'a> Worker<'a> {
     /// Runs a test, and calls `see` with the run of a scenario whenever the driver is asked, and at the end. Otherwise
     /// it works like [`run`](Self::run).
     pub fn watch(&mut self, index: usize, test: &Values, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
+        #[cfg(feature = "camera")]
+        if self.exam.is_some() {
+            return self.examine(index, test, see);
+        }
         self.film(index, test, None, see)
     }
 
@@ -104,13 +133,51 @@ impl<'a> Worker<'a> {
         cameras: Option<Shutters>,
         see: impl FnMut(&Run),
     ) -> (Trial, Option<Trace>) {
-        let Self { study, bench } = self;
+        let Self { study, bench, .. } = self;
         match bench {
             Bench::Simulator(simulator) => {
                 let outcome = simulator.watch(Test::new(&study.complete(test), study.space()), cameras, see);
                 judged(study, index, test, outcome)
             }
             Bench::System(connection) => asked(connection, study, index, test),
+        }
+    }
+
+    /// Runs a test while the camera of the perceiver films, and judges the answers of the perceiver.
+    #[cfg(feature = "camera")]
+    fn examine(&mut self, index: usize, test: &Values, mut see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
+        let Self { study, bench: Bench::Simulator(simulator), exam: Some(exam) } = self else {
+            return self.film(index, test, None, see);
+        };
+        let broken = |problem| (Trial::broken(index, test.clone(), problem), None);
+        let shutters = match exam.shutters(test) {
+            Ok(shutters) => shutters,
+            Err(problem) => return broken(problem),
+        };
+        let mut notes = Notes::default();
+        let appearances = simulator.appearances().clone();
+        let outcome = simulator.watch(Test::new(&study.complete(test), study.space()), Some(shutters), |run| {
+            exam.note(&mut notes, run, &appearances);
+            see(run);
+        });
+        let outcome = match outcome {
+            Ok(outcome) => outcome,
+            Err(problem) => return broken(problem),
+        };
+        let (mut trial, trace) = Trial::simulated(index, test.clone(), outcome);
+        let (Some(trace), None) = (trace, &trial.problem) else { return (trial, None) };
+        let darkroom = match simulator.open(exam.cameras().nominal()) {
+            Ok(darkroom) => darkroom,
+            Err(error) => return broken(Problem::new(ProblemKind::Camera, error.to_string())),
+        };
+        // The requirements of the scenario judge the driver, who is not on trial.
+        (trial.verdict, trial.judgements) = (Verdict::Pass, Vec::new());
+        match exam.judge(notes, test, darkroom, &trace) {
+            Ok(trace) => {
+                judge(&mut trial, study.given(), &trace);
+                (trial, Some(trace))
+            }
+            Err(problem) => broken(problem),
         }
     }
 
@@ -149,7 +216,7 @@ impl<'a> Worker<'a> {
         (first, tests): (usize, &[Values]),
         stopped: impl Fn() -> bool,
     ) {
-        let Self { study, bench: Bench::Simulator(simulator) } = self else { return };
+        let Self { study, bench: Bench::Simulator(simulator), .. } = self else { return };
         let test = |place: usize| study.complete(&tests[place]);
         let trial = |place: usize, outcome| judged(study, first + place, &tests[place], outcome).0;
         simulator.run_in_lockstep(desk, at_once, (&test, study.space()), stopped, trial);

@@ -153,7 +153,7 @@ fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_ove
 }
 
 #[test]
-fn the_target_of_ccrb_brakes_after_a_second_from_the_ego_vehicle_s_speed_to_2_km_h() {
+fn the_target_of_ccrb_brakes_after_three_seconds_from_the_ego_vehicle_s_speed_to_2_km_h() {
     let program = find("ncap-ccrb").unwrap();
     for (gap, deceleration) in [(12.0, 2.0), (12.0, 6.0), (40.0, 2.0), (40.0, 6.0)] {
         let changes = [("gap", Value::Number(gap)), ("deceleration", Value::Number(deceleration))];
@@ -161,7 +161,7 @@ fn the_target_of_ccrb_brakes_after_a_second_from_the_ego_vehicle_s_speed_to_2_km
         let speed = signal(&outcome, "target.speed");
         let (start, crawl) = (50.0 / 3.6, 2.0 / 3.6);
         for (tick, speed) in speed.iter().enumerate().skip(1) {
-            let expected = (start - (0.01 * tick as f64 - 1.0).max(0.0) * deceleration).max(crawl);
+            let expected = (start - (0.01 * tick as f64 - 3.0).max(0.0) * deceleration).max(crawl);
             assert!((speed - expected).abs() < 0.01 * deceleration + 1e-9, "tick {tick}: {speed}, expected {expected}");
         }
         let apart = signal(&outcome, "target.x")[0] - signal(&outcome, "car.x")[0];

@@ -1,8 +1,8 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Status, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, record, replay, run,
-    shrink, trace,
+    Failure, Status, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, perceive, record,
+    replay, run, shrink, trace,
 };
 use clap::{Parser, Subcommand};
 
@@ -21,6 +21,7 @@ Examples:
   paracosm-fuzz trace paracosm-out                   requirements by tests, and the untested rest
   paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       evaluate formulas on a recorded trace
   paracosm-fuzz record pedestrian-crossing --budget 20 --out images      labelled camera images of tests
+  paracosm-fuzz perceive highway-traffic --perceiver detector.onnx        a perception network on trial
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
 Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input or a failed run.";
@@ -104,6 +105,9 @@ enum Verb {
     /// Run a campaign and record its tests with cameras: images, masks, depths, boxes and controls
     #[command(after_help = record::EXAMPLES)]
     Record(Box<record::Options>),
+    /// Run a campaign with a perception network on trial, which sees the images of a camera
+    #[command(after_help = perceive::EXAMPLES)]
+    Perceive(Box<perceive::Options>),
     /// Show the graphics adapter of this machine, and how fast it draws
     #[command(after_help = "Example:\n  paracosm-fuzz doctor")]
     Doctor(doctor::Options),
@@ -125,6 +129,7 @@ impl Command {
             Some(Verb::Trace(options)) => options.execute(),
             Some(Verb::Monitor(options)) => options.execute(self.verbosity),
             Some(Verb::Record(options)) => options.execute(self.verbosity),
+            Some(Verb::Perceive(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
         }
     }

@@ -19,6 +19,7 @@ mod map;
 mod monitor;
 mod odd;
 mod output;
+mod perceive;
 mod progress;
 mod record;
 mod regressions;

@@ -68,7 +68,8 @@ impl Options {
         // A missing adapter is reported before a long campaign, not after it.
         let mut projector = Projector::new(cameras.nominal(), kept.outputs())?;
         let check = |study: &_| check_rates(study, cameras.nominal());
-        let conducted = self.run.conduct(verbosity, |study| cameras.open(study), check)?;
+        let conducted =
+            self.run.conduct(verbosity, |study| study.open_cameras(cameras.parameters().cloned()), check)?;
         let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
         self.record(&conducted, &dataset, &mut projector, verbosity)?;
         Ok(conducted.found)

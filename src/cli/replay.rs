@@ -8,9 +8,10 @@ use crate::engine::sensor::Cameras;
 use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
-use paracosm_campaign::cameras::{cameras_for_people, read_cameras};
+use paracosm_campaign::cameras::{VariedCameras, cameras_for_people, read_cameras};
 use paracosm_campaign::files::is_no_link;
 use paracosm_campaign::{Error, Expectation, Log, Metric, Study, Subject, Trial, Worker, write_trace};
+use paracosm_render::Look;
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::plot;
 use paracosm_report::record::Clip;
@@ -103,6 +104,7 @@ impl Options {
         self.trace.as_deref().map_or(Ok(()), |file| has_folder("--trace", file))?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
+        let look = given.as_ref().map(VariedCameras::look);
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;
         let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
         let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
@@ -130,12 +132,18 @@ impl Options {
             return Err(difference(&worker, logged, &trial).into());
         }
         if let Some(clip) = clip {
-            let clip = clip.until(stop);
-            let cameras = match given {
-                Some(cameras) => cameras,
-                None => self.through(eyes(&mut worker)?)?,
+            let (cameras, look) = match given.zip(look) {
+                Some(given) => given,
+                None => {
+                    let (cameras, look) = eyes(&mut worker)?;
+                    (self.through(cameras)?, look)
+                }
             };
-            clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
+            clip.until(stop)
+                .in_look(look)
+                .write(&mut worker, logged, &cameras)?
+                .iter()
+                .for_each(|line| verbosity.note(line));
         }
         self.write_trace(dir, &trial, trace.as_ref(), verbosity)?;
         if let Some(target) = &target {
@@ -192,10 +200,10 @@ impl Options {
     }
 }
 
-/// Returns the cameras of the driver, or a camera for people if the driver has no camera.
-fn eyes(worker: &mut Worker) -> Result<Cameras, Error> {
+/// Returns the cameras of the driver with the look of its images, or a camera for people if the driver has no camera.
+fn eyes(worker: &mut Worker) -> Result<(Cameras, Look), Error> {
     let eyes = worker.eyes()?;
-    Ok(if eyes.all.is_empty() { cameras_for_people() } else { eyes })
+    Ok(if eyes.all.is_empty() { (cameras_for_people(), Look::Textured) } else { (eyes, Look::default()) })
 }
 
 impl From<Ending> for Expectation {

@@ -114,7 +114,7 @@ fn settings_of_cameras_vary_with_the_tests_and_stand_in_the_log() {
     fs::write(dir.join("cameras.toml"), open.replace("-2..2", "2..-2")).expect("a file");
     refused(
         &fuzz(dir, &record),
-        &["cameras.toml, line 21: camera `front`: `exposure` is \"2..-2\", expected \"LO..HI\""],
+        &["cameras.toml, line 22: camera `front`: `exposure` is \"2..-2\", expected \"LO..HI\""],
     );
 }
 

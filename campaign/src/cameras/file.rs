@@ -4,7 +4,7 @@ use super::VariedCameras;
 use super::varied::middle;
 use crate::Reason;
 use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
-use paracosm_render::{CameraFlaw, NoCamera, RESOLUTION, camera_settings};
+use paracosm_render::{CameraFlaw, Look, NoCamera, RESOLUTION, UnknownLook, camera_settings};
 use paracosm_space::{Domain, Value, did_you_mean, nearest};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The keys that a file may have at its top level.
-const TOP: [&str; 2] = ["seed", "camera"];
+const TOP: [&str; 3] = ["seed", "look", "camera"];
 /// The settings that cannot vary from test to test: all images of a data set have one size, and images come at ticks.
 const ALWAYS_THE_SAME: [&str; 2] = [RESOLUTION, "rate"];
 
@@ -28,7 +28,7 @@ pub enum CameraFileFlaw {
     #[error("the file describes no camera, expected at least one table [camera.NAME]")]
     NoCamera,
     /// The file has an unknown key at its top level.
-    #[error("unknown key `{key}` in a file of cameras, expected `seed` or tables [camera.NAME]{}", did_you_mean(.nearest))]
+    #[error("unknown key `{key}` in a file of cameras, expected `seed`, `look` or tables [camera.NAME]{}", did_you_mean(.nearest))]
     TopKey {
         /// The unknown key in the file.
         key: String,
@@ -61,6 +61,9 @@ pub enum CameraFileFlaw {
         /// A description of the expected value.
         expected: String,
     },
+    /// No look has the name in the file.
+    #[error(transparent)]
+    Look(UnknownLook),
     /// A camera has an unknown key, or settings with which the camera cannot be built.
     #[error(transparent)]
     Camera(#[from] NoCamera),
@@ -89,6 +92,7 @@ pub(super) fn parse(text: &str) -> Result<VariedCameras, Flaw> {
     for (key, value) in root.get_ref() {
         match (key.get_ref().as_ref(), value.get_ref()) {
             ("seed", _) => read.seed(reader.seed(value)?),
+            ("look", _) => read = read.in_look(reader.look(value)?),
             ("camera", DeValue::Table(cameras)) => found.extend(cameras),
             ("camera", _) => return Err(reader.flaw(value, "`camera`", "tables [camera.NAME]")),
             (unknown, _) => {
@@ -139,6 +143,12 @@ impl Reader<'_> {
         let number =
             value.get_ref().as_integer().and_then(|number| u64::from_str_radix(number.as_str(), number.radix()).ok());
         number.ok_or_else(|| self.flaw(value, "`seed`", "a whole number from 0 on"))
+    }
+
+    fn look(&self, value: &Entry<'_>) -> Result<Look, Flaw> {
+        let names = Look::ALL.map(|look| format!("\"{look}\"")).join(" or ");
+        let name = value.get_ref().as_str().ok_or_else(|| self.flaw(value, "`look`", &names))?;
+        name.parse().map_err(|flaw| self.at(&value.span(), CameraFileFlaw::Look(flaw)))
     }
 
     fn camera(&self, read: &mut VariedCameras, name: &Spanned<Cow<'_, str>>, table: &Entry<'_>) -> Result<(), Flaw> {

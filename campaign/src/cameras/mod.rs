@@ -30,7 +30,8 @@ pub fn standard_cameras_file() -> String {
 
 /// Returns the cameras of the standard camera file that [`standard_cameras_file`] returns.
 pub fn standard_cameras() -> Cameras {
-    toml::from_str(&standard_cameras_file()).expect("the file that comes with the program is sound")
+    let Ok(cameras) = parse(&standard_cameras_file()) else { panic!("the file that comes with the program is sound") };
+    cameras.nominal().clone()
 }
 
 /// Returns a set of one camera at the front of the car, with images of 640 x 480 pixels for people to look at.

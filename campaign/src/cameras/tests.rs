@@ -28,13 +28,15 @@ fn files_of_cameras_say_the_line_and_the_key_what_was_found_and_what_was_expecte
         (
             "seed = 5",
             "sed = 5",
-            "2: unknown key `sed` in a file of cameras, expected `seed` or tables [camera.NAME] (did you mean `seed`?)",
+            "2: unknown key `sed` in a file of cameras, expected `seed`, `look` or tables [camera.NAME] (did you mean `seed`?)",
         ),
+        ("seed = 5", "look = \"texture\"", "2: no look is called `texture` (did you mean `textured`?)"),
+        ("seed = 5", "look = 3", "2: `look` is 3, expected \"flat\" or \"textured\""),
         ("seed = 5", "seed = -1", "2: `seed` is -1, expected a whole number from 0 on"),
         (
             "[camera.front]",
             "[cameras.front]",
-            "3: unknown key `cameras` in a file of cameras, expected `seed` or tables [camera.NAME] (did you mean `camera`?)",
+            "3: unknown key `cameras` in a file of cameras, expected `seed`, `look` or tables [camera.NAME] (did you mean `camera`?)",
         ),
         (
             "exposure",

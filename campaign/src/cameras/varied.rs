@@ -1,10 +1,10 @@
 //! Cameras with settings that vary from test to test, so that a driver that learns from recordings does not depend on
 //! them.
 
-use crate::StudyBuilder;
-use crate::study::setting_name;
+use crate::setting_names::setting_name;
 use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
-use paracosm_space::{Domain, Parameter, Value, Values};
+use paracosm_render::{Look, camera_settings};
+use paracosm_space::{Domain, Parameter, Space, Value, Values};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// A set of cameras with the settings that vary from test to test.
@@ -12,6 +12,7 @@ use xxhash_rust::xxh3::xxh3_64;
 pub struct VariedCameras {
     cameras: Cameras,
     varied: Vec<Varied>,
+    look: Look,
 }
 
 /// A setting of a camera that the tests vary.
@@ -25,11 +26,25 @@ struct Varied {
 impl From<Cameras> for VariedCameras {
     /// Makes a set of cameras whose settings are the same in all tests.
     fn from(cameras: Cameras) -> Self {
-        Self { cameras, varied: Vec::new() }
+        Self { cameras, varied: Vec::new(), look: Look::default() }
     }
 }
 
 impl VariedCameras {
+    /// Makes a set of cameras whose varied settings are those that a space has as parameters.
+    pub fn of_space(cameras: Cameras, space: &Space) -> Self {
+        let settings: Vec<CameraSetting> = camera_settings().iter().collect();
+        let varied = |parameter: &Parameter| {
+            let of =
+                |(camera, setting): (&String, &CameraSetting)| setting_name(camera, setting.name) == parameter.name;
+            let all = cameras.all.keys().flat_map(|camera| settings.iter().map(move |setting| (camera, setting)));
+            let (camera, setting) = all.into_iter().find(|pair| of(*pair))?;
+            Some(Varied { camera: camera.clone(), setting: *setting, parameter: parameter.clone() })
+        };
+        let varied = space.parameters().iter().filter_map(varied).collect();
+        Self { cameras, varied, look: Look::default() }
+    }
+
     /// Returns the cameras with each varied setting at the middle of its range, or at the first of its values.
     pub fn nominal(&self) -> &Cameras {
         &self.cameras
@@ -38,6 +53,16 @@ impl VariedCameras {
     /// Returns `true` if a setting of a camera varies from test to test.
     pub fn vary(&self) -> bool {
         !self.varied.is_empty()
+    }
+
+    /// Returns the look of the images.
+    pub fn look(&self) -> Look {
+        self.look
+    }
+
+    /// Returns the cameras with images of another look.
+    pub fn in_look(self, look: Look) -> Self {
+        Self { look, ..self }
     }
 
     /// Sets the seed of all noise.
@@ -80,9 +105,9 @@ impl VariedCameras {
         (0..most).filter_map(at).collect()
     }
 
-    /// Returns the study builder with the varied settings as parameters of the tests.
-    pub fn open(&self, study: StudyBuilder) -> StudyBuilder {
-        study.open_cameras(self.varied.iter().map(|varied| varied.parameter.clone()))
+    /// Returns the varied settings as parameters of the tests.
+    pub fn parameters(&self) -> impl Iterator<Item = &Parameter> {
+        self.varied.iter().map(|varied| &varied.parameter)
     }
 
     /// Returns the cameras with the settings of a test and with a noise seed for the test. A setting that the test does

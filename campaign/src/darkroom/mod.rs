@@ -8,7 +8,8 @@ use crate::{Error, Reason};
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Cameras, Image, Moment, Sample};
 use paracosm_render::{
-    Cast, Developer, Exposure, Frame, NoCamera, Optics, RenderError, Sight, Stage, Stages, Undrawn, WantedImages,
+    Cast, Developer, Exposure, Frame, NoCamera, Optics, RenderError, Rendering, Sight, Stage, Stages, Undrawn,
+    WantedImages,
 };
 use std::mem::take;
 use std::sync::mpsc::{Sender, channel};
@@ -96,6 +97,14 @@ impl Darkroom {
         seen.into_iter().map(images).collect()
     }
 
+    /// Draws exposures with the `wanted` images, and returns the results in the same order.
+    pub fn draw(&self, exposures: &[Exposure<'_>], wanted: WantedImages) -> Vec<Result<Rendering, Undrawn>> {
+        let sights: Vec<Sight> = exposures.iter().map(|exposure| exposure.sight(wanted)).collect();
+        let boxes: Vec<_> = sights.iter().map(Sight::boxes).collect();
+        let drawn = exposures.iter().zip(boxes).zip(self.order(sights));
+        drawn.map(|((exposure, boxes), frame)| Ok(Rendering { frame: exposure.through_lens(frame?), boxes })).collect()
+    }
+
     fn order(&self, sights: Vec<Sight>) -> Vec<Result<Frame, Undrawn>> {
         let (reply, frames) = channel();
         self.orders.lock().unwrap_or_else(PoisonError::into_inner).push(Order { sights, reply });
@@ -133,7 +142,7 @@ struct Seen<'a> {
 impl<'a> Seen<'a> {
     fn by(run: &'a Run, darkroom: &Darkroom) -> Result<Self, NoImage> {
         let optics = Optics::of(run.eyes().cameras())?;
-        let cast = darkroom.appearances.cast(run).map_err(Arc::new)?;
+        let cast = darkroom.appearances.cast(run, darkroom.stages.look()).map_err(Arc::new)?;
         let stage = darkroom.stages.of(run.network());
         Ok(Self { stage, cast, optics, moments: run.eyes().arrived().collect() })
     }

@@ -6,7 +6,7 @@
 
 mod ride;
 #[cfg(all(test, feature = "camera"))]
-mod tests;
+pub mod tests;
 
 use crate::darkroom::{Darkroom, NoImage};
 use crate::drivers::{Drivers, NoDriver};
@@ -170,8 +170,14 @@ impl<'a> Simulator<'a> {
         waiting.zip(images).for_each(|(ride, images)| ride.show(images));
     }
 
-    /// Returns the darkroom of the drivers, and opens it if necessary.
-    fn open(&mut self, cameras: &Cameras) -> Result<&Darkroom, Error> {
+    /// Returns the 3D models that replace actors in images.
+    #[cfg(feature = "camera")]
+    pub fn appearances(&self) -> &Appearances {
+        &self.appearances
+    }
+
+    /// Returns the darkroom of the drivers and of the perceiver, and opens it if necessary.
+    pub fn open(&mut self, cameras: &Cameras) -> Result<&Darkroom, Error> {
         match &mut self.darkroom {
             Some(darkroom) => Ok(darkroom),
             none => Ok(none.insert(Arc::new(Darkroom::open(cameras, &self.appearances)?))),

@@ -18,7 +18,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::Ordering;
 
 /// Whether there is something to draw with; a note where there is not, unless somebody insists.
-fn can_draw() -> bool {
+pub fn can_draw() -> bool {
     adapter::unless_missing(paracosm_render::adapter()).is_some()
 }
 

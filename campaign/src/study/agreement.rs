@@ -47,7 +47,9 @@ impl Study {
 
     /// Checks that the study states the requirements of the scenario, and that formulas of users can judge its traces.
     fn check_requirements(&self, simulation: &Simulation, declared: &Declaration) -> Result<(), EntryFlaw> {
-        for own in declared.requirements.iter().cloned().map(StatedRequirement::from) {
+        // A perceiver is not judged by the requirements on the driver.
+        let of_driver = declared.requirements.iter().filter(|_| simulation.perceiver.is_none());
+        for own in of_driver.cloned().map(StatedRequirement::from) {
             let missing = || EntryFlaw::Missing { id: own.id.clone(), scenario: simulation.scenario.clone() };
             let stated = self.requirement(&own.id).ok_or_else(missing)?;
             let formula =

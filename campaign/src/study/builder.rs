@@ -2,15 +2,23 @@
 
 use super::driver::Wish;
 use super::parameters::ParameterMisuse;
-use super::{DriverChoice, Maker, Sampling, Simulation, Study, Subject, Variation};
+use super::{DriverChoice, Maker, PerceiverChoice, Sampling, Simulation, Study, Subject, Variation};
+#[cfg(feature = "camera")]
+use crate::cameras::VariedCameras;
 use crate::{BlackBox, Error, Trust};
 use paracosm_engine::Program;
 use paracosm_engine::driver::Driver;
+#[cfg(feature = "camera")]
+use paracosm_engine::sensor::Cameras;
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_generators::Strategy;
 use paracosm_oracles::Semantics;
+#[cfg(feature = "camera")]
+use paracosm_perception::Perceiver;
 use paracosm_space::{Distribution, Domain, Parameter, Space, Value};
+use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A builder of a study, which collects the choices for the study. The methods only note the choices;
 /// [`build`](Self::build) checks them.
@@ -43,6 +51,7 @@ pub struct StudyBuilder {
     fixed: Vec<(String, Value)>,
     distributions: Vec<(String, Distribution)>,
     cameras: Vec<Parameter>,
+    perceiver: Option<PerceiverWish>,
     models: Vec<(String, String)>,
     requirements: Vec<PathBuf>,
     odd: Option<PathBuf>,
@@ -50,10 +59,23 @@ pub struct StudyBuilder {
     sampling: Sampling,
 }
 
+/// The driver that drives while a perceiver is on trial.
+const CARRIER: &str = "planner";
+
 #[derive(Debug, Clone)]
 enum Wanted {
     Scenario(Program),
     System(BlackBox, Space),
+}
+
+/// A perceiver that was asked for: the cameras with the name of the look, and a function that makes the choice.
+#[derive(Clone)]
+struct PerceiverWish(Arc<dyn Fn() -> Result<PerceiverChoice, Error> + Send + Sync>);
+
+impl fmt::Debug for PerceiverWish {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a perceiver")
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -84,6 +106,7 @@ impl StudyBuilder {
             fixed: Vec::new(),
             distributions: Vec::new(),
             cameras: Vec::new(),
+            perceiver: None,
             models: Vec::new(),
             requirements: Vec::new(),
             odd: None,
@@ -178,6 +201,41 @@ impl StudyBuilder {
         self
     }
 
+    /// Puts a perception network on trial: an ONNX file, with its description in another file. It sees the images of the
+    /// given camera. The driver, by default `planner`, only drives, and the requirements of the scenario do not count.
+    /// Without a formula, a detector has the requirement `detection`. Settings of the camera that vary become parameters
+    /// after all other open parameters.
+    #[cfg(feature = "camera")]
+    pub fn perceiver(self, file: &str, description: &str, cameras: VariedCameras) -> Self {
+        let (file, description) = (file.to_owned(), description.to_owned());
+        self.perceived(cameras, move |seen| PerceiverChoice::network(&file, &description, seen))
+    }
+
+    /// Puts a perceiver on trial that a function of this program makes, as [`perceiver`](Self::perceiver) does. Only this
+    /// program can replay its tests.
+    #[cfg(feature = "camera")]
+    pub fn own_perceiver(
+        self,
+        name: &str,
+        cameras: VariedCameras,
+        make: impl Fn() -> Box<dyn Perceiver> + Send + Sync + Clone + 'static,
+    ) -> Self {
+        let name = name.to_owned();
+        self.perceived(cameras, move |seen| Ok(PerceiverChoice::own(&name, seen, make.clone())?))
+    }
+
+    #[cfg(feature = "camera")]
+    fn perceived(
+        mut self,
+        cameras: VariedCameras,
+        choose: impl Fn((Cameras, String)) -> Result<PerceiverChoice, Error> + Send + Sync + 'static,
+    ) -> Self {
+        let seen = (cameras.nominal().clone(), cameras.look().name().to_owned());
+        self.cameras.extend(cameras.parameters().cloned());
+        self.perceiver = Some(PerceiverWish(Arc::new(move || choose(seen.clone()))));
+        self
+    }
+
     /// Replaces an actor in camera images by the 3D model in a glTF file, stretched to the actor's size. The ego
     /// vehicle is `car`; every other actor has the name that it has in traces and messages. Actors of one name, `tree`,
     /// `tree-2` and so on, look like the first actor unless they have a model of their own.
@@ -259,6 +317,15 @@ impl StudyBuilder {
             let (settings, timeout) = (&self.driver_settings, self.driver_timeout);
             simulation.driver = DriverChoice::new(&wish, settings, timeout, &simulation.scenario)?;
         }
+        if let Some(PerceiverWish(choose)) = &self.perceiver {
+            let simulation = study.subject.scenario_mut()?;
+            if self.driver.is_none() {
+                let wish = Wish::Name(CARRIER.to_owned());
+                simulation.driver = DriverChoice::new(&wish, &self.driver_settings, None, &simulation.scenario)?;
+            }
+            simulation.perceiver = Some(choose()?);
+            study.requirements.clear();
+        }
         if let Some(model) = self.vehicle {
             study.subject.scenario_mut()?.vehicle.model = model;
         }
@@ -279,6 +346,10 @@ impl StudyBuilder {
         self.odd.iter().try_for_each(|path| study.odd_of_space(path))?;
         self.requirements.iter().try_for_each(|path| study.require(path))?;
         self.specs.iter().try_for_each(|(time, formula)| study.ask(*time, formula))?;
+        if let Some(perceiver) = study.perceiver().filter(|_| study.requirements.is_empty()) {
+            let usual = perceiver.usual_requirement()?;
+            study.requirements.push(usual);
+        }
         // The strategy checks that it can do what is asked of it.
         study.generator(&[])?;
         Ok(study)

@@ -15,6 +15,7 @@ mod listed;
 mod network;
 mod odd;
 mod parameters;
+mod perceiver;
 mod requirement;
 mod requirements_file;
 mod sampling;
@@ -32,7 +33,8 @@ pub use formulas::{FormulaFlaw, SpecFlaw};
 pub use listed::ListedDriver;
 pub use network::NetworkFlaw;
 pub use odd::{Attribute, Odd, OddFlaw};
-pub use parameters::{ParameterMisuse, Variation, setting_name};
+pub use parameters::{ParameterMisuse, Variation};
+pub use perceiver::{PerceiverChoice, PerceiverFlaw};
 pub use requirement::StatedRequirement;
 pub use requirements_file::RequirementFlaw;
 pub use sampling::{Sampling, SamplingFlaw};
@@ -118,6 +120,14 @@ impl Study {
         &self.subject
     }
 
+    /// Returns the perceiver on trial; `None` if the driver or a system is on trial.
+    pub fn perceiver(&self) -> Option<&PerceiverChoice> {
+        match &self.subject {
+            Subject::Scenario(simulation) => simulation.perceiver.as_ref(),
+            Subject::System(_) => None,
+        }
+    }
+
     /// Returns the space of the open parameters, which the tests vary.
     pub fn space(&self) -> &Space {
         &self.space
@@ -171,7 +181,14 @@ impl Study {
         let Subject::Scenario(simulation) = &self.subject else { return Ok(None) };
         let (program, values) = (simulation.program()?, self.nominal()?);
         let setup = Setup { vehicle: simulation.vehicle(), ..Setup::asking_every(simulation.dt()) };
-        Ok(Some(Run::new(program, Test::new(&values, &self.space), setup)?.signals().to_vec()))
+        let mut signals = Run::new(program, Test::new(&values, &self.space), setup)?.signals().to_vec();
+        signals.extend(
+            simulation
+                .perceiver
+                .iter()
+                .flat_map(|perceiver| perceiver.task().signals().iter().map(|name| (*name).to_owned())),
+        );
+        Ok(Some(signals))
     }
 
     /// Returns a catalogue of the study's own program, for files of the same scenario. The catalogue of an external

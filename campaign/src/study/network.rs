@@ -107,7 +107,7 @@ impl Network {
     /// Reads the network for a driver's name, which is a file or a network that comes with the software.
     pub fn of(driver: &str, scenario: &str) -> Result<Self, Error> {
         let file = if driver == CLONED { cloned_for(scenario)?.name.to_owned() } else { driver.to_owned() };
-        let contents = contents(driver, &file)?;
+        let contents = contents_of(driver, &file)?;
         let network = Self { file, hash: hash(&contents), model: std::sync::OnceLock::new() };
         let _ = network.model.set(network.read(&contents)?);
         Ok(network)
@@ -116,7 +116,7 @@ impl Network {
     /// Makes a driver that the network controls.
     pub fn driver(&self, name: &str) -> Result<Box<dyn Driver>, Error> {
         if self.model.get().is_none() {
-            let contents = contents(name, &self.file)?;
+            let contents = contents_of(name, &self.file)?;
             let found = hash(&contents);
             if found != self.hash {
                 let (file, expected) = (self.file.clone(), self.hash.clone());
@@ -129,15 +129,21 @@ impl Network {
     }
 
     fn read(&self, contents: &[u8]) -> Result<paracosm_neural::Model, Error> {
-        let unfit = |error| Error::in_file(self.file.as_ref(), None, error);
-        // In a thread of this name, a panic of the library that reads networks is not printed.
-        let read = || paracosm_neural::Model::read(contents);
-        let thread = std::thread::Builder::new().name(WORKER.to_owned());
-        let read = std::thread::scope(|scope| thread.spawn_scoped(scope, read).map(|handle| handle.join()));
-        match read.map_err(Error::io("read", self.file.as_ref()))? {
-            Ok(read) => read.map_err(unfit),
-            Err(panic) => std::panic::resume_unwind(panic),
-        }
+        in_worker(&self.file, || paracosm_neural::Model::read(contents))
+    }
+}
+
+/// Reads a network in a thread in which a panic of the library that reads networks is not printed.
+#[cfg(feature = "neural")]
+pub(super) fn in_worker<T: Send>(
+    file: &str,
+    read: impl FnOnce() -> Result<T, paracosm_neural::ModelError> + Send,
+) -> Result<T, Error> {
+    let thread = std::thread::Builder::new().name(WORKER.to_owned());
+    let read = std::thread::scope(|scope| thread.spawn_scoped(scope, read).map(|handle| handle.join()));
+    match read.map_err(Error::io("read", file.as_ref()))? {
+        Ok(read) => read.map_err(|error| Error::in_file(file.as_ref(), None, error)),
+        Err(panic) => std::panic::resume_unwind(panic),
     }
 }
 
@@ -152,25 +158,31 @@ fn cloned_for(scenario: &str) -> Result<paracosm_neural::Cloned, Error> {
 }
 
 #[cfg(feature = "neural")]
-fn contents(driver: &str, file: &str) -> Result<std::borrow::Cow<'static, [u8]>, Error> {
+fn contents_of(driver: &str, file: &str) -> Result<std::borrow::Cow<'static, [u8]>, Error> {
     if driver != CLONED {
-        let there = std::fs::metadata(file).map_err(Error::io("read", file.as_ref()))?;
-        if !there.is_file() {
-            return Err(NetworkFlaw::NoFile { file: file.to_owned() }.into());
-        }
-        // A file that is too large is refused before it is read.
-        if there.len() > (paracosm_neural::MOST_MEBIBYTES as u64) << 20 {
-            let error = paracosm_neural::ModelError::from(paracosm_neural::Limit::Size);
-            return Err(Error::in_file(file.as_ref(), None, error));
-        }
-        return Ok(std::fs::read(file).map_err(Error::io("read", file.as_ref()))?.into());
+        return contents(file).map(Into::into);
     }
     let network = paracosm_neural::CLONED.iter().find(|network| network.name == file);
     let missing = || NetworkFlaw::Unknown { file: file.to_owned() };
     Ok(network.ok_or_else(missing)?.contents.into())
 }
 
+/// Reads the file of a network.
 #[cfg(feature = "neural")]
-fn hash(contents: &[u8]) -> String {
+pub(super) fn contents(file: &str) -> Result<Vec<u8>, Error> {
+    let there = std::fs::metadata(file).map_err(Error::io("read", file.as_ref()))?;
+    if !there.is_file() {
+        return Err(NetworkFlaw::NoFile { file: file.to_owned() }.into());
+    }
+    // A file that is too large is refused before it is read.
+    if there.len() > (paracosm_neural::MOST_MEBIBYTES as u64) << 20 {
+        let error = paracosm_neural::ModelError::from(paracosm_neural::Limit::Size);
+        return Err(Error::in_file(file.as_ref(), None, error));
+    }
+    std::fs::read(file).map_err(Error::io("read", file.as_ref()))
+}
+
+#[cfg(feature = "neural")]
+pub(super) fn hash(contents: &[u8]) -> String {
     format!("{:032x}", xxhash_rust::xxh3::xxh3_128(contents))
 }

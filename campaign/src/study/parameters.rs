@@ -1,14 +1,11 @@
 //! Opens and fixes the parameters of a study.
 
 use super::{Study, owned};
+use crate::setting_names::is_of_camera;
 use crate::{Error, Reason};
 use paracosm_engine::{Declared, Test};
 use paracosm_space::{Distribution, Domain, Parameter, Shape, Space, Value, Values, did_you_mean, nearest};
 use thiserror::Error;
-
-/// The prefix of the names of camera settings, for cameras that record tests. These settings vary with the tests and
-/// stand in the log, but do not belong to the world.
-const CAMERA: &str = "camera.";
 
 /// The variation of an open parameter over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,14 +69,9 @@ pub enum ParameterMisuse {
 
 impl Reason for ParameterMisuse {}
 
-/// Returns the name of the parameter that varies a setting of a camera.
-pub fn setting_name(camera: &str, setting: &str) -> String {
-    format!("{CAMERA}{camera}.{setting}")
-}
-
 /// Returns `true` if a parameter belongs to the world.
 pub(super) fn is_of_world(name: &str) -> bool {
-    !name.starts_with(CAMERA)
+    !is_of_camera(name)
 }
 
 impl Study {

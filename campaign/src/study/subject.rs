@@ -1,6 +1,6 @@
 //! The subject of a study: a scenario with a driver, or an external system.
 
-use super::{Appearances, DriverChoice, StatedRequirement};
+use super::{Appearances, DriverChoice, PerceiverChoice, StatedRequirement};
 use crate::{BlackBox, Catalogue, Error, Reason};
 use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Declaration, Program};
@@ -24,6 +24,8 @@ pub struct Simulation {
     pub(crate) vehicle: VehicleSetup,
     pub(crate) fixed: Values,
     pub(crate) driver: DriverChoice,
+    /// The perceiver on trial; `None` if the driver is on trial.
+    pub(crate) perceiver: Option<PerceiverChoice>,
     pub(crate) appearances: Appearances,
     /// True if runs ended as soon as all requirements were decided, as older versions allowed.
     pub(crate) stop_runs_early: bool,
@@ -93,7 +95,10 @@ impl Subject {
     /// Returns a short description of the system under test.
     pub fn title(&self) -> String {
         match self {
-            Self::Scenario(simulation) => format!("{}, driver {}", simulation.scenario, simulation.driver.name()),
+            Self::Scenario(simulation) => match &simulation.perceiver {
+                Some(perceiver) => format!("{}, perceiver {}", simulation.scenario, perceiver.name()),
+                None => format!("{}, driver {}", simulation.scenario, simulation.driver.name()),
+            },
             Self::System(system) => format!("system {}", system.command),
         }
     }
@@ -119,6 +124,7 @@ impl Simulation {
             vehicle: VehicleSetup::default(),
             fixed: fixed.collect(),
             driver: DriverChoice::usual(),
+            perceiver: None,
             appearances: Appearances::default(),
             stop_runs_early: false,
             dt,

@@ -17,6 +17,37 @@ pub enum Task {
     Segmentation(Segmenter),
 }
 
+/// The signals of a detector.
+const OF_DETECTORS: [&str; 9] = [
+    "perception.images",
+    "perception.objects",
+    "perception.matches",
+    "perception.misses",
+    "perception.false_alarms",
+    "perception.recall",
+    "perception.precision",
+    "perception.margin",
+    Task::UNMATCHED,
+];
+
+/// The signals of a segmentation network.
+const OF_SEGMENTERS: [&str; 4] =
+    ["perception.images", "perception.overlap", "perception.recall", "perception.precision"];
+
+impl Task {
+    /// The name of the signal with the seconds for which a road user that should be detected has had no match: the
+    /// greatest of all road users.
+    pub const UNMATCHED: &str = "perception.unmatched";
+
+    /// Returns the names of the signals that a perceiver adds to the trace of a test, in the order of their columns.
+    pub fn signals(&self) -> &'static [&'static str] {
+        match self {
+            Self::Detection(_) => &OF_DETECTORS,
+            Self::Segmentation(_) => &OF_SEGMENTERS,
+        }
+    }
+}
+
 /// The meaning of the boxes of a detector.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -10,7 +10,7 @@ use crate::plot;
 use paracosm_campaign::files::{Draft, DraftFolder, is_new};
 use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
 use paracosm_engine::sensor::{CameraSpec, Cameras};
-use paracosm_render::{Stages, WantedImages};
+use paracosm_render::{Look, Stages, WantedImages};
 use paracosm_space::plural;
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
@@ -27,6 +27,7 @@ use thiserror::Error;
 pub struct Clip {
     path: PathBuf,
     form: Form,
+    look: Look,
     stop: Arc<AtomicBool>,
 }
 
@@ -106,7 +107,12 @@ impl Clip {
         if form == Form::Images {
             is_new(path, "a film")?;
         }
-        Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
+        Ok(Self { path: path.to_owned(), form, look: Look::default(), stop: Arc::default() })
+    }
+
+    /// Returns the destination for images of another look. The default is the look of the images that drivers see.
+    pub fn in_look(self, look: Look) -> Self {
+        Self { look, ..self }
     }
 
     /// Returns the destination with a flag that, once set, stops the writing of a film, so that no file is left behind.
@@ -121,7 +127,7 @@ impl Clip {
     /// Returns an error if there is no adapter, the test is not the test that was logged, nothing was seen, or nothing
     /// can be written.
     pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
-        let film = Film::of(worker, trial, cameras, &Stages::default())?;
+        let film = Film::of(worker, trial, cameras, &Stages::in_look(self.look))?;
         let mut projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
         let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
         let mut missing = Missing::of(name, camera);

@@ -11,7 +11,7 @@ use paracosm_campaign::cameras::VariedCameras;
 use paracosm_campaign::files::{Draft, read_text, write_whole_here};
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
-use paracosm_render::{Camera, NoCamera, Stages, WantedImages, camera_settings};
+use paracosm_render::{Camera, Look, NoCamera, Stages, WantedImages, camera_settings};
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -117,6 +117,9 @@ struct Recording {
     kept: Kept,
     /// The seed of the random colours of road users; `None` if colours are not random.
     colours: Option<u64>,
+    /// The look of the images; `None` for the look of all images before there was a choice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    look: Option<String>,
     /// The cameras. A setting that tests vary has the middle of its range here; the study holds the range.
     cameras: Cameras,
 }
@@ -141,7 +144,7 @@ pub struct Dataset {
 
 impl Dataset {
     /// Opens the data set in the folder of a campaign, or begins a new data set. The tests vary the settings that
-    /// [`VariedCameras::open`] opened.
+    /// [`VariedCameras::parameters`] lists.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be written, or if it holds a data set of other cameras, outputs or
@@ -153,7 +156,8 @@ impl Dataset {
         colours: Option<u64>,
     ) -> Result<Self, Error> {
         let (file, cameras) = (folder.join(RECORDING), cameras.into());
-        let mut recording = Recording { kept, colours, cameras: cameras.nominal().clone() };
+        let look = Some(cameras.look()).filter(|look| *look != Look::default()).map(|look| look.name().to_owned());
+        let mut recording = Recording { kept, colours, look, cameras: cameras.nominal().clone() };
         camera_settings().complete(&mut recording.cameras);
         if file.exists() {
             let text = read_text(&file)?;
@@ -167,7 +171,8 @@ impl Dataset {
         } else {
             write_whole_here(&file, pretty(&recording).as_bytes())?;
         }
-        Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
+        let stages = Stages::in_look(cameras.look());
+        Ok(Self { folder: folder.to_owned(), recording, cameras, stages })
     }
 
     /// Returns `true` if the data set has the recording of a test.

@@ -65,7 +65,7 @@ impl Notes {
     fn take(&mut self, run: &Run, stages: &Stages, appearances: &Appearances) {
         if self.stage.is_none() {
             self.stage = Some(stages.of(run.network()));
-            self.cast = Some(appearances.cast(run));
+            self.cast = Some(appearances.cast(run, stages.look()));
             self.names = (0..run.bodies().len()).map(|body| run.name_of(body).to_owned()).collect();
             self.seed = run.filmed().cameras().seed;
         }

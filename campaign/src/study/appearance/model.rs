@@ -5,12 +5,12 @@ use crate::Reason;
 use paracosm_engine::Run;
 use paracosm_engine::object::Class;
 use paracosm_render::gltf::{self, GltfError};
-use paracosm_render::{Cast, Mesh, Model, Semantic};
+use paracosm_render::{Cast, Look, Mesh, Model, Semantic};
 use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
-/// A model that has been read, or that was not needed so far.
-pub(super) type Loaded = OnceLock<Arc<Model>>;
+/// The model of each look that has been read, or that was not needed so far.
+pub(super) type Loaded = [OnceLock<Arc<Model>>; Look::ALL.len()];
 
 /// The reason why a file cannot be used as the 3D model of an actor.
 #[derive(Debug, Error)]
@@ -33,11 +33,11 @@ pub enum ModelFlaw {
 impl Reason for ModelFlaw {}
 
 impl Appearances {
-    /// Returns the 3D model of each body of a run that a model replaces in images.
+    /// Returns the 3D model of each body of a run that a model replaces in images of the given look.
     ///
     /// # Errors
     /// A file can no longer be read, or has changed since the study was made.
-    pub fn cast(&self, run: &Run) -> Result<Cast, ModelFlaw> {
+    pub fn cast(&self, run: &Run, look: Look) -> Result<Cast, ModelFlaw> {
         let mut cast = Cast::new();
         if self.is_empty() {
             return Ok(cast);
@@ -45,7 +45,7 @@ impl Appearances {
         for (body, state) in run.bodies().iter().enumerate() {
             let name = run.name_of(body);
             if let Some(appearance) = self.0.get(name).or_else(|| self.0.get(first_of(name))) {
-                cast.insert(body, appearance.model(state.body.class)?);
+                cast.insert(body, appearance.model(state.body.class, look)?);
             }
         }
         Ok(cast)
@@ -56,18 +56,29 @@ impl Appearance {
     /// Reads the 3D model in a file, for an actor of the given class.
     pub fn read(file: &str, class: Class) -> Result<Self, ModelFlaw> {
         let (hash, model) = load(file, class)?;
-        Ok(Self { file: file.to_owned(), hash, loaded: OnceLock::from(model) })
+        let loaded = Look::ALL.map(|look| if look == Look::Flat { Arc::clone(&model).into() } else { OnceLock::new() });
+        Ok(Self { file: file.to_owned(), hash, loaded })
     }
 
-    fn model(&self, class: Class) -> Result<Arc<Model>, ModelFlaw> {
-        if let Some(model) = self.loaded.get() {
+    /// Returns the model of a look. The hash of the study is the hash of the flat model, without the pictures on it.
+    fn model(&self, class: Class, look: Look) -> Result<Arc<Model>, ModelFlaw> {
+        let [flat, textured] = &self.loaded;
+        if look == Look::Textured {
+            self.model(class, Look::Flat)?;
+            if let Some(model) = textured.get() {
+                return Ok(model.clone());
+            }
+            let mesh = gltf::load_in_look(&self.file, semantic(class), look)?;
+            return Ok(textured.get_or_init(|| Arc::new(Model::new(mesh))).clone());
+        }
+        if let Some(model) = flat.get() {
             return Ok(model.clone());
         }
         let (found, model) = load(&self.file, class)?;
         if found != self.hash {
             return Err(ModelFlaw::Changed { file: self.file.clone(), found, expected: self.hash.clone() });
         }
-        Ok(self.loaded.get_or_init(|| model).clone())
+        Ok(flat.get_or_init(|| model).clone())
     }
 }
 

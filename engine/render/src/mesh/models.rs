@@ -6,6 +6,7 @@ use super::garb::{GARBS, Garb, USUAL};
 use super::house::{Plan, Walls};
 use super::signs::SIGNS;
 use super::{Mesh, SurfaceKind, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
+use crate::Look;
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -21,14 +22,10 @@ pub(crate) struct Models {
     pub parked_bicycle: Arc<Mesh>,
     /// The people of the look `flat`: an adult and a child.
     pub usual: [Person; 2],
-    /// The trunks of trees, in the order of [`Look::ALL`](crate::Look::ALL).
-    pub trunks: [Arc<Mesh>; 2],
     pub pole: Arc<Mesh>,
     pub lantern: Arc<Mesh>,
     /// The meshes of the plates of traffic signs, in the order of [`PLATES`].
     pub plates: [Arc<Mesh>; 4],
-    /// The traffic signs of the look `textured`.
-    pub signs: [Arc<Mesh>; SIGNS.len()],
     pub cone: Arc<Mesh>,
     pub barrel: Arc<Mesh>,
     pub ball: Arc<Mesh>,
@@ -38,6 +35,10 @@ pub(crate) struct Models {
     people: Shelf<(usize, bool), Person>,
     /// The meshes of cars of many kinds, by kind and size in millimetres.
     cars: Shelf<(usize, [u32; 3])>,
+    /// The traffic signs of the look `textured`, by their place in [`SIGNS`].
+    signs: Shelf<usize>,
+    /// The trunks of trees, by their surface.
+    trunks: Shelf<SurfaceKind>,
     houses: Shelf<(Plan, Walls)>,
     /// The meshes of the crowns of trees, by colour; `true` for conifers.
     crowns: Shelf<(bool, Colour)>,
@@ -89,11 +90,9 @@ impl Models {
             bicycle: bicycle::bicycle().into(),
             parked_bicycle: bicycle::parked().into(),
             usual: [false, true].map(|child| Person::new(child, &USUAL)),
-            trunks: [SurfaceKind::Plain, SurfaceKind::Bark].map(|bark| plant::trunk(bark).into()),
             pole: furniture::pole().into(),
             lantern: furniture::lantern().into(),
             plates: PLATES.map(|plate| furniture::plate(plate).into()),
-            signs: SIGNS.map(|sign| sign().into()),
             cone: furniture::cone().into(),
             barrel: furniture::barrel().into(),
             ball: furniture::ball().into(),
@@ -101,6 +100,8 @@ impl Models {
             barrier: furniture::barrier().into(),
             people: Shelf::default(),
             cars: Shelf::default(),
+            signs: Shelf::default(),
+            trunks: Shelf::default(),
             houses: Shelf::default(),
             crowns: Shelf::default(),
         }
@@ -116,6 +117,21 @@ impl Models {
     pub fn car_of(&self, kind: usize, size: [f32; 3]) -> Arc<Mesh> {
         let millimetres = size.map(|metres| (1000.0 * metres).round() as u32);
         take(&self.cars, (kind, millimetres), || cars::car(kind, size).into())
+    }
+
+    /// Returns the mesh of the trunk of a tree in a look.
+    pub fn trunk(&self, look: Look) -> Arc<Mesh> {
+        let surface = match look {
+            Look::Flat => SurfaceKind::Plain,
+            Look::Textured => SurfaceKind::Bark,
+        };
+        take(&self.trunks, surface, || plant::trunk(surface).into())
+    }
+
+    /// Returns the mesh of one of [`SIGNS`], by a number that chance has chosen.
+    pub fn sign(&self, chance: usize) -> Arc<Mesh> {
+        let sign = chance % SIGNS.len();
+        take(&self.signs, sign, || SIGNS[sign]().into())
     }
 
     pub fn house(&self, plan: Plan, walls: Walls) -> Arc<Mesh> {

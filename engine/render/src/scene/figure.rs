@@ -110,7 +110,7 @@ impl<'a> Figure<'a> {
         let conifer = chance.is_multiple_of(2);
         let (wide, low) = (2.0 * CROWN[usize::from(conifer)] * height, BOUGHS[usize::from(conifer)] * height);
         scene.push(self.part(
-            &models.trunks[self.look as usize],
+            &models.trunk(self.look),
             Isometry3::identity(),
             [0.5 * length, 0.5 * width, 0.6 * height],
         ));
@@ -129,14 +129,14 @@ impl<'a> Figure<'a> {
                 [1.0; 3],
             ));
         } else {
-            let plates = match self.look {
-                Look::Flat => models.plates.as_slice(),
-                Look::Textured => models.signs.as_slice(),
+            let chance = self.chance() as usize;
+            let plate = match self.look {
+                Look::Flat => models.plates[chance % models.plates.len()].clone(),
+                Look::Textured => models.sign(chance),
             };
-            let plate = &plates[self.chance() as usize % plates.len()];
             let scale = (0.4 * height / furniture::PLATE).min(1.0);
             let up = height - furniture::PLATE * scale;
-            scene.push(self.part(plate, Isometry3::translation(0.5 * length + 0.015, 0.0, up), [scale; 3]));
+            scene.push(self.part(&plate, Isometry3::translation(0.5 * length + 0.015, 0.0, up), [scale; 3]));
         }
     }
 

@@ -134,6 +134,11 @@ impl Stages {
         Self { look, ..Self::default() }
     }
 
+    /// Returns the look of the sceneries.
+    pub fn look(&self) -> Look {
+        self.look
+    }
+
     /// Returns the drawable scenery of a road network, from the cache if possible. Tests on the same network share one
     /// stage.
     pub fn of(&self, network: &Arc<RoadNetwork>) -> Arc<Stage> {

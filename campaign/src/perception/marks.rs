@@ -1,0 +1,97 @@
+//! The marks of a perceiver: what its answer to an image is worth.
+
+use super::truth::{RoadUser, mask, road_users};
+use paracosm_engine::sensor::Moment;
+use paracosm_perception::{
+    Areas, Confusion, Criterion, Detection, Detector, Encounters, Object, Percept, Task, match_boxes, suppress,
+};
+use paracosm_render::{Camera, Rendering};
+
+/// The overlap (IoU) from which on a detection matches a road user.
+const OVERLAP: f64 = 0.5;
+
+/// The values of the signals over the images of a test.
+#[derive(Debug, Default)]
+pub(super) struct Marks {
+    encounters: Encounters,
+    /// For each image its time, and the values of the signals after the number of images.
+    images: Vec<(f64, Vec<f64>)>,
+}
+
+impl Marks {
+    /// Adds the answer to the next image.
+    pub fn add(
+        &mut self,
+        task: &Task,
+        percept: &Percept,
+        (picture, moment): (&Rendering, &Moment),
+        time: f64,
+        camera: &Camera,
+    ) {
+        let values = match (task, percept) {
+            (Task::Detection(detector), Percept::Boxes(boxes)) => {
+                let users = road_users(picture, moment, camera, detector.extent);
+                self.detected(detector, boxes, &users, time)
+            }
+            (Task::Segmentation(segmenter), Percept::Mask(answer)) => {
+                let counts = Confusion::of(answer, &mask(picture, &segmenter.is));
+                vec![counts.overlap(), counts.recall(), counts.precision()]
+            }
+            _ => return,
+        };
+        self.images.push((time, values));
+    }
+
+    fn detected(&mut self, detector: &Detector, boxes: &[Detection], users: &[RoadUser], time: f64) -> Vec<f64> {
+        let group_of = detector.groups_of_classes();
+        let found = suppress(boxes, detector.threshold, detector.overlap);
+        let (mut objects, mut matches, mut false_alarms) = (0usize, 0usize, 0usize);
+        let mut margin: f64 = 1.0;
+        let mut wanted = Vec::new();
+        for (place, group) in detector.groups.iter().enumerate() {
+            let is_meant = |user: &&RoadUser| group.is.contains(&user.kind) || group.may_be.contains(&user.kind);
+            let users: Vec<&RoadUser> = users.iter().filter(is_meant).collect();
+            let must = |user: &RoadUser| group.is.contains(&user.kind) && user.should_be_detected();
+            let truth: Vec<Object> = users
+                .iter()
+                .map(|user| Object { rect: user.rect, area: f64::from(user.pixels), crowd: !must(user) })
+                .collect();
+            let of_group = |one: &&Detection| group_of[one.class] == Some(place);
+            let detections: Vec<Detection> = found.iter().filter(of_group).copied().collect();
+            let matching = match_boxes(&truth, &detections, Criterion::Overlap(OVERLAP), Areas::ALL);
+            false_alarms += matching.objects.iter().filter(|object| object.is_none()).count();
+            for (user, detection) in users.iter().zip(&matching.detected).filter(|(user, _)| must(user)) {
+                objects += 1;
+                matches += usize::from(detection.is_some());
+                wanted.push((user.id, detection.is_some()));
+                let on_user = boxes.iter().filter(of_group).filter(|one| one.rect.overlap(&user.rect) >= OVERLAP);
+                let best = on_user.map(|one| one.score).fold(0.0, f64::max);
+                margin = margin.min(best - detector.threshold);
+            }
+        }
+        self.encounters.see(time, wanted);
+        let share = |part: usize, whole: usize| if whole == 0 { 1.0 } else { part as f64 / whole as f64 };
+        vec![
+            objects as f64,
+            matches as f64,
+            (objects - matches) as f64,
+            false_alarms as f64,
+            share(matches, objects),
+            share(matches, matches + false_alarms),
+            margin,
+            self.encounters.unmatched(time),
+        ]
+    }
+
+    /// Returns the values of the signals at a time: the number of images so far, and the values of the last image. Before
+    /// the first image nothing is missed.
+    pub fn at(&self, task: &Task, time: f64) -> Vec<f64> {
+        let taken = self.images.partition_point(|(at, _)| *at <= time + 1e-9);
+        let values = match (taken.checked_sub(1), task) {
+            (Some(last), _) => self.images[last].1.clone(),
+            (None, Task::Detection(_)) => vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0],
+            (None, Task::Segmentation(_)) => vec![1.0, 1.0, 1.0],
+        };
+        std::iter::once(taken as f64).chain(values).collect()
+    }
+}

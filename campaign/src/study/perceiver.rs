@@ -1,0 +1,236 @@
+//! The perceiver of a study: the perception network on trial, with the cameras whose images it sees.
+
+use super::StatedRequirement;
+use crate::{Error, Reason};
+use paracosm_engine::sensor::Cameras;
+use paracosm_oracles::Semantics;
+use paracosm_perception::{Perceiver, Task};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// The perceiver on trial, with its cameras.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a perceiver")]
+pub struct PerceiverChoice {
+    /// The file of the network, or the name that this program gives to its perceiver.
+    name: String,
+    /// The meaning of the answers.
+    task: Task,
+    /// The cameras; settings that the tests vary are at the middle of their ranges.
+    cameras: Cameras,
+    /// The name of the look of the images.
+    look: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    network: Option<Box<SeeingNetwork>>,
+    #[serde(skip)]
+    own: Option<Own>,
+}
+
+/// A network in an ONNX file, with its description.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SeeingNetwork {
+    /// The 128-bit XXH3 of the file.
+    hash: String,
+    /// The text of the description.
+    description: String,
+    #[cfg(feature = "neural")]
+    #[serde(skip)]
+    loaded: std::sync::OnceLock<paracosm_neural::vision::Vision>,
+}
+
+/// A function of the program that makes a perceiver.
+#[derive(Clone)]
+struct Own(Arc<dyn Fn() -> Box<dyn Perceiver> + Send + Sync>);
+
+impl fmt::Debug for Own {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a function")
+    }
+}
+
+/// The reason why a perceiver cannot be on trial.
+#[derive(Debug, Error)]
+pub enum PerceiverFlaw {
+    /// The program was built without neural networks.
+    #[error(
+        "--perceiver {file} is a network, but this program was built without networks: build it with `cargo build --release \
+         --features neural`"
+    )]
+    NotBuilt {
+        /// The file of the network.
+        file: String,
+    },
+    /// The perceiver was a function of another program.
+    #[error(
+        "the perceiver `{name}` is a function of the program that ran the campaign; only that program can run its tests"
+    )]
+    NotHere {
+        /// The name of the perceiver.
+        name: String,
+    },
+    /// The file has another number of cameras than one.
+    #[error("a perceiver sees through one camera, found {}: {}", found.len(), found.join(", "))]
+    Cameras {
+        /// The names of the cameras.
+        found: Vec<String>,
+    },
+    /// The network has changed since the campaign was run.
+    #[error("the network {file} has the hash {found}, expected {expected}: the campaign was run with another network")]
+    Changed {
+        /// The file of the network.
+        file: String,
+        /// The present hash of the file.
+        found: String,
+        /// The hash of the file when the campaign was run.
+        expected: String,
+    },
+    /// A segmentation network has no usual requirement.
+    #[error("a segmentation network needs a requirement: add a --spec about {}", signals.join(", "))]
+    NoRequirement {
+        /// The signals of the network.
+        signals: Vec<&'static str>,
+    },
+}
+
+impl Reason for PerceiverFlaw {}
+
+/// The seconds within which a vehicle has to be detected.
+const WITHIN: f64 = 0.5;
+
+impl PerceiverChoice {
+    /// Makes the choice of a perceiver that a function of this program makes.
+    pub(super) fn own(
+        name: &str,
+        (cameras, look): (Cameras, String),
+        make: impl Fn() -> Box<dyn Perceiver> + Send + Sync + 'static,
+    ) -> Result<Self, PerceiverFlaw> {
+        one_of(&cameras)?;
+        let task = make().task().clone();
+        Ok(Self { name: name.to_owned(), task, cameras, look, network: None, own: Some(Own(Arc::new(make))) })
+    }
+
+    /// Returns the name of the perceiver.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns the meaning of the answers.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Returns the camera, as a set of one camera. Settings that the tests vary are at the middle of their ranges.
+    pub fn cameras(&self) -> &Cameras {
+        &self.cameras
+    }
+
+    /// Returns the name of the look of the images.
+    pub fn look(&self) -> &str {
+        &self.look
+    }
+
+    /// Returns the requirement of a detector without other requirements, with the id `detection`.
+    pub(super) fn usual_requirement(&self) -> Result<StatedRequirement, PerceiverFlaw> {
+        if matches!(self.task, Task::Segmentation(_)) {
+            return Err(PerceiverFlaw::NoRequirement { signals: self.task.signals().to_vec() });
+        }
+        Ok(StatedRequirement {
+            id: "detection".to_owned(),
+            text: format!("Every road user that is visible to 75 % and within 40 m is matched within {WITHIN} s."),
+            formula: format!("always ({} <= {WITHIN})", Task::UNMATCHED).parse().ok(),
+            unit: "s".to_owned(),
+            scale: Some(WITHIN),
+            source: None,
+            severity: None,
+            time: Semantics::Sampled,
+            given: true,
+        })
+    }
+
+    /// Makes a new instance of the perceiver.
+    ///
+    /// # Errors
+    /// The study was read from a file, and the network does not exist or has changed, or the perceiver was a function of
+    /// another program; or this program was built without networks.
+    pub fn build(&self) -> Result<Box<dyn Perceiver>, Error> {
+        match (&self.own, &self.network) {
+            (Some(Own(make)), _) => Ok(make()),
+            (None, Some(network)) => network.build(&self.name),
+            (None, None) => Err(PerceiverFlaw::NotHere { name: self.name.clone() }.into()),
+        }
+    }
+}
+
+/// Checks that a set has one camera.
+fn one_of(cameras: &Cameras) -> Result<(), PerceiverFlaw> {
+    if cameras.all.len() == 1 {
+        return Ok(());
+    }
+    Err(PerceiverFlaw::Cameras { found: cameras.all.keys().cloned().collect() })
+}
+
+#[cfg(not(feature = "neural"))]
+impl PerceiverChoice {
+    /// Returns the error that the program was built without neural networks.
+    pub(super) fn network(file: &str, _: &str, _: (Cameras, String)) -> Result<Self, Error> {
+        Err(Error::unavailable(PerceiverFlaw::NotBuilt { file: file.to_owned() }))
+    }
+}
+
+#[cfg(not(feature = "neural"))]
+impl SeeingNetwork {
+    fn build(&self, file: &str) -> Result<Box<dyn Perceiver>, Error> {
+        Err(Error::unavailable(PerceiverFlaw::NotBuilt { file: file.to_owned() }))
+    }
+}
+
+#[cfg(feature = "neural")]
+impl PerceiverChoice {
+    /// Reads a network from an ONNX file, and its description from another file.
+    pub(super) fn network(file: &str, described: &str, (cameras, look): (Cameras, String)) -> Result<Self, Error> {
+        use paracosm_neural::vision::Description;
+        one_of(&cameras)?;
+        let path = std::path::Path::new(described);
+        let description = crate::files::read_text(path)?;
+        let read =
+            Description::parse(&description).map_err(|flaw| Error::in_file(path, flaw.line(&description), flaw))?;
+        let contents = super::network::contents(file)?;
+        let (hash, loaded) = (super::network::hash(&contents), std::sync::OnceLock::new());
+        let network = SeeingNetwork { hash, description, loaded };
+        let _ = network.loaded.set(vision(file, &contents, read.clone())?);
+        let network = Some(Box::new(network));
+        Ok(Self { name: file.to_owned(), task: read.task, cameras, look, network, own: None })
+    }
+}
+
+#[cfg(feature = "neural")]
+impl SeeingNetwork {
+    fn build(&self, file: &str) -> Result<Box<dyn Perceiver>, Error> {
+        use paracosm_neural::vision::Description;
+        if self.loaded.get().is_none() {
+            let contents = super::network::contents(file)?;
+            let found = super::network::hash(&contents);
+            if found != self.hash {
+                let (file, expected) = (file.to_owned(), self.hash.clone());
+                return Err(PerceiverFlaw::Changed { file, found, expected }.into());
+            }
+            let described =
+                Description::parse(&self.description).map_err(|flaw| Error::in_file(file.as_ref(), None, flaw))?;
+            let _ = self.loaded.set(vision(file, &contents, described)?);
+        }
+        Ok(Box::new(self.loaded.get().expect("it was just read").clone()))
+    }
+}
+
+/// Reads a network that sees.
+#[cfg(feature = "neural")]
+fn vision(
+    file: &str,
+    contents: &[u8],
+    described: paracosm_neural::vision::Description,
+) -> Result<paracosm_neural::vision::Vision, Error> {
+    super::network::in_worker(file, || paracosm_neural::vision::Vision::read(contents, described))
+}

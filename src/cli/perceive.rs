@@ -1,0 +1,58 @@
+//! `paracosm-fuzz perceive`: runs a campaign with a perception network on trial.
+
+use super::run;
+use super::usage;
+use super::{Failure, Status, Verbosity};
+use clap::Args;
+use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
+use paracosm_render::Look;
+use paracosm_report::record::check_rates;
+use std::path::PathBuf;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz perceive highway-traffic --perceiver detector.onnx --open light --open fog --strategy auto
+  paracosm-fuzz perceive grid-traffic --perceiver detector.onnx --cameras cameras.toml --k 2
+  paracosm-fuzz perceive highway-traffic --perceiver detector.onnx --spec 'always (perception.false_alarms < 3)'
+
+detector.toml beside detector.onnx describes the input and the outputs of the network (docs/perception.md).
+The driver only drives [default: planner], and its requirements do not count. Without --spec, a detector has the
+requirement `detection`: every road user that is visible to 75 % and within 40 m is matched within 0.5 s.
+Signals for formulas: perception.objects, .matches, .misses, .false_alarms, .recall, .precision, .margin, .unmatched,
+.images; of a segmentation network perception.overlap, .recall, .precision, .images.";
+
+/// The options of `perceive`.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    #[command(flatten)]
+    run: run::Options,
+    /// The network on trial. A file with the same name and the ending .toml describes it
+    #[arg(long, value_name = "MODEL.onnx")]
+    perceiver: PathBuf,
+    /// The description of the network, if it has another name
+    #[arg(long, value_name = "FILE.toml")]
+    description: Option<PathBuf>,
+    /// The camera on the ego vehicle [default: the camera of `record --print-cameras`, in the look textured]. A setting
+    /// that is a range, "LO..HI", or a list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
+    #[arg(long, value_name = "CAMERAS.toml")]
+    cameras: Option<PathBuf>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        if self.run.subject.is_system() {
+            let message = "--system: a system has no world that a camera could see; `perceive` needs a scenario";
+            return Err(usage(message.into()).into());
+        }
+        let cameras = match &self.cameras {
+            Some(path) => read_cameras(path)?,
+            None => VariedCameras::from(standard_cameras()).in_look(Look::Textured),
+        };
+        let description = self.description.clone().unwrap_or_else(|| self.perceiver.with_extension("toml"));
+        let (file, described) = (self.perceiver.to_string_lossy(), description.to_string_lossy());
+        let check = |study: &_| check_rates(study, cameras.nominal());
+        let conducted =
+            self.run.conduct(verbosity, |study| study.perceiver(&file, &described, cameras.clone()), check)?;
+        Ok(conducted.found)
+    }
+}
