@@ -186,5 +186,7 @@ mod below {
     impl Reason for paracosm_space::pict::PictError {}
     #[cfg(feature = "neural")]
     impl Reason for paracosm_neural::ModelError {}
+    #[cfg(feature = "neural")]
+    impl Reason for paracosm_neural::vision::DescriptionFlaw {}
     impl Reason for serde_json::Error {}
 }
