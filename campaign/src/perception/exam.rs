@@ -8,14 +8,16 @@ use crate::{Error, Problem, ProblemKind};
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Moment, Sample, Shutters};
 use paracosm_oracles::Trace;
-use paracosm_perception::{Perceiver, Picture};
+use paracosm_perception::{Perceiver, Percept, Picture, Task};
 use paracosm_render::{Cast, Exposure, Optics, Rendering, Stage, Stages, Undrawn, WantedImages, at_once};
 use paracosm_space::{Space, Values};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// A perceiver on trial, with its camera.
 pub(crate) struct Exam {
     perceiver: Box<dyn Perceiver>,
+    task: Task,
     cameras: VariedCameras,
     stages: Stages,
 }
@@ -37,7 +39,16 @@ impl Exam {
     pub fn new(choice: &PerceiverChoice, space: &Space) -> Result<Self, Error> {
         let look = choice.look().parse().map_err(crate::cameras::CameraFileFlaw::Look)?;
         let cameras = VariedCameras::of_space(choice.cameras().clone(), space).in_look(look);
-        Ok(Self { perceiver: choice.build()?, cameras, stages: Stages::in_look(look) })
+        let (perceiver, task) = (choice.build()?, choice.task().clone());
+        Ok(Self { perceiver, task, cameras, stages: Stages::in_look(look) })
+    }
+
+    /// Asks the perceiver for its answers to images. A panic of the perceiver ends this test alone.
+    fn ask(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, Problem> {
+        let asked = catch_unwind(AssertUnwindSafe(|| self.perceiver.perceive(pictures)));
+        let answered = asked.map_err(|panic| Problem::panicked("perceiver", panic.as_ref()))?;
+        let checked = answered.and_then(|percepts| self.task.check(pictures, &percepts).map(|()| percepts));
+        checked.map_err(|error| Problem::new(ProblemKind::Answer, error.to_string()))
     }
 
     /// Returns the cameras with the usual settings.
@@ -66,7 +77,7 @@ impl Exam {
         let cast = notes.cast.transpose().map_err(|flaw| failed(flaw.to_string()))?.unwrap_or_default();
         let optics = Optics::of(&self.cameras.of_test(test)).map_err(|flaw| failed(flaw.to_string()))?;
         let optics = optics.first().map(|optics| optics.with_seed(notes.seed));
-        let task = self.perceiver.task().clone();
+        let task = self.task.clone();
         let mut marks = Marks::default();
         if let (Some(stage), Some(optics)) = (&notes.stage, &optics) {
             let camera = &optics.camera;
@@ -97,8 +108,7 @@ impl Exam {
                         rgb: picture.frame.rgb.as_deref().unwrap_or_default(),
                     })
                     .collect();
-                let percepts = self.perceiver.perceive(&pictures);
-                let percepts = percepts.map_err(|error| Problem::new(ProblemKind::Answer, error.to_string()))?;
+                let percepts = self.ask(&pictures)?;
                 for ((sample, picture), percept) in drawn.iter().zip(&percepts) {
                     marks.add(&task, percept, (picture, &sample.reading), sample.time, camera);
                 }

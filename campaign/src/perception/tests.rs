@@ -2,13 +2,13 @@
 
 use crate::cameras::VariedCameras;
 use crate::simulator::tests::can_draw;
-use crate::study::StudyBuilder;
+use crate::study::{PerceiverChoice, StudyBuilder};
 use crate::{Campaign, Log, Study, Worker};
 use paracosm_engine::object::Body;
 use paracosm_engine::sensor::{CameraSpec, Cameras};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
 use paracosm_oracles::{Trace, Verdict};
-use paracosm_perception::{Detection, Detector, Perceiver, PerceiverError, Percept, Picture, Rect, Task};
+use paracosm_perception::{Detection, Detector, Mask, Perceiver, PerceiverError, Percept, Picture, Rect, Task};
 use std::num::NonZeroUsize;
 
 /// A red car drives ahead on an empty road.
@@ -37,6 +37,13 @@ enum Behaviour {
     Sees,
     Blind,
     Broken,
+    /// Answers with a class that the detector does not have.
+    WrongClass,
+    /// Answers fewer images than it was shown.
+    Silent,
+    /// Answers with a mask.
+    Mask,
+    Panics,
 }
 
 impl Red {
@@ -67,13 +74,19 @@ impl Perceiver for Red {
     fn perceive(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, PerceiverError> {
         let answer = |picture: &Picture<'_>| match self.behaviour {
             Behaviour::Broken => Err(PerceiverError::Pixel),
-            Behaviour::Blind => Ok(Percept::Boxes(Vec::new())),
+            Behaviour::Blind | Behaviour::Silent => Ok(Percept::Boxes(Vec::new())),
+            Behaviour::WrongClass => {
+                Ok(Percept::Boxes(vec![Detection { class: 7, score: 0.9, rect: Rect::default() }]))
+            }
+            Behaviour::Mask => Ok(Percept::Mask(Mask { width: 1, height: 1, pixels: vec![true] })),
+            Behaviour::Panics => panic!("a perceiver of a test"),
             Behaviour::Sees => {
                 let found = Self::box_of(picture).map(|rect| Detection { class: 0, score: 0.9, rect });
                 Ok(Percept::Boxes(found.into_iter().collect()))
             }
         };
-        pictures.iter().map(answer).collect()
+        let shown = if self.behaviour == Behaviour::Silent { &pictures[1..] } else { pictures };
+        shown.iter().map(answer).collect()
     }
 }
 
@@ -148,16 +161,38 @@ fn a_perceiver_that_fails_is_an_error_of_its_test() {
     if !can_draw() {
         return;
     }
-    let (trial, _) = first_of_broken();
-    assert_eq!(trial.verdict, Verdict::Error);
-    assert!(trial.error().unwrap().contains("no number"), "{:?}", trial.problem);
-}
-
-fn first_of_broken() -> (crate::Trial, Option<Trace>) {
     let seen = study(Behaviour::Sees).build().unwrap();
     let test = Campaign::new(&seen).unwrap().into_log().unwrap().trials()[0].test.clone();
-    let broken = study(Behaviour::Broken).build().unwrap();
-    Worker::new(&broken).unwrap().run(0, &test)
+    for (behaviour, said) in [
+        (Behaviour::Broken, "no number"),
+        (Behaviour::WrongClass, "a box has the class 7, expected a number below 1"),
+        (Behaviour::Silent, "expected one for each image"),
+        (Behaviour::Mask, "the answer is a mask, expected boxes"),
+        (Behaviour::Panics, "the perceiver panicked: a perceiver of a test"),
+    ] {
+        let broken = study(behaviour).build().unwrap();
+        let (trial, _) = Worker::new(&broken).unwrap().run(0, &test);
+        assert_eq!(trial.verdict, Verdict::Error, "{said}");
+        assert!(trial.error().unwrap().contains(said), "{:?}", trial.problem);
+    }
+}
+
+#[test]
+fn a_perceiver_of_a_file_has_one_camera_and_a_valid_task() {
+    let written = serde_json::to_value(study(Behaviour::Sees).build().unwrap().perceiver().unwrap()).unwrap();
+    let checked = |change: &dyn Fn(&mut serde_json::Value)| {
+        let mut changed = written.clone();
+        change(&mut changed);
+        let choice: PerceiverChoice = serde_json::from_value(changed).unwrap();
+        choice.check().unwrap_err().to_string()
+    };
+    let no_camera = checked(&|entry| entry["cameras"]["camera"] = serde_json::json!({}));
+    assert!(no_camera.contains("found 0"), "{no_camera}");
+    let threshold = checked(&|entry| entry["task"]["detection"]["threshold"] = 7.0.into());
+    assert!(threshold.contains("`threshold` is 7"), "{threshold}");
+    // The function of another program cannot be called.
+    let choice: PerceiverChoice = serde_json::from_value(written).unwrap();
+    assert!(choice.build().err().unwrap().to_string().contains("only that program can run its tests"));
 }
 
 #[test]

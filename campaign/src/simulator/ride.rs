@@ -8,7 +8,6 @@ use paracosm_engine::sensor::{Image, Shutters};
 use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use paracosm_oracles::Verdict;
-use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The index and the result of a test that is over.
@@ -44,7 +43,7 @@ impl Ride {
                 match catch_unwind(AssertUnwindSafe(seated)) {
                     Ok(Ok(run)) => ride.run = Some(run),
                     Ok(Err(outcome)) => ride.outcome = Some(Ok(*outcome)),
-                    Err(panic) => ride.outcome = Some(Err(panicked(panic.as_ref()))),
+                    Err(panic) => ride.outcome = Some(Err(Problem::panicked("run", panic.as_ref()))),
                 }
             }
             Err(error) => ride.outcome = Some(Err(error.into())),
@@ -66,7 +65,7 @@ impl Ride {
             let went = catch_unwind(AssertUnwindSafe(|| self.until_images(see)));
             self.outcome = match went {
                 Ok(outcome) => outcome.map(Ok),
-                Err(panic) => Some(Err(panicked(panic.as_ref()))),
+                Err(panic) => Some(Err(Problem::panicked("run", panic.as_ref()))),
             };
         }
     }
@@ -124,10 +123,4 @@ impl Ride {
 /// Returns `true` if a test has no usable result.
 pub(super) fn is_broken(outcome: &Result<Outcome, Problem>) -> bool {
     outcome.as_ref().map_or(true, |outcome| outcome.verdict() == Verdict::Error)
-}
-
-fn panicked(panic: &(dyn Any + Send)) -> Problem {
-    let message = panic.downcast_ref::<String>().map(String::as_str);
-    let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
-    Problem::new(ProblemKind::Panic, format!("the run panicked: {message}"))
 }

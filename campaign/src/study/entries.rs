@@ -1,6 +1,9 @@
 //! Checks a study that was read from a file, entry by entry: anybody may have changed the file.
 
-use super::{DriverFlaw, FormulaFlaw, SamplingFlaw, Simulation, StatedRequirement, Study, Subject};
+use super::{
+    DriverFlaw, FormulaFlaw, PerceiverChoice, PerceiverFlaw, SamplingFlaw, Simulation, StatedRequirement, Study,
+    Subject,
+};
 use crate::black_box::{TimeoutFlaw, checked_timeout};
 use crate::{Error, Reason};
 use paracosm_engine::vehicle::VehicleSettingFlaw;
@@ -97,6 +100,9 @@ pub enum EntryFlaw {
     /// A setting does not fit the driver.
     #[error("`driver`: {0}")]
     Driver(DriverFlaw),
+    /// The perceiver cannot be on trial.
+    #[error(transparent)]
+    Perceiver(PerceiverFlaw),
     /// A formula that a user has added cannot judge a trace of the scenario.
     #[error("the formula of requirement {id}: {flaw}")]
     Formula {
@@ -141,7 +147,10 @@ impl Study {
     /// Checks the entries of a study that was read from a file, without its program.
     pub(crate) fn check_entries(&self) -> Result<(), EntryFlaw> {
         match &self.subject {
-            Subject::Scenario(simulation) => simulation.check_numbers()?,
+            Subject::Scenario(simulation) => {
+                simulation.check_numbers()?;
+                simulation.perceiver.iter().try_for_each(PerceiverChoice::check).map_err(EntryFlaw::Perceiver)?;
+            }
             Subject::System(system) => drop(checked_timeout(Some(system.timeout))?),
         }
         let sampling = &self.sampling;

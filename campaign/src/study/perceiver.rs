@@ -4,7 +4,7 @@ use super::StatedRequirement;
 use crate::{Error, Reason};
 use paracosm_engine::sensor::Cameras;
 use paracosm_oracles::Semantics;
-use paracosm_perception::{Perceiver, Task};
+use paracosm_perception::{Perceiver, Task, TaskFlaw};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
@@ -77,6 +77,17 @@ pub enum PerceiverFlaw {
         /// The names of the cameras.
         found: Vec<String>,
     },
+    /// The meaning of the answers differs from the meaning that the perceiver states.
+    #[error(
+        "`perceiver` has another `task` than the perceiver `{name}` itself: the file was changed after the campaign"
+    )]
+    Task {
+        /// The name of the perceiver.
+        name: String,
+    },
+    /// The meaning of the answers is not valid.
+    #[error("`task` of `perceiver`: {0}")]
+    Meaning(TaskFlaw),
     /// The network has changed since the campaign was run.
     #[error("the network {file} has the hash {found}, expected {expected}: the campaign was run with another network")]
     Changed {
@@ -107,9 +118,9 @@ impl PerceiverChoice {
         (cameras, look): (Cameras, String),
         make: impl Fn() -> Box<dyn Perceiver> + Send + Sync + 'static,
     ) -> Result<Self, PerceiverFlaw> {
-        one_of(&cameras)?;
         let task = make().task().clone();
-        Ok(Self { name: name.to_owned(), task, cameras, look, network: None, own: Some(Own(Arc::new(make))) })
+        let choice = Self { name: name.to_owned(), task, cameras, look, network: None, own: Some(Own(Arc::new(make))) };
+        choice.check().map(|()| choice)
     }
 
     /// Returns the name of the perceiver.
@@ -156,10 +167,23 @@ impl PerceiverChoice {
     /// The study was read from a file, and the network does not exist or has changed, or the perceiver was a function of
     /// another program; or this program was built without networks.
     pub fn build(&self) -> Result<Box<dyn Perceiver>, Error> {
-        match (&self.own, &self.network) {
-            (Some(Own(make)), _) => Ok(make()),
-            (None, Some(network)) => network.build(&self.name),
-            (None, None) => Err(PerceiverFlaw::NotHere { name: self.name.clone() }.into()),
+        let perceiver = match (&self.own, &self.network) {
+            (Some(Own(make)), _) => make(),
+            (None, Some(network)) => network.build(&self.name)?,
+            (None, None) => return Err(PerceiverFlaw::NotHere { name: self.name.clone() }.into()),
+        };
+        if *perceiver.task() != self.task {
+            return Err(PerceiverFlaw::Task { name: self.name.clone() }.into());
+        }
+        Ok(perceiver)
+    }
+
+    /// Checks a choice that was read from a file.
+    pub(crate) fn check(&self) -> Result<(), PerceiverFlaw> {
+        one_of(&self.cameras)?;
+        match &self.task {
+            Task::Detection(detector) => detector.check().map_err(PerceiverFlaw::Meaning),
+            Task::Segmentation(_) => Ok(()),
         }
     }
 }

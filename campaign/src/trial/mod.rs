@@ -11,6 +11,7 @@ use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outco
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::{Record, Values};
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 use std::fmt;
 use std::time::Duration;
 
@@ -58,6 +59,13 @@ impl Problem {
     /// Makes a problem of the given kind with a description.
     pub fn new(kind: ProblemKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
+    }
+
+    /// Makes the problem that the run or the perceiver panicked.
+    pub(crate) fn panicked(who: &str, panic: &(dyn Any + Send)) -> Self {
+        let message = panic.downcast_ref::<String>().map(String::as_str);
+        let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+        Self::new(ProblemKind::Panic, format!("the {who} panicked: {message}"))
     }
 
     /// Makes the problem that a system did not answer in time.

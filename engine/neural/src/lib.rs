@@ -32,6 +32,8 @@
 
 #[cfg(feature = "onnx")]
 mod cloned;
+#[cfg(feature = "onnx")]
+mod error;
 #[cfg(feature = "train")]
 mod export;
 #[cfg(feature = "train")]
@@ -52,8 +54,10 @@ pub mod vision;
 #[cfg(feature = "onnx")]
 pub use cloned::{CLONED, Cloned};
 #[cfg(feature = "onnx")]
+pub use error::{AnswerError, ModelError};
+#[cfg(feature = "onnx")]
 pub use limits::{Limit, MOST_MEBIBYTES};
 #[cfg(feature = "onnx")]
-pub use model::{AnswerError, Model, ModelError};
+pub use model::Model;
 #[cfg(feature = "onnx")]
 pub use pilot::{PERIOD, Pilot, camera};

@@ -1,97 +1,17 @@
 //! Reads a network from an ONNX file and runs it in this process.
 
-use crate::limits::{Limit, MOST_MEBIBYTES, check, check_tensors};
+use crate::error::{AnswerError, ModelError};
+use crate::plan::{optimised, parsed, unreadable};
 use paracosm_engine::sensor::Image;
-use paracosm_space::did_you_mean;
-use std::io::Cursor;
 use std::panic;
 use std::sync::Arc;
-use thiserror::Error;
 use tract_onnx::prelude::{
-    DatumType, Framework, InferenceFact, InferenceModel, InferenceModelExt, IntoRunnable, IntoTValue, Tensor,
-    TractError, TypedRunnableModel, tvec,
+    DatumType, InferenceFact, InferenceModel, IntoRunnable, IntoTValue, Tensor, TractError, TypedRunnableModel, tvec,
 };
 use tract_onnx::tract_hir::infer::Factoid;
 
 /// The smallest and the greatest height and width of an image, in pixels.
 const PIXELS: (usize, usize) = (8, 1024);
-
-/// An error in a file that should contain a network that drives.
-#[derive(Debug, Error)]
-pub enum ModelError {
-    /// The file is not in the ONNX format, or has operations that are not known.
-    #[error("cannot be read as an ONNX model with operations that are supported: {source:#}")]
-    Unreadable {
-        /// The error of the ONNX reader.
-        source: TractError,
-    },
-    /// The library that reads networks gives up on the network.
-    #[error("no software writes such a network: the library that reads ONNX files gives up on it")]
-    Broken,
-    /// The network is beyond a limit.
-    #[error(transparent)]
-    Limit(#[from] Limit),
-    /// The input of a perception network is not the input that its description states.
-    #[error("the input is {found}, expected {expected}")]
-    Input {
-        /// The type and the shape of the input in the file, or the number of inputs.
-        found: String,
-        /// The input that the description states.
-        expected: String,
-    },
-    /// An output of a perception network is not the output that its description states.
-    #[error("the output `{name}` is {found}, expected {expected}")]
-    Output {
-        /// The name of the output.
-        name: String,
-        /// The shape of the output in the file.
-        found: String,
-        /// The shape that the description states.
-        expected: String,
-    },
-    /// A perception network has no output with a name of its description.
-    #[error("the network has no output `{name}`, expected some of {expected}{}", did_you_mean(.nearest))]
-    NoOutput {
-        /// The name in the description.
-        name: String,
-        /// The names of the outputs.
-        expected: String,
-        /// The most similar name.
-        nearest: Option<String>,
-    },
-    /// The inputs or outputs of the network are not the inputs and outputs of a driver.
-    #[error("{what} is {found}, expected {expected}")]
-    Shape {
-        /// The name of the wrong tensor, in words.
-        what: &'static str,
-        /// The type and shape of the tensor in the file.
-        found: String,
-        /// The type and shape that a driver needs.
-        expected: &'static str,
-    },
-}
-
-/// An error during the computation of a network's answer.
-#[derive(Debug, Error)]
-pub enum AnswerError {
-    /// The size of the image differs from the size that the network takes.
-    #[error("the image has {found} bytes, expected {expected}: three for each pixel of the network's input")]
-    ImageSize {
-        /// The number of bytes of the image.
-        found: usize,
-        /// The number of bytes that the network takes.
-        expected: usize,
-    },
-    /// The network cannot be run.
-    #[error("the network cannot be run: {source:#}")]
-    Run {
-        /// The error of the ONNX runtime.
-        source: TractError,
-    },
-    /// Steering or throttle is missing in the network's answer.
-    #[error("the network's answer has fewer than two numbers, expected steering and throttle")]
-    TooFewNumbers,
-}
 
 const IMAGE: &str = "1 x 3 x height x width, float, with height and width from 8 to 1024";
 const SPEED: &str = "1 x 1, float: the speed";
@@ -117,13 +37,7 @@ impl Model {
     }
 
     fn parse(contents: &[u8]) -> Result<Self, ModelError> {
-        let unreadable = |source: TractError| ModelError::Unreadable { source };
-        if contents.len() > MOST_MEBIBYTES << 20 {
-            return Err(Limit::Size.into());
-        }
-        let file = tract_onnx::onnx().proto_model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
-        check(&file)?;
-        let mut model = tract_onnx::onnx().model_for_proto_model(&file).map_err(unreadable)?;
+        let (_, mut model) = parsed(contents)?;
         let inputs = model.inputs.len();
         if !(1..=2).contains(&inputs) {
             let found = format!("{inputs} tensors");
@@ -143,10 +57,7 @@ impl Model {
             model.set_input_fact(1, float(&[1, 1])).map_err(unreadable)?;
         }
         model.set_input_fact(0, float(&[1, 3, height, width])).map_err(unreadable)?;
-        let model = model.into_typed().map_err(unreadable)?;
-        check_tensors(&model)?;
-        let model = model.into_optimized().map_err(unreadable)?;
-        check_tensors(&model)?;
+        let model = optimised(model)?;
         let answers = model.outputs.len();
         let answer = model.output_fact(0).map_err(unreadable)?;
         if answers != 1 || answer.datum_type != DatumType::F32 || answer.shape.as_concrete() != Some(&[1, 2]) {

@@ -1,16 +1,47 @@
 //! A network of one image and any outputs, ready to be run.
 
+use crate::error::{AnswerError, ModelError};
 use crate::limits::{Limit, MOST_MEBIBYTES, check, check_tensors};
-use crate::model::{AnswerError, ModelError};
 use paracosm_space::nearest;
 use std::io::Cursor;
 use std::panic;
 use std::sync::Arc;
+use tract_onnx::pb::ModelProto;
 use tract_onnx::prelude::{
-    DatumType, Framework, InferenceFact, InferenceModelExt, IntoRunnable, IntoTValue, Tensor, TractError,
-    TypedRunnableModel, tvec,
+    DatumType, Framework, InferenceFact, InferenceModel, InferenceModelExt, IntoRunnable, IntoTValue, Tensor,
+    TractError, TypedModel, TypedRunnableModel, tvec,
 };
 use tract_onnx::tract_hir::infer::Factoid;
+
+/// Reads the contents of an ONNX file within the limits.
+///
+/// # Errors
+/// The contents are no ONNX file, or the network is beyond a limit.
+pub(crate) fn parsed(contents: &[u8]) -> Result<(ModelProto, InferenceModel), ModelError> {
+    if contents.len() > MOST_MEBIBYTES << 20 {
+        return Err(Limit::Size.into());
+    }
+    let file = tract_onnx::onnx().proto_model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
+    check(&file)?;
+    let model = tract_onnx::onnx().model_for_proto_model(&file).map_err(unreadable)?;
+    Ok((file, model))
+}
+
+/// Prepares a network with known inputs to be run.
+///
+/// # Errors
+/// The network has operations that cannot be run, or its tensors are beyond the limit.
+pub(crate) fn optimised(model: InferenceModel) -> Result<TypedModel, ModelError> {
+    let model = model.into_typed().map_err(unreadable)?;
+    check_tensors(&model)?;
+    let model = model.into_optimized().map_err(unreadable)?;
+    check_tensors(&model)?;
+    Ok(model)
+}
+
+pub(crate) fn unreadable(source: TractError) -> ModelError {
+    ModelError::Unreadable { source }
+}
 
 /// A network that can be run. Copies share the weights.
 #[derive(Debug, Clone)]
@@ -33,15 +64,9 @@ impl Plan {
     }
 
     fn parse(contents: &[u8], input: &[usize]) -> Result<Self, ModelError> {
-        let unreadable = |source: TractError| ModelError::Unreadable { source };
-        if contents.len() > MOST_MEBIBYTES << 20 {
-            return Err(Limit::Size.into());
-        }
-        let file = tract_onnx::onnx().proto_model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
-        check(&file)?;
+        let (file, model) = parsed(contents)?;
         let names = file.graph.as_ref().map(|graph| graph.output.iter().map(|output| output.name.clone()).collect());
         let names: Vec<String> = names.unwrap_or_default();
-        let model = tract_onnx::onnx().model_for_proto_model(&file).map_err(unreadable)?;
         let expected = || {
             let sizes: Vec<String> = input.iter().map(usize::to_string).collect();
             format!("one image of {}, float", sizes.join(" x "))
@@ -60,10 +85,7 @@ impl Plan {
             return Err(ModelError::Input { found: fact.format_dt_shape(), expected: expected() });
         }
         let model = model.with_input_fact(0, InferenceFact::dt_shape(DatumType::F32, input)).map_err(unreadable)?;
-        let model = model.into_typed().map_err(unreadable)?;
-        check_tensors(&model)?;
-        let model = model.into_optimized().map_err(unreadable)?;
-        check_tensors(&model)?;
+        let model = optimised(model)?;
         let mut outputs = Vec::new();
         for (place, name) in names.into_iter().enumerate() {
             let fact = model.output_fact(place).map_err(unreadable)?;

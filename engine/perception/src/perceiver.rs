@@ -50,6 +50,30 @@ pub enum PerceiverError {
         /// The box.
         rect: Rect,
     },
+    /// The number of answers is not the number of images.
+    #[error("{found} answers to {expected} images, expected one for each image")]
+    Count {
+        /// The number of answers.
+        found: usize,
+        /// The number of images.
+        expected: usize,
+    },
+    /// A detector answers with a mask, or a segmentation network with boxes.
+    #[error("the answer is {found}, expected {expected}")]
+    Kind {
+        /// The kind of the answer, in words.
+        found: &'static str,
+        /// The kind that the task asks for, in words.
+        expected: &'static str,
+    },
+    /// A mask has another size than its image.
+    #[error("the mask has {found} pixels, expected {expected}: one for each pixel of the image")]
+    Size {
+        /// The number of pixels of the mask.
+        found: usize,
+        /// The number of pixels of the image.
+        expected: usize,
+    },
     /// A mask has a score that is no number.
     #[error("a pixel of the mask has a score that is no number")]
     Pixel,
@@ -68,6 +92,40 @@ pub trait Perceiver: Send {
     /// # Errors
     /// The perceiver has no answer to an image, or its answer is invalid.
     fn perceive(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, PerceiverError>;
+}
+
+impl Task {
+    /// Checks the answers of a perceiver to images.
+    ///
+    /// # Errors
+    /// An answer is missing, is not the kind of answer that the task asks for, does not fit its image, or has a detection
+    /// that is not valid.
+    pub fn check(&self, pictures: &[Picture<'_>], percepts: &[Percept]) -> Result<(), PerceiverError> {
+        let (found, expected) = (percepts.len(), pictures.len());
+        if found != expected {
+            return Err(PerceiverError::Count { found, expected });
+        }
+        for (picture, percept) in pictures.iter().zip(percepts) {
+            match (self, percept) {
+                (Self::Detection(detector), Percept::Boxes(boxes)) => {
+                    boxes.iter().try_for_each(|one| one.check(detector.classes.len()))?;
+                }
+                (Self::Segmentation(_), Percept::Mask(mask)) => {
+                    let (found, expected) = (mask.pixels.len(), picture.width as usize * picture.height as usize);
+                    if found != expected || mask.width != picture.width {
+                        return Err(PerceiverError::Size { found, expected });
+                    }
+                }
+                (Self::Detection(_), Percept::Mask(_)) => {
+                    return Err(PerceiverError::Kind { found: "a mask", expected: "boxes" });
+                }
+                (Self::Segmentation(_), Percept::Boxes(_)) => {
+                    return Err(PerceiverError::Kind { found: "boxes", expected: "a mask" });
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Detection {

@@ -8,7 +8,7 @@ mod tests;
 
 pub use description::{Colours, Description, DescriptionFlaw, Form, Input, Output, Resize, Unit};
 
-use crate::model::ModelError;
+use crate::error::ModelError;
 use crate::plan::Plan;
 use answer::{boxes, mask};
 use frame::{Placed, tensor};

@@ -29,7 +29,7 @@ pub(crate) enum Hair {
 pub(crate) struct Garb {
     pub cut: Cut,
     pub hairdo: Hair,
-    /// The girth of the waist, relative to that of the person as modelled.
+    /// The girth of the waist, relative to the girth of the usual person.
     pub belly: f32,
     pub skin: [f32; 3],
     pub hair: [f32; 3],

@@ -18,7 +18,7 @@
 //! | setting | source |
 //! | --- | --- |
 //! | acceleration 2 m/s² | the most that ISO 15622 lets an adaptive cruise control use at high speed |
-//! | deceleration 2 m/s², headway 1.5 s, gap 2 m | the same as those of traffic cars; Treiber et al. 2000 give 1.67 m/s², 1.6 s and 2 m for a motorway |
+//! | deceleration 2 m/s², headway 1.5 s, gap 2 m | the values of traffic cars; Treiber et al. 2000 give 1.67 m/s², 1.6 s and 2 m for a motorway |
 //! | lateral 2 m/s² | chosen: the limit that `cruise` has, too |
 //! | braking 9 m/s² | the tyres of a car hold some 0.9 g on dry asphalt |
 //! | critical_gap 5 s | Highway Capacity Manual, 6th edition, chapter 22: a critical headway of 4.98 s at a roundabout with one lane; at a stop sign it is 6.2 to 7.1 s from standstill (chapter 20) |
