@@ -10,9 +10,23 @@ pub struct Declared {
     pub parameter: Parameter,
     /// True if the parameter is open by default; a study may change this default.
     pub open: bool,
+    /// The domain that tests vary the parameter over if a study opens it and names no range; `None` for the domain of
+    /// the parameter.
+    pub opens: Option<Domain>,
 }
 
 impl Declared {
+    /// Returns the parameter as a study has it that opens it and names no range. A nominal value outside of the domain
+    /// is left out.
+    pub fn opened(&self) -> Parameter {
+        let mut parameter = self.parameter.clone();
+        if let Some(domain) = &self.opens {
+            parameter.domain = domain.clone();
+            parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
+        }
+        parameter
+    }
+
     /// Returns the nominal value of the parameter; by default the middle of an interval or the first level of a choice.
     pub fn nominal(&self) -> Value {
         self.parameter.default.clone().unwrap_or_else(|| match &self.parameter.domain {

@@ -1,6 +1,10 @@
 //! Measures how well places tell which tests fail: by the nearest test of a sample, compared with a dense map, and by
 //! simple explanations, compared with the tests themselves.
 
+use paracosm::analysis::statistics::quantile;
+use paracosm::generators::{Request, Strategy};
+use paracosm::space::Space;
+
 /// A test: its place in the unit square, and whether it failed.
 pub type Mark = ([f64; 2], bool);
 
@@ -17,9 +21,10 @@ pub struct Recovery {
 
 /// Predicts each verdict of the map from the sample's nearest test, and compares the predictions with the map.
 pub fn recovery(sample: &[Mark], map: &[Mark]) -> Recovery {
+    let sample = Sorted::of(sample.iter().copied());
     let (mut right, mut told, mut failures, mut hits) = (0, 0, 0, 0);
     for (place, fails) in map {
-        let predicted = nearest(sample, place);
+        let predicted = sample.nearest(*place, None);
         right += usize::from(predicted == *fails);
         told += usize::from(predicted);
         failures += usize::from(*fails);
@@ -29,11 +34,82 @@ pub fn recovery(sample: &[Mark], map: &[Mark]) -> Recovery {
     Recovery { accuracy: share(right, map.len()), recall: share(hits, failures), precision: share(hits, told) }
 }
 
-/// Returns whether the test nearest to a place failed. Among tests at the same distance the first counts.
-fn nearest<'a>(sample: impl IntoIterator<Item = &'a Mark>, place: &[f64; 2]) -> bool {
-    let distance = |at: &[f64; 2]| (at[0] - place[0]) * (at[0] - place[0]) + (at[1] - place[1]) * (at[1] - place[1]);
-    let nearest = sample.into_iter().min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)));
-    nearest.is_some_and(|(_, fails)| *fails)
+/// Tests in ascending order of their first coordinate, each with its index before.
+struct Sorted(Vec<(Mark, usize)>);
+
+impl Sorted {
+    fn of(tests: impl IntoIterator<Item = Mark>) -> Self {
+        let mut sorted: Vec<_> = tests.into_iter().enumerate().map(|(index, test)| (test, index)).collect();
+        sorted.sort_by(|(a, _), (b, _)| a.0[0].total_cmp(&b.0[0]));
+        Self(sorted)
+    }
+
+    /// Returns whether the test nearest to a place failed. Among tests at the same distance the first counts. The test
+    /// with the index `except` does not count.
+    ///
+    /// The search goes to both sides from the place, until the first coordinate alone is further away than the nearest
+    /// test so far.
+    fn nearest(&self, place: [f64; 2], except: Option<usize>) -> bool {
+        let start = self.0.partition_point(|(test, _)| test.0[0] < place[0]);
+        let (mut best, mut first, mut failed) = (f64::INFINITY, usize::MAX, false);
+        let mut look = |((at, fails), index): &(Mark, usize)| {
+            let (x, y) = (at[0] - place[0], at[1] - place[1]);
+            let distance = x * x + y * y;
+            if except != Some(*index) && (distance, *index) < (best, first) {
+                (best, first, failed) = (distance, *index, *fails);
+            }
+            x * x <= best
+        };
+        // `all` stops at the first test that is too far away.
+        self.0[start..].iter().all(&mut look);
+        self.0[..start].iter().rev().all(&mut look);
+        failed
+    }
+}
+
+/// The number of sets whose recalls are compared, of each strategy.
+const SETS: u64 = 400;
+
+/// How much shifted Halton sets and random sets of one size tell of a map's failures. One set says little, because the
+/// recalls of sets of one size are spread widely.
+#[derive(Debug, Clone, Copy)]
+pub struct Recalls {
+    /// The median recall of the Halton sets.
+    pub halton: f64,
+    /// The median recall of the random sets.
+    pub random: f64,
+    /// The probability that a Halton set has a larger recall than a random set. Equal recalls count as half.
+    pub better: f64,
+}
+
+impl Recalls {
+    /// Measures sets of `size` tests on a square map, whose rows follow each other. A test has the verdict of its cell.
+    pub fn on(map: &[Mark], size: usize) -> Self {
+        let side = map.len().isqrt();
+        let space = Space::unit_cube(2);
+        let recalls = |strategy: Strategy| -> Vec<f64> {
+            let sets = (0..SETS).map(|seed| {
+                let request = Request { seed: Some(seed), ..Request::new(&space, size) };
+                let points = strategy.build(&request).expect("a plain request").ask(size);
+                let verdict = |at: [f64; 2]| {
+                    let [column, row] = at.map(|share| (share * side as f64) as usize);
+                    (at, map[side * row + column].1)
+                };
+                let places = points.iter().map(|point| [point.continuous[0], point.continuous[1]]);
+                recovery(&places.map(verdict).collect::<Vec<_>>(), map).recall
+            });
+            let mut recalls: Vec<f64> = sets.collect();
+            recalls.sort_by(f64::total_cmp);
+            recalls
+        };
+        let (halton, random) = (recalls(Strategy::HALTON), recalls(Strategy::RANDOM));
+        let wins = |of: f64| {
+            let (less, most) = (random.partition_point(|r| *r < of), random.partition_point(|r| *r <= of));
+            0.5 * (less + most) as f64
+        };
+        let better = halton.iter().map(|recall| wins(*recall)).sum::<f64>() / (SETS * SETS) as f64;
+        Self { halton: quantile(&halton, 0.5), random: quantile(&random, 0.5), better }
+    }
 }
 
 /// Returns the share of tests that fail.
@@ -43,8 +119,9 @@ pub fn failing(tests: &[Mark]) -> f64 {
 
 /// Returns the share of tests whose verdict is that of the nearest other test.
 pub fn nearest_neighbour(tests: &[Mark]) -> f64 {
-    let told = |i: usize| nearest(tests[..i].iter().chain(&tests[i + 1..]), &tests[i].0) == tests[i].1;
-    (0..tests.len()).filter(|i| told(*i)).count() as f64 / tests.len() as f64
+    let sorted = Sorted::of(tests.iter().copied());
+    let told = |i: &usize| sorted.nearest(tests[*i].0, Some(*i)) == tests[*i].1;
+    (0..tests.len()).filter(told).count() as f64 / tests.len() as f64
 }
 
 /// Returns the largest share of tests that a straight line predicts right, with failing tests on one side of the line.
@@ -85,8 +162,6 @@ pub fn straight_line(tests: &[Mark]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm::generators::{Request, Strategy};
-    use paracosm::space::Space;
 
     #[test]
     fn a_straight_line_explains_what_lies_on_two_sides_and_not_what_lies_between() {
@@ -108,68 +183,57 @@ mod tests {
         assert_eq!(found, Recovery { accuracy: 0.5, recall: 0.5, precision: 0.5 });
     }
 
-    /// The recalls of 400 sets of each size on the map of Figure 9 with a network: medians of shifted Halton sets and of
-    /// random sets in percent, and the probability that a Halton set has the larger recall.
     #[test]
-    fn the_page_of_figure_9_with_a_network_has_the_recalls_of_400_shifted_halton_sets() {
+    fn the_nearest_test_is_the_one_that_a_search_of_all_tests_finds() {
+        // A coarse grid has many tests at the same distance.
+        let points = Strategy::RANDOM.build(&Request { seed: Some(7), ..Request::new(&Space::unit_cube(2), 400) });
+        let places = points
+            .unwrap()
+            .ask(400)
+            .into_iter()
+            .map(|point| [0, 1].map(|i| (16.0 * point.continuous[i]).round() / 16.0));
+        let (tests, places): (Vec<_>, Vec<_>) = places.enumerate().partition(|(i, _)| i % 2 == 0);
+        let tests: Vec<Mark> = tests.into_iter().map(|(i, at)| (at, i % 3 == 0)).collect();
+        let sorted = Sorted::of(tests.iter().copied());
+        for (_, place) in places {
+            let square = |x: f64| x * x;
+            let distance = |at: [f64; 2]| square(at[0] - place[0]) + square(at[1] - place[1]);
+            let naive = tests.iter().min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))).unwrap();
+            assert_eq!(sorted.nearest(place, None), naive.1);
+        }
+    }
+
+    /// The recalls of 400 sets of each size on both maps of Figure 9, as the pages say them.
+    #[test]
+    fn the_pages_of_figure_9_have_the_recalls_of_400_shifted_halton_sets() {
         let rows = include_str!("../data/fig9-cnn-reference.csv").lines().skip(1);
-        let map: Vec<Mark> = rows
-            .enumerate()
-            .map(|(row, line)| {
-                let share = |place: usize| (place as f64 + 0.5) / 50.0;
-                ([share(row % 50), share(row / 50)], line.contains(",fail,"))
-            })
-            .collect();
-        let space = Space::unit_cube(2);
-        let recalls = |strategy: Strategy, n: usize| -> Vec<f64> {
-            let recall = |seed: u64| {
-                let request = Request { seed: Some(seed), ..Request::new(&space, n) };
-                let points = strategy.build(&request).unwrap().ask(n).into_iter().map(|point| point.continuous);
-                let sample: Vec<Mark> = points
-                    .map(|at| {
-                        let [column, row] = [at[0], at[1]].map(|share| (share * 50.0) as usize);
-                        ([at[0], at[1]], map[50 * row + column].1)
-                    })
-                    .collect();
-                recovery(&sample, &map).recall
-            };
-            let mut recalls: Vec<f64> = (0..400).map(recall).collect();
-            recalls.sort_by(f64::total_cmp);
-            recalls
-        };
-        let percent = |recalls: &[f64]| format!("{:.0}", 50.0 * (recalls[199] + recalls[200]));
-        let better = |halton: &[f64], random: &[f64]| {
-            let wins = |h: &f64| {
-                random
-                    .iter()
-                    .map(|r| {
-                        if h > r {
-                            1.0
-                        } else if h == r {
-                            0.5
-                        } else {
-                            0.0
-                        }
-                    })
-                    .sum::<f64>()
-            };
-            format!("{:.2}", halton.iter().map(wins).sum::<f64>() / (400.0 * 400.0))
-        };
-        let found = [25, 50, 100].map(|n| {
-            let (halton, random) = (recalls(Strategy::HALTON, n), recalls(Strategy::RANDOM, n));
-            (percent(&halton), percent(&random), better(&halton, &random))
+        let verdicts = rows.enumerate().map(|(row, line)| {
+            let share = |place: usize| (place as f64 + 0.5) / 50.0;
+            ([share(row % 50), share(row / 50)], line.contains(",fail,"))
         });
-        let list = |of: fn(&(String, String, String)) -> &String| {
-            let [a, b, c] = found.each_ref().map(|found| of(found).as_str());
-            format!("{a}, {b} and {c}")
-        };
-        let page = include_str!("../fig9-cnn.md");
-        let said = [
-            format!("400 shifted Halton sets have median recalls of {} %", list(|found| &found.0)),
-            format!("400 random sets {} %", list(|found| &found.1)),
-            format!("with a probability of {}", list(|found| &found.2)),
+        let with_network: Vec<Mark> = verdicts.collect();
+        let study = crate::scenario("pedestrian-crossing").unwrap().build().unwrap();
+        let trials = crate::sampling::grid(&study, 100, &indicatif::ProgressBar::hidden()).unwrap();
+        let without = crate::sampling::marks(&study, &trials).unwrap();
+        let pages = [
+            (with_network, [25, 50, 100], include_str!("../fig9-cnn.md")),
+            (without, [25, 100, 500], include_str!("../fig9.md")),
         ];
-        let missing: Vec<&String> = said.iter().filter(|said| !page.contains(said.as_str())).collect();
-        assert!(missing.is_empty(), "expected on the page: {missing:#?}");
+        for (map, sizes, page) in pages {
+            let found = sizes.map(|size| Recalls::on(&map, size));
+            let percent = |of: fn(&Recalls) -> f64| {
+                let [a, b, c] = found.each_ref().map(|recalls| format!("{:.0}", 100.0 * of(recalls)));
+                format!("{a}, {b} and {c} %")
+            };
+            let [a, b, c] = found.each_ref().map(|recalls| format!("{:.2}", recalls.better));
+            let said = [
+                format!("400 shifted Halton sets have median recalls of {}", percent(|recalls| recalls.halton)),
+                format!("400 random sets {}", percent(|recalls| recalls.random)),
+                format!("with a probability of {a}, {b} and {c}"),
+            ];
+            let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+            let missing: Vec<&String> = said.iter().filter(|said| !page.contains(said.as_str())).collect();
+            assert!(missing.is_empty(), "expected on the page: {missing:#?}");
+        }
     }
 }

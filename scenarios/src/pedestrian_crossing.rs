@@ -3,7 +3,7 @@
 //!
 //! The pedestrian waits on the far sidewalk, starts when the car is nearer than `distance`, crosses both lanes at
 //! `speed`, and stops on the near sidewalk. With `side` = near the pedestrian walks the other way. As in the paper, the
-//! pedestrian has the speed at once. `acceleration=0.96..1.65` opens realistic accelerations: in the protocols of Euro
+//! pedestrian has the speed at once. `--open acceleration` varies realistic accelerations: in the protocols of Euro
 //! NCAP, an adult reaches 5 km/h within 1 m, with 0.96 m/s², and 8 km/h within 1.5 m, with 1.65 m/s². The car comes at
 //! 60 km/h. From the far side the driver has time to see the pedestrian. Whether it brakes early enough therefore depends
 //! on both parameters, and a slow pedestrian can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait
@@ -32,7 +32,7 @@ fn pedestrian_crossing(s: &mut Scenario) {
     let zebra = s.nominal_choice("zebra", [0, 1], 0).incidental();
     let side = s.nominal_choice("side", ["far", "near"], "far");
     // With 1,000 m/s² every speed is reached within a tick.
-    let acceleration = s.nominal("acceleration", 0.5..=1000.0, 1000.0).unit("m/s²");
+    let acceleration = s.nominal("acceleration", 0.5..=1000.0, 1000.0).opens(0.96..=1.65).unit("m/s²");
 
     s.place(weather);
     let road = RoadSegment::new(800.0).lanes(lanes.value());

@@ -138,7 +138,8 @@ fn widths(declaration: &Declaration) -> [usize; 3] {
 fn scenario_words(declared: &Declared) -> [String; 4] {
     let Parameter { name, domain, unit, .. } = &declared.parameter;
     let nominal = if declared.open { "open".to_owned() } else { value_words(&declared.nominal()) };
-    [name.clone(), domain_words(domain), unit.clone().unwrap_or_default(), nominal]
+    let opened = declared.opens.as_ref().map(|opened| format!(", opened {}", domain_words(opened)));
+    [name.clone(), domain_words(domain) + &opened.unwrap_or_default(), unit.clone().unwrap_or_default(), nominal]
 }
 
 fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failure> {
@@ -161,7 +162,10 @@ fn scenario(program: &Program) -> Result<serde_json::Value, Failure> {
     let parameters = program.declare()?.parameters;
     let parameters: Vec<_> = parameters
         .iter()
-        .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
+        .map(|declared| {
+            json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal(),
+                "opened": declared.opened()})
+        })
         .collect();
     Ok(json!({"name": program.name(), "about": program.about(), "parameters": parameters}))
 }

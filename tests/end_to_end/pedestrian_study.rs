@@ -1,6 +1,7 @@
 //! The default study is worth looking at: its map has failures, the driver makes a difference, and no straight
 //! line explains it. The analysis is written here, apart from the code that draws the maps.
 
+use paracosm::space::Domain;
 use paracosm::{Campaign, Study, Trial};
 
 /// A test in the unit square with whether it failed.
@@ -76,4 +77,17 @@ fn the_default_map_has_failures_that_the_driver_lessens_and_no_straight_line_exp
     assert!(failing(&aeb) < failing(&cruise), "aeb {}, cruise {}", failing(&aeb), failing(&cruise));
     let (neighbour, line) = (nearest_neighbour(&aeb), straight_line(&aeb));
     assert!(neighbour >= line + 0.05, "nearest neighbour {neighbour}, straight line {line}");
+}
+
+#[test]
+fn an_opened_acceleration_has_the_realistic_values_and_a_named_range_wins() {
+    let study = || Study::of(paracosm::catalogue().find("pedestrian-crossing").unwrap());
+    let opened = |study: paracosm::StudyBuilder| {
+        let study = study.build().unwrap();
+        let parameter = study.space().find("acceleration").unwrap().clone();
+        (parameter.domain.to_string(), parameter.default)
+    };
+    assert_eq!(opened(study().open("acceleration")), ("0.96..1.65".to_owned(), None));
+    let named = study().open_over("acceleration", Domain::Interval { lo: 1.0, hi: 1000.0 });
+    assert_eq!(opened(named), ("1..1000".to_owned(), Some(1000.0.into())));
 }

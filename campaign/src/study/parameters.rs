@@ -79,7 +79,7 @@ impl Study {
     pub(super) fn open(&mut self, name: &str, over: Option<&Domain>) -> Result<(), Error> {
         let parameter = match over {
             Some(domain) => self.over(name, domain)?,
-            None => self.declared(name)?,
+            None => self.find_declared(name)?.opened(),
         };
         let fixed = &mut self.subject.scenario_mut()?.fixed;
         *fixed = fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
@@ -155,7 +155,10 @@ impl Study {
             test.set(name, value.clone());
         }
         for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {
-            test.set(parameter.name.as_str(), Declared { parameter: parameter.clone(), open: true }.nominal());
+            test.set(
+                parameter.name.as_str(),
+                Declared { parameter: parameter.clone(), open: true, opens: None }.nominal(),
+            );
         }
         Ok(test)
     }
@@ -171,6 +174,10 @@ impl Study {
     }
 
     pub(super) fn declared(&self, name: &str) -> Result<Parameter, Error> {
+        Ok(self.find_declared(name)?.parameter)
+    }
+
+    fn find_declared(&self, name: &str) -> Result<Declared, Error> {
         let simulation = self.subject.scenario()?;
         let declared = simulation.program()?.declare()?.parameters;
         let found = declared.iter().find(|declared| declared.parameter.name == name);
@@ -180,6 +187,6 @@ impl Study {
             let scenario = simulation.scenario.clone();
             ParameterMisuse::Unknown { scenario, name: name.to_owned(), nearest, all }
         };
-        Ok(found.ok_or_else(unknown)?.parameter.clone())
+        Ok(found.ok_or_else(unknown)?.clone())
     }
 }

@@ -21,7 +21,7 @@ impl VehicleKind {
         name: "car",
         class: Class::Car,
         size: [4.5, 1.8, 1.45],
-        source: "between a VW Golf VIII (4.284 m, 1.789 m, 1.491 m) and a BMW 3 Series G20 (4.709 m, 1.827 m, 1.442 m)",
+        source: "between a VW Golf VIII (4.284 m, 1.789 m, 1.456 m) and a BMW 3 Series G20 (4.709 m, 1.827 m, 1.442 m)",
     };
     /// A panel van.
     pub const VAN: Self = Self {

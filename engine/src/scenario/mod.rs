@@ -165,7 +165,7 @@ impl Scenario {
         parameter.default = nominal;
         // A name that the test does not know is reported once the program has returned, together with all the others.
         let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(Declared { parameter, open });
+        self.parameters.borrow_mut().push(Declared { parameter, open, opens: None });
         Param::new(self, given.unwrap_or_default(), read)
     }
 

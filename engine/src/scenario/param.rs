@@ -8,9 +8,10 @@ use super::Scenario;
 use crate::flaw::{Flaws, WorldFlaw};
 use crate::stream::{Datum, DatumSample, NodeKind, Stream, samples};
 use crate::test::{Declared, entry};
-use paracosm_space::{Shape, Value};
+use paracosm_space::{Domain, Shape, Value};
 use std::cell::{Cell, RefCell};
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::rc::Rc;
 
 /// A parameter with the value that the test gives the parameter. `T` is the type of its values: a number, a word, or
@@ -87,6 +88,14 @@ impl<T: Clone> Param<T> {
     /// closes it. For a signal, it is a list with a value for each coordinate, or one value for all.
     pub fn default(self, value: impl Into<Value>) -> Self {
         self.declared.borrow_mut()[self.index].parameter.default = Some(value.into());
+        self
+    }
+
+    /// Sets the interval that tests vary a closed parameter over if a study opens it and names no range. It is a part of
+    /// the parameter's domain, for example the realistic values.
+    pub fn opens(self, range: RangeInclusive<f64>) -> Self {
+        let (lo, hi) = range.into_inner();
+        self.declared.borrow_mut()[self.index].opens = Some(Domain::Interval { lo, hi });
         self
     }
 
