@@ -1,6 +1,6 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
-use crate::analysis::{Coverage, Explanation, LocatedReport, Modes, Promise, Summary, SuspectReport};
+use crate::analysis::{Coverage, Explanation, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport};
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
 };
@@ -76,6 +76,8 @@ pub struct Report {
     pub located: Option<LocatedReport>,
     /// The failure modes of the campaign.
     pub modes: Modes,
+    /// The results of the perceiver on trial; `None` if no perceiver is on trial.
+    pub perceived: Option<Perceived>,
     /// The explanation of the failures in words, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
     /// The coverage guarantee of random rows of discrete values, or `None` if rows are not random, or if the campaign
@@ -105,6 +107,7 @@ impl Report {
         put(&self.coverage)?;
         self.map.iter().try_for_each(|map| put(&MapFiles::Failures(map)))?;
         put(&self.modes)?;
+        self.perceived.iter().try_for_each(|perceived| put(perceived))?;
         self.explanation.iter().try_for_each(|explanation| put(explanation))?;
         self.located.iter().try_for_each(|located| put(located))?;
         self.junit.iter().try_for_each(|junit| put(junit))
@@ -124,6 +127,7 @@ impl Report {
             suspects: if has_levels { SuspectReport::of(&log)? } else { None },
             located: None,
             modes: Modes::of(&log),
+            perceived: Perceived::of(&log),
             explanation: Explanation::of(&log)?,
             // Rows that were not run promise nothing.
             promise: if finish == Finish::Stopped { None } else { Promise::of_campaign(&log)? },

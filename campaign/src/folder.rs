@@ -24,13 +24,14 @@ use thiserror::Error;
 /// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
 /// The names of the files that hold results derived from the trials of a campaign.
-pub const DERIVED: [&str; 13] = [
+pub const DERIVED: [&str; 14] = [
     "trials.csv",
     "coverage.json",
     "failure-map.svg",
     "failure-map.png",
     "failure-map.csv",
     "modes.json",
+    "perception.json",
     "explanation.json",
     "located.json",
     "blame.json",

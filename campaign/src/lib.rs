@@ -20,6 +20,7 @@ mod black_box;
 pub mod cameras;
 mod campaign;
 mod catalogue;
+mod conversation;
 #[cfg(feature = "camera")]
 pub mod darkroom;
 #[cfg(not(feature = "camera"))]
@@ -82,11 +83,12 @@ pub use worker::Worker;
 
 /// The error types that [`Error::Use`] and [`BadFile`] hold as reasons.
 pub mod reasons {
-    pub use crate::black_box::{AnswerFlaw, NoSystem, NotStarted, TimeoutFlaw};
+    pub use crate::black_box::{AnswerFlaw, NoSystem, TimeoutFlaw};
     #[cfg(feature = "camera")]
     pub use crate::cameras::CameraFileFlaw;
     pub use crate::campaign::ForeignTrial;
     pub use crate::catalogue::UnknownScenario;
+    pub use crate::conversation::NotStarted;
     pub use crate::darkroom::Blind;
     pub use crate::drivers::{DriverAway, NoDriver};
     pub use crate::error::CsvFlaw;

@@ -64,12 +64,12 @@ impl<'a> Worker<'a> {
     /// test reports the error.
     pub fn beside(study: &'a Study, stop: Arc<AtomicBool>, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
         study.check_trust()?;
+        #[cfg(feature = "camera")]
+        let exam = study.perceiver().map(|choice| Exam::new(choice, study.space(), stop.clone())).transpose()?;
         let bench = match study.subject() {
             Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
             Subject::System(system) => Bench::System(Connection::new(system, stop)?),
         };
-        #[cfg(feature = "camera")]
-        let exam = study.perceiver().map(|choice| Exam::new(choice, study.space())).transpose()?;
         #[cfg(not(feature = "camera"))]
         if study.perceiver().is_some() {
             return Err(Error::unavailable(WithoutCameras));
@@ -173,9 +173,9 @@ impl<'a> Worker<'a> {
         // The requirements of the scenario judge the driver, who is not on trial.
         (trial.verdict, trial.judgements) = (Verdict::Pass, Vec::new());
         match exam.judge(notes, test, darkroom, &trace) {
-            Ok(trace) => {
+            Ok((trace, metrics)) => {
                 judge(&mut trial, study.given(), &trace);
-                (trial, Some(trace))
+                (trial.with_metrics(metrics), Some(trace))
             }
             Err(problem) => broken(problem),
         }

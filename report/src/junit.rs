@@ -202,12 +202,14 @@ pub fn shell_word(word: &str) -> String {
     }
 }
 
-/// Returns the option that repeats the command of a study, after a space, or the option that trusts the address of its
-/// driver. The text is empty if the study has neither. Without the option, the programs do not run the command that a
-/// folder or a file names, and send nothing to the address.
+/// Returns the options that repeat the commands of a study, each after a space, or the option that trusts the address of
+/// its driver. The text is empty if the study has neither. Without the options, the programs do not run the commands that
+/// a folder or a file names, and send nothing to the address.
 pub fn command_option(study: &Study) -> String {
-    let named = study.command().map(|named| format!(" {} {}", named.option, shell_word(named.command)));
-    named.or_else(|| study.address().map(|_| " --trust".to_owned())).unwrap_or_default()
+    if study.address().is_some() {
+        return " --trust".to_owned();
+    }
+    study.commands().iter().map(|named| format!(" {} {}", named.option, shell_word(named.command))).collect()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::run;
 use super::usage;
 use super::{Failure, Status, Verbosity};
 use clap::Args;
+use paracosm_campaign::StudyBuilder;
 use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
 use paracosm_render::Look;
 use paracosm_report::record::check_rates;
@@ -12,7 +13,7 @@ use std::path::PathBuf;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz perceive highway-traffic --perceiver detector.onnx --open light --open fog --strategy auto
-  paracosm-fuzz perceive grid-traffic --perceiver detector.onnx --cameras cameras.toml --k 2
+  paracosm-fuzz perceive grid-traffic --perceiver-command 'python3 my_detector.py' --cameras cameras.toml --k 2
   paracosm-fuzz perceive highway-traffic --perceiver detector.onnx --spec 'always (perception.false_alarms < 3)'
 
 detector.toml beside detector.onnx describes the input and the outputs of the network (docs/perception.md).
@@ -27,11 +28,18 @@ pub(super) struct Options {
     #[command(flatten)]
     run: run::Options,
     /// The network on trial. A file with the same name and the ending .toml describes it
-    #[arg(long, value_name = "MODEL.onnx")]
-    perceiver: PathBuf,
+    #[arg(long, value_name = "MODEL.onnx", required_unless_present = "perceiver_command")]
+    perceiver: Option<PathBuf>,
     /// The description of the network, if it has another name
-    #[arg(long, value_name = "FILE.toml")]
+    #[arg(long, value_name = "FILE.toml", requires = "perceiver")]
     description: Option<PathBuf>,
+    /// Put your own perceiver on trial: a command that starts a program, which gets images on its standard input and
+    /// answers on its standard output. Each worker starts the command once
+    #[arg(long, value_name = "COMMAND", conflicts_with = "perceiver")]
+    perceiver_command: Option<String>,
+    /// The time limit for an answer of the perceiver [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "perceiver_command")]
+    perceiver_timeout: Option<f64>,
     /// The camera on the ego vehicle [default: the camera of `record --print-cameras`, in the look textured]. A setting
     /// that is a range, "LO..HI", or a list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
     #[arg(long, value_name = "CAMERAS.toml")]
@@ -48,11 +56,21 @@ impl Options {
             Some(path) => read_cameras(path)?,
             None => VariedCameras::from(standard_cameras()).in_look(Look::Textured),
         };
-        let description = self.description.clone().unwrap_or_else(|| self.perceiver.with_extension("toml"));
-        let (file, described) = (self.perceiver.to_string_lossy(), description.to_string_lossy());
         let check = |study: &_| check_rates(study, cameras.nominal());
-        let conducted =
-            self.run.conduct(verbosity, |study| study.perceiver(&file, &described, cameras.clone()), check)?;
+        let conducted = self.run.conduct(verbosity, |study| self.seen(study, cameras.clone()), check)?;
         Ok(conducted.found)
+    }
+
+    /// Puts the perceiver of the options on trial.
+    fn seen(&self, study: StudyBuilder, cameras: VariedCameras) -> StudyBuilder {
+        match (&self.perceiver, &self.perceiver_command) {
+            (Some(network), _) => {
+                let description = self.description.clone().unwrap_or_else(|| network.with_extension("toml"));
+                study.perceiver(&network.to_string_lossy(), &description.to_string_lossy(), cameras)
+            }
+            (None, Some(command)) => study.perceiver_command(command, self.perceiver_timeout, cameras),
+            // The options require one of the two.
+            (None, None) => study,
+        }
     }
 }

@@ -7,7 +7,7 @@ use crate::Report;
 use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
-use paracosm_analysis::{Judged, Modes};
+use paracosm_analysis::{Judged, Modes, RangeRecall, Segmented};
 use paracosm_campaign::{Extension, ExtensionRecord, Finish, Number, Study, Trial};
 use paracosm_report::{command_option, shell_word};
 use serde_json::json;
@@ -73,6 +73,7 @@ impl Printed<'_> {
                 table.row("  measured", &format!("{} of {} covered", measured.covered, measured.valid));
             }
         }
+        self.show_perceived(&mut table);
         suspects::show(&mut table, self.report, self.locate);
         self.show_modes(&mut table);
         if let Some(explanation) = &self.report.explanation {
@@ -153,6 +154,9 @@ impl Printed<'_> {
         if study.sampling().stop_at_first {
             printed["stopped_at_first"] = self.stopped().into();
         }
+        if let Some(perceived) = &self.report.perceived {
+            printed["perception"] = json!(perceived);
+        }
         printed["modes"] = json!(self.report.modes.modes);
         printed
     }
@@ -192,6 +196,32 @@ impl Printed<'_> {
     /// Returns true if the first failing test has ended the campaign.
     fn stopped(&self) -> bool {
         self.report.finish == Finish::Stopped
+    }
+
+    /// Adds the results of the perceiver to the table.
+    fn show_perceived(&self, table: &mut Table) {
+        let Some(perceived) = &self.report.perceived else { return };
+        table.row("images", &perceived.images.to_string());
+        if let Some(Segmented { overlap, recall, precision }) = &perceived.segmentation {
+            let [overlap, recall, precision] = [overlap, recall, precision].map(|share| percent(*share));
+            table.row("pixels", &format!("overlap (IoU) {overlap}, recall {recall}, precision {precision}"));
+        }
+        if let Some(detected) = &perceived.detection {
+            let recall = detected.recall.map_or("none".to_owned(), percent);
+            let alarms = format!("{:.2}", detected.false_alarms_per_image);
+            table.row(
+                "recall",
+                &format!(
+                    "{recall} of {}, false alarms an image {alarms}",
+                    plural(detected.objects as usize, "road user")
+                ),
+            );
+            table.row("encounters", &detected.encounters_in_words());
+            for (i, RangeRecall { words, objects, matches, .. }) in detected.ranges.iter().enumerate() {
+                let share = percent(*matches as f64 / *objects as f64);
+                table.row(if i == 0 { "recall by" } else { "" }, &format!("{words}: {share} of {objects}"));
+            }
+        }
     }
 
     /// Adds the failure modes to the table.

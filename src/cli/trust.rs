@@ -12,6 +12,9 @@ pub(super) struct Options {
     /// Run this command, if the folder or the file names it as the command of its driver
     #[arg(long, value_name = "COMMAND")]
     driver_command: Option<String>,
+    /// Run this command, if the folder or the file names it as the command of its perceiver
+    #[arg(long, value_name = "COMMAND")]
+    perceiver_command: Option<String>,
     /// Run the commands that the folder or the file names
     #[arg(long)]
     trust: bool,
@@ -21,6 +24,6 @@ impl Options {
     /// Returns the trust that the options state.
     pub fn trust(&self) -> Trust {
         let trust = if self.trust { Trust::all() } else { Trust::NOTHING };
-        [&self.system, &self.driver_command].into_iter().flatten().fold(trust, Trust::command)
+        [&self.system, &self.driver_command, &self.perceiver_command].into_iter().flatten().fold(trust, Trust::command)
     }
 }

@@ -1,6 +1,7 @@
 //! The library does all that the program does: a campaign that is run by a few lines of Rust leaves the same folder.
 
 use crate::common::{fuzz, succeeds};
+use crate::perceivers::runs_blind;
 use paracosm::campaign::{DERIVED, Extension};
 use paracosm::generators::Strategy;
 use paracosm::{Campaign, Folder, Study, catalogue};
@@ -40,7 +41,13 @@ fn every_file_of_a_campaign_is_its_own_and_every_name_of_its_own_is_written_by_s
     let open = ["--budget", "120", "--open", "lanes=2,4,6", "--open", "zebra", "--locate", "--junit"];
     succeeds(fuzz(dir.path(), &[&open[..], &["--out", "out", "-q"]].concat()));
     succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
-    let written = contents(&dir.path().join("out"));
+    let mut written = contents(&dir.path().join("out"));
+    let perceived = tempfile::tempdir().unwrap();
+    if runs_blind(perceived.path()) {
+        written.extend(contents(&perceived.path().join("out")));
+    } else {
+        written.insert("perception.json".to_owned(), Vec::new());
+    }
     for name in written.keys() {
         assert!(Folder::owns(OsStr::new(name)), "{name} is not known as a campaign's own");
     }

@@ -32,6 +32,7 @@ mod networks;
 #[cfg(unix)]
 mod outputs;
 mod pedestrian_study;
+mod perceivers;
 mod pict;
 mod pictures;
 mod plan;

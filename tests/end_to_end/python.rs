@@ -7,13 +7,13 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 /// The folder of the package.
-fn package() -> &'static Path {
+pub fn package() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python"))
 }
 
 /// A command that starts Python with this script and the package, as it is in this tree. None, with a note, where there
 /// is no Python with what the package needs, unless somebody insists.
-fn python(script: &Path) -> Option<String> {
+pub fn python(script: &Path) -> Option<String> {
     let needs = "import google.protobuf, grpc, numpy, sys; assert sys.version_info >= (3, 10)";
     let has = |name: &&str| Command::new(name).args(["-c", needs]).output().is_ok_and(|output| output.status.success());
     let Some(name) = ["python3", "python"].into_iter().find(has) else {

@@ -3,7 +3,7 @@
 //! The question is `{"index":3,"test":{"throttle":[0.1,0.9],"brake":0}}`. The answer is a trace
 //! (`{"index":3,"trace":{"time":[0,0.1],"speed":[0,0.2]}}`), the robustness of requirements
 //! (`{"index":3,"robustness":{"stays-below":0.4}}`, negative if a requirement is violated), or an error
-//! (`{"index":3,"error":"diverged"}`). `answer.rs` checks the answers, and `conversation.rs` talks to a process.
+//! (`{"index":3,"error":"diverged"}`). `answer.rs` checks the answers, and `conversation.rs` of the crate talks to a process.
 //!
 //! A process that does not answer, gives a wrong answer or ends is killed with everything that it started. An error
 //! counts against a test only if the process was new: an error in a process that answered before may be due to earlier
@@ -11,14 +11,12 @@
 //! answers depend only on the test thus gives the same trials for any number of workers.
 
 mod answer;
-mod conversation;
 
 pub use answer::{Answer, AnswerFlaw};
-pub use conversation::NotStarted;
 
+use crate::conversation::Process;
 use crate::process::{self, CommandFlaw};
 use crate::{Error, Problem, ProblemKind, Reason};
-use conversation::Process;
 use paracosm_space::Values;
 use serde::Serialize;
 use std::sync::Arc;
@@ -34,6 +32,9 @@ pub struct BlackBox {
     /// The time that the system may take to answer, in seconds.
     pub timeout: f64,
 }
+
+/// The role of the process in messages.
+const ROLE: &str = "system";
 
 /// The default time-out of an answer, in seconds.
 const TIMEOUT: f64 = 60.0;
@@ -112,7 +113,7 @@ impl Connection {
     /// The process cannot be started, for example because the program does not exist.
     pub fn start(&mut self) -> Result<(), Error> {
         if self.process.is_none() {
-            self.process = Some(Process::start(&self.words).map_err(Error::unavailable)?);
+            self.process = Some(Process::start(&self.words, ROLE).map_err(Error::unavailable)?);
         }
         Ok(())
     }
@@ -132,9 +133,8 @@ impl Connection {
     fn ask_process(&mut self, index: usize, question: &[u8]) -> Result<Answer, Problem> {
         let mut process = match self.process.take() {
             Some(process) => process,
-            None => {
-                Process::start(&self.words).map_err(|error| Problem::new(ProblemKind::Process, error.to_string()))?
-            }
+            None => Process::start(&self.words, ROLE)
+                .map_err(|error| Problem::new(ProblemKind::Process, error.to_string()))?,
         };
         let asked = Instant::now();
         let read = |line: String| {

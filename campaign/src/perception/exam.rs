@@ -4,15 +4,17 @@ use super::marks::Marks;
 use crate::cameras::VariedCameras;
 use crate::darkroom::Darkroom;
 use crate::study::{Appearances, ModelFlaw, PerceiverChoice};
+use crate::trial::Metric;
 use crate::{Error, Problem, ProblemKind};
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Moment, Sample, Shutters};
 use paracosm_oracles::Trace;
-use paracosm_perception::{Perceiver, Percept, Picture, Task};
+use paracosm_perception::{Perceiver, PerceiverError, Percept, Picture, Task};
 use paracosm_render::{Cast, Exposure, Optics, Rendering, Stage, Stages, Undrawn, WantedImages, at_once};
 use paracosm_space::{Space, Values};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A perceiver on trial, with its camera.
 pub(crate) struct Exam {
@@ -32,14 +34,15 @@ pub(crate) struct Notes {
 }
 
 impl Exam {
-    /// Makes the trial of a perceiver over a space, which may vary settings of the camera.
+    /// Makes the trial of a perceiver over a space, which may vary settings of the camera. A perceiver in a process of
+    /// its own is waited for until `stop` is set.
     ///
     /// # Errors
     /// The perceiver cannot be made, or the study of a file has a look that does not exist.
-    pub fn new(choice: &PerceiverChoice, space: &Space) -> Result<Self, Error> {
+    pub fn new(choice: &PerceiverChoice, space: &Space, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let look = choice.look().parse().map_err(crate::cameras::CameraFileFlaw::Look)?;
         let cameras = VariedCameras::of_space(choice.cameras().clone(), space).in_look(look);
-        let (perceiver, task) = (choice.build()?, choice.task().clone());
+        let (perceiver, task) = (choice.build(stop)?, choice.task().clone());
         Ok(Self { perceiver, task, cameras, stages: Stages::in_look(look) })
     }
 
@@ -48,7 +51,13 @@ impl Exam {
         let asked = catch_unwind(AssertUnwindSafe(|| self.perceiver.perceive(pictures)));
         let answered = asked.map_err(|panic| Problem::panicked("perceiver", panic.as_ref()))?;
         let checked = answered.and_then(|percepts| self.task.check(pictures, &percepts).map(|()| percepts));
-        checked.map_err(|error| Problem::new(ProblemKind::Answer, error.to_string()))
+        checked.map_err(|error| match &error {
+            PerceiverError::Failed(cause) => match cause.downcast_ref::<Problem>() {
+                Some(problem) => problem.clone(),
+                None => Problem::new(ProblemKind::Answer, error.to_string()),
+            },
+            _ => Problem::new(ProblemKind::Answer, error.to_string()),
+        })
     }
 
     /// Returns the cameras with the usual settings.
@@ -71,14 +80,23 @@ impl Exam {
         notes.taken.extend(run.filmed().arrived().map(|(_, sample)| sample.clone()));
     }
 
-    /// Shows the images of a test to the perceiver, and returns the trace with the signals of the perceiver.
-    pub fn judge(&mut self, notes: Notes, test: &Values, darkroom: &Darkroom, trace: &Trace) -> Result<Trace, Problem> {
+    /// Shows the images of a test to the perceiver, and returns the trace with the signals of the perceiver, and the
+    /// metrics of the perceiver.
+    pub fn judge(
+        &mut self,
+        notes: Notes,
+        test: &Values,
+        darkroom: &Darkroom,
+        trace: &Trace,
+    ) -> Result<(Trace, Vec<(String, Metric)>), Problem> {
         let failed = |message: String| Problem::new(ProblemKind::Camera, message);
         let cast = notes.cast.transpose().map_err(|flaw| failed(flaw.to_string()))?.unwrap_or_default();
         let optics = Optics::of(&self.cameras.of_test(test)).map_err(|flaw| failed(flaw.to_string()))?;
         let optics = optics.first().map(|optics| optics.with_seed(notes.seed));
         let task = self.task.clone();
-        let mut marks = Marks::default();
+        let scale =
+            optics.as_ref().map_or(1.0, |optics| self.perceiver.scale(optics.camera.width(), optics.camera.height()));
+        let mut marks = Marks::new(scale);
         if let (Some(stage), Some(optics)) = (&notes.stage, &optics) {
             let camera = &optics.camera;
             for samples in notes.taken.chunks(at_once(camera.width() as usize * camera.height() as usize)) {
@@ -123,7 +141,7 @@ impl Exam {
         if trace.is_complete() {
             extended.finish();
         }
-        Ok(extended)
+        Ok((extended, marks.metrics()))
     }
 }
 

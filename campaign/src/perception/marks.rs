@@ -1,6 +1,8 @@
 //! The marks of a perceiver: what its answer to an image is worth.
 
+use super::grades::Grades;
 use super::truth::{RoadUser, mask, road_users};
+use crate::trial::Metric;
 use paracosm_engine::sensor::Moment;
 use paracosm_perception::{
     Areas, Confusion, Criterion, Detection, Detector, Encounters, Object, Percept, Task, match_boxes, suppress,
@@ -9,16 +11,33 @@ use paracosm_render::{Camera, Rendering};
 
 /// The overlap (IoU) from which on a detection matches a road user.
 const OVERLAP: f64 = 0.5;
+/// The distance of the centres up to which a detection is centred on a road user, as a share of the diagonal of its box.
+const CENTRED: f64 = 0.25;
+/// The least visible share of a road user that counts for recall by distance, height and visible share.
+const SEEN: f64 = 0.25;
 
 /// The values of the signals over the images of a test.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Marks {
     encounters: Encounters,
+    grades: Grades,
+    /// The factor that makes pixels of the perceiver's input from pixels of an image.
+    scale: f64,
     /// For each image its time, and the values of the signals after the number of images.
     images: Vec<(f64, Vec<f64>)>,
 }
 
 impl Marks {
+    /// Makes the marks before the first image. `scale` makes pixels of the perceiver's input from pixels of an image.
+    pub fn new(scale: f64) -> Self {
+        Self { encounters: Encounters::default(), grades: Grades::default(), scale, images: Vec::new() }
+    }
+
+    /// Returns the metrics of the test.
+    pub fn metrics(&self) -> Vec<(String, Metric)> {
+        self.grades.metrics(&self.encounters)
+    }
+
     /// Adds the answer to the next image.
     pub fn add(
         &mut self,
@@ -35,6 +54,7 @@ impl Marks {
             }
             (Task::Segmentation(segmenter), Percept::Mask(answer)) => {
                 let counts = Confusion::of(answer, &mask(picture, &segmenter.is));
+                self.grades.count_pixels(counts);
                 vec![counts.overlap(), counts.recall(), counts.precision()]
             }
             // The answers of a task are checked before they get marks.
@@ -46,7 +66,7 @@ impl Marks {
     fn detected(&mut self, detector: &Detector, boxes: &[Detection], users: &[RoadUser], time: f64) -> Vec<f64> {
         let group_of = detector.groups_of_classes();
         let found = suppress(boxes, detector.threshold, detector.overlap);
-        let (mut objects, mut matches, mut false_alarms) = (0usize, 0usize, 0usize);
+        let (mut objects, mut matches, mut centred, mut false_alarms) = (0usize, 0usize, 0usize, 0usize);
         let mut margin: f64 = 1.0;
         let mut wanted = Vec::new();
         for (place, group) in detector.groups.iter().enumerate() {
@@ -59,23 +79,32 @@ impl Marks {
                 .collect();
             let of_group = |one: &&Detection| group_of[one.class] == Some(place);
             let detections: Vec<Detection> = found.iter().filter(of_group).copied().collect();
+            let boxes: Vec<Detection> = boxes.iter().filter(of_group).copied().collect();
             let matching = match_boxes(&truth, &detections, Criterion::Overlap(OVERLAP), Areas::ALL);
+            let by_centres = match_boxes(&truth, &detections, Criterion::Centres(CENTRED), Areas::ALL);
+            let on_objects = by_centres.detected.iter().zip(&truth).filter(|(_, object)| !object.crowd);
+            centred += on_objects.filter(|(detection, _)| detection.is_some()).count();
+            self.grades.tally(place, &truth, &boxes, (detector.overlap, OVERLAP));
+            let meant = users.iter().filter(|user| group.is.contains(&user.kind) && user.visible >= SEEN);
+            self.grades.sort(&meant.copied().collect::<Vec<_>>(), &detections, OVERLAP, self.scale);
             false_alarms += matching.objects.iter().filter(|object| object.is_none()).count();
             for (user, detection) in users.iter().zip(&matching.detected).filter(|(user, _)| must(user)) {
                 objects += 1;
                 matches += usize::from(detection.is_some());
                 wanted.push((user.id, detection.is_some()));
-                let on_user = boxes.iter().filter(of_group).filter(|one| one.rect.overlap(&user.rect) >= OVERLAP);
+                let on_user = boxes.iter().filter(|one| one.rect.overlap(&user.rect) >= OVERLAP);
                 let best = on_user.map(|one| one.score).fold(0.0, f64::max);
                 margin = margin.min(best - detector.threshold);
             }
         }
         self.encounters.see(time, wanted);
+        self.grades.count(objects, matches, false_alarms);
         let share = |part: usize, whole: usize| if whole == 0 { 1.0 } else { part as f64 / whole as f64 };
         vec![
             objects as f64,
             matches as f64,
             (objects - matches) as f64,
+            centred as f64,
             false_alarms as f64,
             share(matches, objects),
             share(matches, matches + false_alarms),
@@ -90,7 +119,7 @@ impl Marks {
         let taken = self.images.partition_point(|(at, _)| *at <= time + 1e-9);
         let values = match (taken.checked_sub(1), task) {
             (Some(last), _) => self.images[last].1.clone(),
-            (None, Task::Detection(_)) => vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0],
+            (None, Task::Detection(_)) => vec![0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0],
             (None, Task::Segmentation(_)) => vec![1.0, 1.0, 1.0],
         };
         std::iter::once(taken as f64).chain(values).collect()

@@ -7,7 +7,11 @@
 #[cfg(feature = "camera")]
 mod exam;
 #[cfg(feature = "camera")]
+mod grades;
+#[cfg(feature = "camera")]
 mod marks;
+#[cfg(feature = "camera")]
+mod process;
 #[cfg(all(test, feature = "camera"))]
 mod tests;
 #[cfg(feature = "camera")]
@@ -15,3 +19,5 @@ mod truth;
 
 #[cfg(feature = "camera")]
 pub(crate) use exam::{Exam, Notes};
+#[cfg(feature = "camera")]
+pub(crate) use process::SeeingProcess;

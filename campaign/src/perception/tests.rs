@@ -192,7 +192,14 @@ fn a_perceiver_of_a_file_has_one_camera_and_a_valid_task() {
     assert!(threshold.contains("`threshold` is 7"), "{threshold}");
     // The function of another program cannot be called.
     let choice: PerceiverChoice = serde_json::from_value(written).unwrap();
-    assert!(choice.build().err().unwrap().to_string().contains("only that program can run its tests"));
+    assert!(
+        choice
+            .build(std::sync::Arc::default())
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("only that program can run its tests")
+    );
 }
 
 #[test]

@@ -211,6 +211,14 @@ impl StudyBuilder {
         self.perceived(cameras, move |seen| PerceiverChoice::network(&file, &description, seen))
     }
 
+    /// Puts a perceiver on trial that a command starts in a process of its own, as [`perceiver`](Self::perceiver) does. The
+    /// process has `timeout` seconds for each answer, by default 60.
+    #[cfg(feature = "camera")]
+    pub fn perceiver_command(self, command: &str, timeout: Option<f64>, cameras: VariedCameras) -> Self {
+        let command = command.to_owned();
+        self.perceived(cameras, move |seen| PerceiverChoice::process(&command, timeout, seen))
+    }
+
     /// Puts a perceiver on trial that a function of this program makes, as [`perceiver`](Self::perceiver) does. Only this
     /// program can replay its tests.
     #[cfg(feature = "camera")]

@@ -1,13 +1,13 @@
-//! The command that the tests of a study run, and the check that it may be run.
+//! The commands that the tests of a study run, and the check that they may be run.
 
-use super::{Study, Subject};
+use super::{PerceiverChoice, Study, Subject};
 use crate::{Error, Reason};
 use thiserror::Error;
 
 /// A command that a study names, with the option by which a user gives such a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NamedCommand<'a> {
-    /// The option, `--system` or `--driver-command`.
+    /// The option, `--system`, `--driver-command` or `--perceiver-command`.
     pub option: &'static str,
     /// The command, with words separated and quoted as in a shell.
     pub command: &'a str,
@@ -44,14 +44,19 @@ impl Reason for Untrusted {}
 impl Reason for UntrustedAddress {}
 
 impl Study {
-    /// Returns the command that the tests of the study run; `None` if everything runs in this process or on a server
-    /// that runs already.
-    pub fn command(&self) -> Option<NamedCommand<'_>> {
+    /// Returns the commands that the tests of the study run. There are none if everything runs in this process or on a
+    /// server that runs already.
+    pub fn commands(&self) -> Vec<NamedCommand<'_>> {
         match self.subject() {
-            Subject::System(system) => Some(NamedCommand { option: "--system", command: &system.command }),
+            Subject::System(system) => vec![NamedCommand { option: "--system", command: &system.command }],
             Subject::Scenario(simulation) => {
-                let command = simulation.driver().command()?;
-                Some(NamedCommand { option: "--driver-command", command })
+                let driver = simulation.driver().command();
+                let perceiver = simulation.perceiver.as_ref().and_then(PerceiverChoice::command);
+                let named = [("--driver-command", driver), ("--perceiver-command", perceiver)];
+                named
+                    .into_iter()
+                    .filter_map(|(option, command)| Some(NamedCommand { option, command: command? }))
+                    .collect()
             }
         }
     }
@@ -64,16 +69,14 @@ impl Study {
         }
     }
 
-    /// Checks that the command of the study may be run, and that its driver may be asked.
+    /// Checks that the commands of the study may be run, and that its driver may be asked.
     pub(crate) fn check_trust(&self) -> Result<(), Error> {
         if let Some(address) = self.address().filter(|address| !self.trust().covers(address)) {
             return Err(UntrustedAddress { address: address.to_owned() }.into());
         }
-        match self.command() {
-            Some(NamedCommand { option, command }) if !self.trust().covers(command) => {
-                Err(Untrusted { command: command.to_owned(), option }.into())
-            }
-            _ => Ok(()),
+        match self.commands().iter().find(|named| !self.trust().covers(named.command)) {
+            Some(NamedCommand { option, command }) => Err(Untrusted { command: (*command).to_owned(), option }.into()),
+            None => Ok(()),
         }
     }
 }

@@ -1,13 +1,23 @@
 //! The perceiver of a study: the perception network on trial, with the cameras whose images it sees.
 
 use super::StatedRequirement;
+use crate::black_box::{TimeoutFlaw, checked_timeout};
+#[cfg(feature = "camera")]
+use crate::perception::SeeingProcess;
+use crate::process::{self, CommandFlaw};
 use crate::{Error, Reason};
 use paracosm_engine::sensor::Cameras;
 use paracosm_oracles::Semantics;
 use paracosm_perception::{Perceiver, Task, TaskFlaw};
+use paracosm_space::did_you_mean;
+#[cfg(feature = "camera")]
+use paracosm_space::nearest;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+#[cfg(feature = "camera")]
+use std::time::Duration;
 use thiserror::Error;
 
 /// The perceiver on trial, with its cameras.
@@ -24,8 +34,20 @@ pub struct PerceiverChoice {
     look: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     network: Option<Box<SeeingNetwork>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    command: Option<SeeingCommand>,
     #[serde(skip)]
     own: Option<Own>,
+}
+
+/// A command that starts a perceiver in a process of its own.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SeeingCommand {
+    /// The command, with words separated and quoted as in a shell.
+    command: String,
+    /// The time that the perceiver may take to answer, in seconds.
+    timeout: f64,
 }
 
 /// A network in an ONNX file, with its description.
@@ -71,6 +93,32 @@ pub enum PerceiverFlaw {
         /// The name of the perceiver.
         name: String,
     },
+    /// The command of the perceiver is invalid.
+    #[error("--perceiver-command '{command}': {flaw}")]
+    Command {
+        /// The command.
+        command: String,
+        /// The error in the command.
+        flaw: CommandFlaw,
+    },
+    /// The time-out of the perceiver is out of range.
+    #[error(transparent)]
+    Timeout(TimeoutFlaw),
+    /// This program was built without cameras, so it has no images for a perceiver.
+    #[error("perceivers need images, but this program was built without cameras")]
+    WithoutImages,
+    /// A segmentation network names a semantic class that images do not have.
+    #[error("the mask of the perceiver `{perceiver}` means `{name}`, expected some of {}{}", all.join(", "), did_you_mean(.nearest))]
+    Segment {
+        /// The name of the perceiver.
+        perceiver: String,
+        /// The name that no semantic class has.
+        name: String,
+        /// The semantic classes.
+        all: Vec<&'static str>,
+        /// The most similar semantic class.
+        nearest: Option<&'static str>,
+    },
     /// The file has another number of cameras than one.
     #[error("a perceiver sees through one camera, found {}: {}", found.len(), found.join(", "))]
     Cameras {
@@ -113,14 +161,46 @@ const WITHIN: f64 = 0.5;
 
 impl PerceiverChoice {
     /// Makes the choice of a perceiver that a function of this program makes.
+    #[cfg(feature = "camera")]
     pub(super) fn own(
         name: &str,
         (cameras, look): (Cameras, String),
         make: impl Fn() -> Box<dyn Perceiver> + Send + Sync + 'static,
     ) -> Result<Self, PerceiverFlaw> {
         let task = make().task().clone();
-        let choice = Self { name: name.to_owned(), task, cameras, look, network: None, own: Some(Own(Arc::new(make))) };
+        let choice = Self {
+            name: name.to_owned(),
+            task,
+            cameras,
+            look,
+            network: None,
+            command: None,
+            own: Some(Own(Arc::new(make))),
+        };
         choice.check().map(|()| choice)
+    }
+
+    /// Makes the choice of a perceiver that a command starts, and asks the perceiver what its answers mean. The time-out
+    /// is in seconds; `None` is the default time-out.
+    #[cfg(feature = "camera")]
+    pub(super) fn process(
+        command: &str,
+        timeout: Option<f64>,
+        (cameras, look): (Cameras, String),
+    ) -> Result<Self, Error> {
+        one_of(&cameras)?;
+        let timeout = checked_timeout(timeout)?;
+        let command = SeeingCommand { command: command.to_owned(), timeout };
+        let task = command.meaning()?;
+        let name = command.command.clone();
+        let choice = Self { name, task, cameras, look, network: None, command: Some(command), own: None };
+        choice.check()?;
+        Ok(choice)
+    }
+
+    /// Returns the command that starts the perceiver; `None` if the perceiver runs in this process.
+    pub fn command(&self) -> Option<&str> {
+        self.command.as_ref().map(|command| command.command.as_str())
     }
 
     /// Returns the name of the perceiver.
@@ -161,12 +241,15 @@ impl PerceiverChoice {
         })
     }
 
-    /// Makes a new instance of the perceiver.
+    /// Makes a new instance of the perceiver. A perceiver in a process of its own is waited for until `stop` is set.
     ///
     /// # Errors
     /// The study was read from a file, and the network does not exist or has changed, or the perceiver was a function of
     /// another program; or this program was built without networks.
-    pub fn build(&self) -> Result<Box<dyn Perceiver>, Error> {
+    pub fn build(&self, stop: Arc<AtomicBool>) -> Result<Box<dyn Perceiver>, Error> {
+        if let Some(command) = &self.command {
+            return command.build(stop, self.task.clone());
+        }
         let perceiver = match (&self.own, &self.network) {
             (Some(Own(make)), _) => make(),
             (None, Some(network)) => network.build(&self.name)?,
@@ -183,8 +266,50 @@ impl PerceiverChoice {
         one_of(&self.cameras)?;
         match &self.task {
             Task::Detection(detector) => detector.check().map_err(PerceiverFlaw::Meaning),
-            Task::Segmentation(_) => Ok(()),
-        }
+            Task::Segmentation(segmenter) => self.check_segments(&segmenter.is),
+        }?;
+        self.command.as_ref().map_or(Ok(()), |command| {
+            checked_timeout(Some(command.timeout)).map_err(PerceiverFlaw::Timeout)?;
+            command.words().map(|_| ())
+        })
+    }
+}
+
+impl PerceiverChoice {
+    #[cfg(feature = "camera")]
+    fn check_segments(&self, names: &[String]) -> Result<(), PerceiverFlaw> {
+        let all = paracosm_render::Semantic::names();
+        let Some(name) = names.iter().find(|name| !all.contains(&name.as_str())) else { return Ok(()) };
+        let nearest = nearest(name, all.iter().copied());
+        Err(PerceiverFlaw::Segment { perceiver: self.name.clone(), name: name.clone(), all: all.to_vec(), nearest })
+    }
+
+    /// Without images no mask can be compared.
+    #[cfg(not(feature = "camera"))]
+    fn check_segments(&self, _: &[String]) -> Result<(), PerceiverFlaw> {
+        Ok(())
+    }
+}
+
+impl SeeingCommand {
+    fn words(&self) -> Result<Vec<String>, PerceiverFlaw> {
+        process::words(&self.command).map_err(|flaw| PerceiverFlaw::Command { command: self.command.clone(), flaw })
+    }
+
+    #[cfg(feature = "camera")]
+    fn meaning(&self) -> Result<Task, Error> {
+        SeeingProcess::meaning(&self.words()?, Duration::from_secs_f64(self.timeout), &AtomicBool::new(false))
+    }
+
+    #[cfg(feature = "camera")]
+    fn build(&self, stop: Arc<AtomicBool>, task: Task) -> Result<Box<dyn Perceiver>, Error> {
+        let timeout = Duration::from_secs_f64(self.timeout);
+        Ok(Box::new(SeeingProcess::new(self.words()?, timeout, stop, task)))
+    }
+
+    #[cfg(not(feature = "camera"))]
+    fn build(&self, _: Arc<AtomicBool>, _: Task) -> Result<Box<dyn Perceiver>, Error> {
+        Err(Error::unavailable(PerceiverFlaw::WithoutImages))
     }
 }
 
@@ -196,7 +321,7 @@ fn one_of(cameras: &Cameras) -> Result<(), PerceiverFlaw> {
     Err(PerceiverFlaw::Cameras { found: cameras.all.keys().cloned().collect() })
 }
 
-#[cfg(not(feature = "neural"))]
+#[cfg(all(not(feature = "neural"), feature = "camera"))]
 impl PerceiverChoice {
     /// Returns the error that the program was built without neural networks.
     pub(super) fn network(file: &str, _: &str, _: (Cameras, String)) -> Result<Self, Error> {
@@ -226,7 +351,9 @@ impl PerceiverChoice {
         let network = SeeingNetwork { hash, description, loaded };
         let _ = network.loaded.set(vision(file, &contents, read.clone())?);
         let network = Some(Box::new(network));
-        Ok(Self { name: file.to_owned(), task: read.task, cameras, look, network, own: None })
+        let choice = Self { name: file.to_owned(), task: read.task, cameras, look, network, command: None, own: None };
+        choice.check()?;
+        Ok(choice)
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Trial {
     pub judgements: Vec<Judgement>,
     /// The measurements of the simulated run; `None` if the test was not simulated.
     pub measured: Option<Measurements>,
-    /// Metrics of other versions of the software.
+    /// Metrics of a perceiver, and metrics of other versions of the software.
     others: Record<Metric>,
     /// The number of ticks of the trace; 0 if the trial has no trace.
     pub ticks: usize,
@@ -79,6 +79,8 @@ impl fmt::Display for Problem {
         f.write_str(&self.message)
     }
 }
+
+impl std::error::Error for Problem {}
 
 /// The kind of a problem that leaves a test without a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -166,6 +168,13 @@ impl Trial {
         let trial = Self { problem, measured, ..Self::judged(index, test, ending.verdict(), judgements) };
         let trial = trace.as_ref().into_iter().fold(trial, Self::traced);
         (trial, trace)
+    }
+
+    /// Adds metrics to the trial.
+    #[cfg(feature = "camera")]
+    pub(crate) fn with_metrics(mut self, metrics: impl IntoIterator<Item = (String, Metric)>) -> Self {
+        self.others = self.others.iter().map(owned).chain(metrics).collect();
+        self
     }
 
     /// Adds the length and the hash of a trace to the trial.

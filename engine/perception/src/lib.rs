@@ -9,6 +9,7 @@
 //! Pixels: x to the right and y down, in pixels from the left upper corner of the image. A box is given by the edges of
 //! its pixels, so a box around one pixel has the width 1.
 
+mod bins;
 mod boxes;
 mod detection;
 mod encounter;
@@ -21,6 +22,7 @@ mod task;
 #[cfg(test)]
 mod tests;
 
+pub use bins::{Axis, BINS, Bin};
 pub use boxes::Rect;
 pub use detection::{Detection, suppress};
 pub use encounter::{Encounter, Encounters};

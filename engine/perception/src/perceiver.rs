@@ -87,6 +87,12 @@ pub trait Perceiver: Send {
     /// Returns the meaning of the answers.
     fn task(&self) -> &Task;
 
+    /// Returns the factor that makes pixels of the perceiver's input from pixels of an image of this width and height,
+    /// by the height. Recall is counted by the height of road users in the input.
+    fn scale(&self, _width: u32, _height: u32) -> f64 {
+        1.0
+    }
+
     /// Answers images, in their order. An answer depends on its image alone.
     ///
     /// # Errors

@@ -18,11 +18,12 @@ pub enum Task {
 }
 
 /// The signals of a detector.
-const OF_DETECTORS: [&str; 9] = [
+const OF_DETECTORS: [&str; 10] = [
     "perception.images",
     "perception.objects",
     "perception.matches",
     "perception.misses",
+    "perception.centred",
     "perception.false_alarms",
     "perception.recall",
     "perception.precision",

@@ -1,4 +1,4 @@
-"""Drivers for PARACOSM, which tests them in simulated worlds.
+"""Drivers and perceivers for PARACOSM, which tests them in simulated worlds.
 
 Subclass `Driver`, say which cameras it has, implement `reset` and `step`, and serve it:
 
@@ -15,10 +15,13 @@ Subclass `Driver`, say which cameras it has, implement `reset` and `step`, and s
         Careful().serve()
 
     $ paracosm-fuzz follow-leader --driver-command "python careful.py"
+
+Subclass `Perceiver` to test a network that sees.
 """
 
 from .driver import Driver, serve
 from .observation import Body, Briefing, Control, Fix, Inertia, Observation, Picture, Scan, Vehicle, Way
+from .perceiver import Detection, Perceiver
 from .sensors import Camera, Delivery, Gnss, Imu, Inaccuracy, Lidar, Mount
 
 __all__ = [
@@ -27,6 +30,7 @@ __all__ = [
     "Camera",
     "Control",
     "Delivery",
+    "Detection",
     "Driver",
     "Fix",
     "Gnss",
@@ -36,6 +40,7 @@ __all__ = [
     "Lidar",
     "Mount",
     "Observation",
+    "Perceiver",
     "Picture",
     "Scan",
     "Vehicle",

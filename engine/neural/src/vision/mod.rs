@@ -94,6 +94,15 @@ impl Perceiver for Vision {
         &self.description.task
     }
 
+    fn scale(&self, width: u32, height: u32) -> f64 {
+        let Input { size, resize, .. } = &self.description.input;
+        let [across, down] = [size[0] as f64 / f64::from(width), size[1] as f64 / f64::from(height)];
+        match resize {
+            Resize::Stretch => down,
+            Resize::Letterbox => across.min(down),
+        }
+    }
+
     fn perceive(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, PerceiverError> {
         pictures.iter().map(|picture| self.answer(picture)).collect()
     }

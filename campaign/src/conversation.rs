@@ -34,18 +34,18 @@ enum Heard {
 /// Output that cannot be an answer.
 #[derive(Debug, Error)]
 enum Noise {
-    #[error(
-        "the answer is longer than {MOST_MEBIBYTES} MiB, which is the limit: let the system leave out signals or samples"
-    )]
+    #[error("the answer is longer than {MOST_MEBIBYTES} MiB, which is the limit: leave out signals or samples")]
     TooLong,
     #[error("found bytes that are not UTF-8, expected an answer as JSON")]
     NoText,
 }
 
-/// The error that an external system cannot be started.
+/// The error that an external system or perceiver cannot be started.
 #[derive(Debug, Error)]
-#[error("cannot start the system `{program}`: {source}")]
+#[error("cannot start the {role} `{program}`: {source}")]
 pub struct NotStarted {
+    /// The role of the program, such as "system".
+    pub role: &'static str,
     /// The name of the program that cannot be started.
     pub program: String,
     /// The error that the operating system reported.
@@ -54,7 +54,10 @@ pub struct NotStarted {
 
 impl Reason for NotStarted {}
 
-pub(super) struct Process {
+/// A process that answers each question with a line.
+pub(crate) struct Process {
+    /// The role of the process in messages, such as "system".
+    role: &'static str,
     // Dropped before the process, which may end by itself when no more questions can come.
     questions: Sender<Vec<u8>>,
     heard: Receiver<Heard>,
@@ -64,17 +67,17 @@ pub(super) struct Process {
 
 impl Process {
     /// Starts the process of a command, which is a list of words that begins with the program. The list must not be
-    /// empty.
-    pub fn start(words: &[String]) -> Result<Self, NotStarted> {
+    /// empty. Messages call the process by its role.
+    pub fn start(words: &[String], role: &'static str) -> Result<Self, NotStarted> {
         let started = process::Process::start(words, &[]);
-        let mut process = started.map_err(|source| NotStarted { program: words[0].clone(), source })?;
+        let mut process = started.map_err(|source| NotStarted { role, program: words[0].clone(), source })?;
         let (mut stdin, stdout) = (process.stdin().expect("it is new"), process.stdout().expect("it is new"));
         let (questions, asked) = mpsc::channel::<Vec<u8>>();
         // A process that does not listen is noticed by its silence, so that an error in writing adds nothing.
         thread::spawn(move || asked.iter().try_for_each(|question| stdin.write_all(&question)));
         let (speaker, heard) = mpsc::sync_channel(AHEAD);
         thread::spawn(move || hear(stdout, &speaker));
-        Ok(Self { questions, heard, process, answered: false })
+        Ok(Self { role, questions, heard, process, answered: false })
     }
 
     /// Returns `true` if the process has answered at least once.
@@ -128,8 +131,8 @@ impl Process {
     /// Returns the problem of a process that ended without an answer.
     fn post_mortem(&mut self) -> Problem {
         let how = match self.process.ended() {
-            Some(status) => format!("the system ended without an answer ({status})"),
-            None => "the system closed its output without an answer".to_owned(),
+            Some(status) => format!("the {} ended without an answer ({status})", self.role),
+            None => format!("the {} closed its output without an answer", self.role),
         };
         Problem::new(ProblemKind::Process, self.process.post_mortem(how))
     }
@@ -173,7 +176,7 @@ mod tests {
         let count = dir.path().join("count");
         let flood = "i=0; while [ $i -lt 5000 ]; do printf '%01000d\\n' $i; i=$((i + 1)); echo $i > \"$0\"; done";
         let words = ["sh", "-c", flood, count.to_str().unwrap()].map(str::to_owned);
-        let process = Process::start(&words).unwrap();
+        let process = Process::start(&words, "system").unwrap();
         let said = || fs::read_to_string(&count).unwrap_or_default();
         // The process waits, or has ended, once the number stands still.
         let (mut before, mut now) = (String::new(), said());
