@@ -1,9 +1,11 @@
 //! A scene: everything that is visible at one moment.
 
+mod cells;
 mod figure;
 mod ground;
 mod markings;
 mod pavement;
+mod signals;
 mod stage;
 
 pub use stage::{Cast, Model, Stage, Stages};

@@ -74,6 +74,8 @@ impl Run {
             time: self.time(),
             car: self.scene.ego.dynamics.state(),
             bodies: &self.scene.bodies,
+            before: self.scene.before(),
+            dt: self.dt,
             network: &self.scene.network,
             weather,
             air: Air::of(&weather),

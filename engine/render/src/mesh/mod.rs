@@ -9,6 +9,7 @@ pub(crate) mod colours;
 pub(crate) mod furniture;
 pub(crate) mod garb;
 pub(crate) mod house;
+pub(crate) mod lamps;
 pub(crate) mod models;
 pub(crate) mod motorcycle;
 pub(crate) mod person;
@@ -60,6 +61,9 @@ pub enum SurfaceKind {
     Tiles = 14,
     /// The bark of a tree in the colour of its corners.
     Bark = 15,
+    /// A lamp that shines in the colour of its corners by day and night, for example a brake lamp. In the look
+    /// [`Flat`](crate::Look::Flat) it does not shine.
+    Glow = 16,
 }
 
 /// The semantic class of an object, with the numbers of CARLA's classes since its version 0.9.14.

@@ -4,6 +4,7 @@ use super::colours::linear;
 use super::furniture::{self, Plate};
 use super::garb::{GARBS, Garb, USUAL};
 use super::house::{Plan, Walls};
+use super::lamps::{Lit, shining};
 use super::signs::SIGNS;
 use super::{Mesh, SurfaceKind, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
 use crate::Look;
@@ -35,6 +36,8 @@ pub(crate) struct Models {
     people: Shelf<(usize, bool), Person>,
     /// The meshes of cars of many kinds, by kind and size in millimetres.
     cars: Shelf<(usize, [u32; 3])>,
+    /// The meshes of vehicles with lamps that shine, by the key of the mesh without.
+    shining: Shelf<(u64, Lit)>,
     /// The traffic signs of the look `textured`, by their place in [`SIGNS`].
     signs: Shelf<usize>,
     /// The trunks of trees, by their surface.
@@ -100,6 +103,7 @@ impl Models {
             barrier: furniture::barrier().into(),
             people: Shelf::default(),
             cars: Shelf::default(),
+            shining: Shelf::default(),
             signs: Shelf::default(),
             trunks: Shelf::default(),
             houses: Shelf::default(),
@@ -117,6 +121,15 @@ impl Models {
     pub fn car_of(&self, kind: usize, size: [f32; 3]) -> Arc<Mesh> {
         let millimetres = size.map(|metres| (1000.0 * metres).round() as u32);
         take(&self.cars, (kind, millimetres), || cars::car(kind, size).into())
+    }
+
+    /// Returns one of the vehicles of these models with lamps that shine.
+    pub fn shining(&self, vehicle: &Arc<Mesh>, lit: Lit) -> Arc<Mesh> {
+        if lit.is_any() {
+            take(&self.shining, (vehicle.key(), lit), || shining(vehicle, lit).into())
+        } else {
+            vehicle.clone()
+        }
     }
 
     /// Returns the mesh of the trunk of a tree in a look.

@@ -55,7 +55,11 @@ impl Finish {
             | SurfaceKind::Plaster
             | SurfaceKind::Tiles
             | SurfaceKind::Bark => Self::Grained,
-            SurfaceKind::Plain | SurfaceKind::Cloth | SurfaceKind::WhiteLamp | SurfaceKind::RedLamp => Self::Dull,
+            SurfaceKind::Plain
+            | SurfaceKind::Cloth
+            | SurfaceKind::WhiteLamp
+            | SurfaceKind::RedLamp
+            | SurfaceKind::Glow => Self::Dull,
         }
     }
 }

@@ -3,12 +3,15 @@
 use super::figure::Figure;
 use super::ground::ground;
 use super::pavement::Pavement;
+use super::signals::Signals;
 use super::{Atmosphere, Instance, Scene};
+use crate::mesh::lamps::Lit;
 use crate::{Look, Mesh};
 use nalgebra::{Isometry3, Vector3};
 use paracosm_engine::Run;
 use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::road::RoadNetwork;
+use paracosm_engine::sensor::Moment;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
@@ -28,6 +31,7 @@ pub struct Stage {
     look: Look,
     still: Vec<Instance>,
     pavement: Pavement,
+    signals: Signals,
     models: BTreeMap<Class, Model>,
 }
 
@@ -52,7 +56,13 @@ impl Stage {
 
     /// Makes the drawable scenery of a road network. All scenes of the stage have the given look.
     pub fn in_look(network: &RoadNetwork, look: Look) -> Self {
-        Self { look, still: ground(network, look), pavement: Pavement::of(network), models: BTreeMap::new() }
+        Self {
+            look,
+            still: ground(network, look),
+            pavement: Pavement::of(network),
+            signals: Signals::of(network),
+            models: BTreeMap::new(),
+        }
     }
 
     /// Returns the look of all scenes of the stage.
@@ -69,7 +79,19 @@ impl Stage {
     /// Returns the scene of a run at its current tick, with all bodies that are in the world. The ego vehicle has the
     /// id 1, so that a camera mounted on it can leave it out.
     pub fn scene(&self, run: &Run) -> Scene {
-        self.scene_of(run.bodies().iter().enumerate(), Atmosphere::of(&run.weather()))
+        let mut moment = Moment::default();
+        moment.record(&run.view());
+        self.scene_at(&Cast::new(), &moment)
+    }
+
+    /// Returns the scene of a moment, with the bodies in `cast` drawn as users' own models. In the look
+    /// [`Textured`](Look::Textured), vehicles show brake lamps and direction indicators.
+    pub fn scene_at(&self, cast: &Cast, moment: &Moment) -> Scene {
+        let lit = |index: usize, state: &BodyState| match self.look {
+            Look::Flat => Lit::default(),
+            Look::Textured => self.signals.lit(index, state, moment),
+        };
+        self.build(cast, moment.bodies.iter().enumerate(), Atmosphere::of(&moment.weather), lit)
     }
 
     /// Returns the scene of the given bodies in the given light and fog. Each body comes with its index in the run;
@@ -85,12 +107,22 @@ impl Stage {
         bodies: impl IntoIterator<Item = (usize, &'a BodyState)>,
         air: Atmosphere,
     ) -> Scene {
+        self.build(cast, bodies, air, |_, _| Lit::default())
+    }
+
+    fn build<'a>(
+        &self,
+        cast: &Cast,
+        bodies: impl IntoIterator<Item = (usize, &'a BodyState)>,
+        air: Atmosphere,
+        lit: impl Fn(usize, &BodyState) -> Lit,
+    ) -> Scene {
         let mut instances = self.still.clone();
         for (index, state) in bodies.into_iter().filter(|(_, state)| state.present) {
             let on_foot = matches!(state.body.class, Class::Pedestrian | Class::Bicycle);
             let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
             let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
-            let figure = Figure::new(state, raised as f32, id, self.look);
+            let figure = Figure { lit: lit(index, state), ..Figure::new(state, raised as f32, id, self.look) };
             let of_class = || self.models.get(&state.body.class);
             match cast.get(&index).map(Arc::as_ref).or_else(of_class) {
                 Some(model) => instances.push(model.instance(&figure)),

@@ -7,6 +7,7 @@
 const OVER: mat2x2f = mat2x2f(0.171, 0.064, -0.064, 0.171);
 
 const ASPHALT: u32 = 4u;
+const GLOWS: u32 = 16u;
 // The layers of the second textures: of asphalt, and of everything else.
 const MENDED: u32 = 0u;
 const STAINED: u32 = 1u;
@@ -35,6 +36,11 @@ fn long_texel(uv: vec2f, layer: u32) -> vec4f {
     var sum = textureSampleGrad(textures, texture_sampler, uv - 0.5 * long, layer, long, short);
     sum += textureSampleGrad(textures, texture_sampler, uv + 0.5 * long, layer, long, short);
     return 0.5 * sum;
+}
+
+// Whether a dull surface is a lamp that glows.
+fn glows(kind: u32) -> bool {
+    return (kind & 255u) == GLOWS;
 }
 
 // The picture of a user's model.
