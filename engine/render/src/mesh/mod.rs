@@ -1,5 +1,6 @@
 //! The shapes of objects: triangles with normals, texture coordinates and surface kinds.
 
+pub(crate) mod barriers;
 pub(crate) mod bicycle;
 pub(crate) mod bus;
 pub(crate) mod car;
@@ -16,6 +17,7 @@ pub(crate) mod person;
 pub(crate) mod picture;
 mod plant;
 pub(crate) mod signs;
+pub(crate) mod traffic_light;
 pub(crate) mod truck;
 pub(crate) mod van;
 
@@ -143,7 +145,8 @@ impl Mesh {
     }
 
     /// Sets a mesh of the same shape with fewer triangles. A renderer draws it where the object is small in the image, and
-    /// for shadows.
+    /// for shadows. The mesh with fewer triangles may have one with still fewer, which is drawn where the object is very
+    /// small.
     pub fn with_coarse(self, coarse: impl Into<Arc<Self>>) -> Self {
         Self { coarse: Some(coarse.into()), ..self }
     }

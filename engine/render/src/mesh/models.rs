@@ -6,7 +6,8 @@ use super::garb::{GARBS, Garb, USUAL};
 use super::house::{Plan, Walls};
 use super::lamps::{Lit, shining};
 use super::signs::SIGNS;
-use super::{Mesh, SurfaceKind, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
+use super::traffic_light::{Aspect, traffic_light};
+use super::{Mesh, SurfaceKind, barriers, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
 use crate::Look;
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
@@ -32,6 +33,11 @@ pub(crate) struct Models {
     pub ball: Arc<Mesh>,
     pub parcel: Arc<Mesh>,
     pub barrier: Arc<Mesh>,
+    pub bollard: Arc<Mesh>,
+    pub delineator: Arc<Mesh>,
+    pub rail: Arc<Mesh>,
+    /// The traffic lights, in the order of [`Aspect::ALL`].
+    pub lights: [Arc<Mesh>; 3],
     /// People by the place of their garb in [`GARBS`]; `true` for children.
     people: Shelf<(usize, bool), Person>,
     /// The meshes of cars of many kinds, by kind and size in millimetres.
@@ -44,7 +50,7 @@ pub(crate) struct Models {
     trunks: Shelf<SurfaceKind>,
     houses: Shelf<(Plan, Walls)>,
     /// The meshes of the crowns of trees, by colour; `true` for conifers.
-    crowns: Shelf<(bool, Colour)>,
+    crowns: Shelf<(bool, Colour, Look)>,
 }
 
 /// Shapes that are made when they are first asked for.
@@ -101,6 +107,10 @@ impl Models {
             ball: furniture::ball().into(),
             parcel: furniture::parcel().into(),
             barrier: furniture::barrier().into(),
+            bollard: barriers::bollard().into(),
+            delineator: barriers::delineator().into(),
+            rail: barriers::rail().into(),
+            lights: Aspect::ALL.map(|lit| traffic_light(lit).into()),
             people: Shelf::default(),
             cars: Shelf::default(),
             shining: Shelf::default(),
@@ -151,8 +161,13 @@ impl Models {
         take(&self.houses, (plan, walls), || plan.mesh(walls).into())
     }
 
-    pub fn crown(&self, conifer: bool, colour: Colour) -> Arc<Mesh> {
-        take(&self.crowns, (conifer, colour), || plant::crown(conifer, linear(colour)).into())
+    /// Returns the mesh of the crown of a tree in a look. In the look `textured`, it has fewer triangles from afar.
+    pub fn crown(&self, conifer: bool, colour: Colour, look: Look) -> Arc<Mesh> {
+        let near = || plant::crown(conifer, linear(colour));
+        take(&self.crowns, (conifer, colour, look), || match look {
+            Look::Flat => near().into(),
+            Look::Textured => near().with_coarse(plant::far_crown(conifer, linear(colour))).into(),
+        })
     }
 }
 

@@ -123,7 +123,7 @@ impl<'a> Figure<'a> {
             [0.5 * length, 0.5 * width, 0.6 * height],
         ));
         let turned = Isometry3::new(Vector3::z() * low, Vector3::z() * (chance % 360) as f32);
-        let crown = models.crown(conifer, self.state.body.colour);
+        let crown = models.crown(conifer, self.state.body.colour, self.look);
         scene.push(self.part(&crown, turned, [wide, wide, height - low]));
     }
 

@@ -3,6 +3,7 @@
 use super::figure::Figure;
 use super::ground::ground;
 use super::pavement::Pavement;
+use super::scenery::Scenery;
 use super::signals::Signals;
 use super::{Atmosphere, Instance, Scene};
 use crate::mesh::lamps::Lit;
@@ -30,9 +31,10 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 pub struct Stage {
     look: Look,
     still: Vec<Instance>,
-    pavement: Pavement,
-    signals: Signals,
-    models: BTreeMap<Class, Model>,
+    pavement: Arc<Pavement>,
+    signals: Arc<Signals>,
+    models: BTreeMap<Class, Arc<Model>>,
+    scenery: Scenery,
 }
 
 /// A user's own mesh, which is stretched to the bounding box of the body that it represents. The front of the mesh is
@@ -59,10 +61,24 @@ impl Stage {
         Self {
             look,
             still: ground(network, look),
-            pavement: Pavement::of(network),
-            signals: Signals::of(network),
+            pavement: Arc::new(Pavement::of(network)),
+            signals: Arc::new(Signals::of(network)),
             models: BTreeMap::new(),
+            scenery: Scenery::default(),
         }
+    }
+
+    /// Returns the same stage with the scenery that the look [`Textured`](Look::Textured) adds to the world of a run that
+    /// has just begun: houses, trees, parked cars, posts and guard rails, traffic lights. It follows from the roads and from
+    /// the values of the test, and exists only in pictures. The look [`Flat`](Look::Flat) adds nothing.
+    pub fn dressed(&self, run: &Run) -> Self {
+        let scenery = match self.look {
+            Look::Flat => Scenery::default(),
+            Look::Textured => Scenery::of(run),
+        };
+        let Self { look, still, pavement, signals, models, .. } = self;
+        let (still, pavement, signals, models) = (still.clone(), pavement.clone(), signals.clone(), models.clone());
+        Self { look: *look, still, pavement, signals, models, scenery }
     }
 
     /// Returns the look of all scenes of the stage.
@@ -72,7 +88,7 @@ impl Stage {
 
     /// Sets a user's own mesh as the model of all bodies of a class. The front of the mesh is along x.
     pub fn model(mut self, class: Class, mesh: impl Into<Arc<Mesh>>) -> Self {
-        self.models.insert(class, Model::new(mesh));
+        self.models.insert(class, Arc::new(Model::new(mesh)));
         self
     }
 
@@ -91,7 +107,9 @@ impl Stage {
             Look::Flat => Lit::default(),
             Look::Textured => self.signals.lit(index, state, moment),
         };
-        self.build(cast, moment.bodies.iter().enumerate(), Atmosphere::of(&moment.weather), lit)
+        let mut scene = self.build(cast, moment.bodies.iter().enumerate(), Atmosphere::of(&moment.weather), lit);
+        self.scenery.draw(&moment.bodies, moment.time, &mut scene.instances);
+        scene
     }
 
     /// Returns the scene of the given bodies in the given light and fog. Each body comes with its index in the run;
@@ -123,7 +141,7 @@ impl Stage {
             let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
             let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
             let figure = Figure { lit: lit(index, state), ..Figure::new(state, raised as f32, id, self.look) };
-            let of_class = || self.models.get(&state.body.class);
+            let of_class = || self.models.get(&state.body.class).map(Arc::as_ref);
             match cast.get(&index).map(Arc::as_ref).or_else(of_class) {
                 Some(model) => instances.push(model.instance(&figure)),
                 None => figure.draw(&mut instances),
@@ -169,6 +187,15 @@ impl Stages {
     /// Returns the look of the sceneries.
     pub fn look(&self) -> Look {
         self.look
+    }
+
+    /// Returns the stage of a run that has just begun, with the scenery of its look ([`Stage::dressed`]).
+    pub fn of_run(&self, run: &Run) -> Arc<Stage> {
+        let stage = self.of(run.network());
+        match self.look {
+            Look::Flat => stage,
+            Look::Textured => Arc::new(stage.dressed(run)),
+        }
     }
 
     /// Returns the drawable scenery of a road network, from the cache if possible. Tests on the same network share one

@@ -3,6 +3,7 @@
 //! A car is modelled for the size of its body, so that the wheels of a stretched car stay round.
 
 mod details;
+mod far;
 pub(crate) mod paints;
 mod shell;
 
@@ -202,7 +203,9 @@ pub(crate) fn car(kind: usize, size: [f32; 3]) -> Mesh {
         shell.details(&mut clay);
         clay.fitted(size).mesh()
     };
-    mesh(false).with_coarse(mesh(true))
+    let mut far = Clay::default();
+    shell::Shell::new(&KINDS[kind], size, true).far(&mut far);
+    mesh(false).with_coarse(mesh(true).with_coarse(far.fitted(size).mesh()))
 }
 
 #[cfg(test)]

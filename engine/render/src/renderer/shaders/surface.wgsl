@@ -10,6 +10,7 @@ override LAMPS: bool = false;
 // Which kinds of surfaces are drawn.
 override GLOSSY: bool = false;
 override GRAINED: bool = false;
+override UPRIGHT: bool = false;
 override PICTURED: bool = false;
 
 @group(1) @binding(0) var sun_depth: texture_depth_2d;

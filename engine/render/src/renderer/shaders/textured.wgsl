@@ -20,6 +20,11 @@ fn laid(uv: vec2f, kind: u32) -> vec2f {
 }
 
 fn grained(colour: vec3f, seen: Seen, pixel: f32) -> vec3f {
+    // A wall or a leaf is seen less flatly than the ground, so that one texel is enough, and is too small for a second texture.
+    if UPRIGHT {
+        let texel = textureSample(textures, texture_sampler, seen.uv, (seen.kind >> 4u) & 15u);
+        return 2.0 * texel.w * colour + texel.xyz;
+    }
     let texel = long_texel(seen.uv, (seen.kind >> 4u) & 15u);
     let over = textureSample(textures, texture_sampler, OVER * seen.uv, select(STAINED, MENDED, (seen.kind & 15u) == ASPHALT));
     return (2.0 * texel.w * colour + texel.xyz) * (2.0 * over.w);
