@@ -47,10 +47,8 @@ pub(crate) fn traffic_light(lit: Aspect) -> Mesh {
     for (place, aspect) in Aspect::ALL.into_iter().enumerate() {
         let middle = at(front + 0.004, 0.0, LOW + high - 0.15 - 0.30 * place as f32);
         let [bright, dull] = aspect.colours();
-        let lamp = match aspect == lit {
-            true => Matter::new(SurfaceKind::Glow, bright, Semantic::TrafficLight),
-            false => Matter::new(SurfaceKind::Plain, dull, Semantic::TrafficLight),
-        };
+        let (surface, colour) = if aspect == lit { (SurfaceKind::Glow, bright) } else { (SurfaceKind::Plain, dull) };
+        let lamp = Matter::new(surface, colour, Semantic::TrafficLight);
         clay.facet(&ring(middle, Point::x(), LAMP, 10), lamp);
         hood(&mut clay, middle, dark);
     }

@@ -17,9 +17,8 @@ const BRAKES: f64 = 0.7;
 const STANDS: f64 = 0.1;
 /// The flashes of an indicator in a second. UN R6 (annex 1) asks for 60 to 120 in a minute.
 const FLASHES: f64 = 1.5;
-/// The speed across the lane in m/s from which a vehicle changes lanes, and its greatest share of the whole speed.
+/// The speed across the lane in m/s from which a vehicle changes lanes.
 const ACROSS: f64 = 0.3;
-const SKIDS: f64 = 0.5;
 /// The distance in metres before a turn from which a vehicle shows it, if its lane leads nowhere else.
 const BEFORE: f64 = 30.0;
 /// How far a vehicle may be beside a lane, in metres.
@@ -95,17 +94,17 @@ impl Signals {
         // Indicators of different vehicles do not flash together.
         let start = f64::from(lot(index as u16, FLASH) % 1000) / 1000.0;
         let flash = (moment.time * FLASHES + start).fract() < 0.5;
-        let turn = if flash { self.turn(state, speed) } else { Turn::None };
+        let turn = if flash { self.turn(state) } else { Turn::None };
         Lit { brakes, left: turn == Turn::Left, right: turn == Turn::Right }
     }
 
     /// Returns the direction that a vehicle indicates.
-    fn turn(&self, state: &BodyState, speed: f64) -> Turn {
+    fn turn(&self, state: &BodyState) -> Turn {
         let Some((lane, s)) = self.lane_of(state) else { return Turn::None };
         let across = lane.curve.at(s).turn_to_local(state.velocity).y;
         if lane.turn != Turn::None {
             lane.turn
-        } else if across.abs() > ACROSS && across.abs() < SKIDS * speed {
+        } else if across.abs() > ACROSS {
             if across > 0.0 { Turn::Left } else { Turn::Right }
         } else if lane.curve.length() - s < BEFORE {
             lane.next

@@ -2,7 +2,8 @@
 
 use super::super::SurfaceKind;
 use super::super::clay::{Clay, Point, at, ring};
-use super::super::colours::{BLACK, GLASS, LAMP, RED, RUBBER};
+use super::super::colours::{BLACK, GLASS, LAMP, RUBBER};
+use super::LENS;
 use super::shell::{Shell, matter, paint};
 
 /// The width of the cabin at its lower edge, as a share of the width of the body.
@@ -45,7 +46,7 @@ impl Shell {
                 matter(SurfaceKind::WhiteLamp, LAMP),
             );
             let lamp = quad(-end - 0.01, [outer, inner], [tail - 0.30, tail - 0.05]);
-            clay.facet(&lamp, matter(SurfaceKind::RedLamp, RED));
+            clay.facet(&lamp, matter(SurfaceKind::RedLamp, LENS));
         });
         // The bumpers.
         let dark = matter(SurfaceKind::Plain, BLACK);

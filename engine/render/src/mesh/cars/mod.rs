@@ -37,6 +37,9 @@ pub(crate) struct Lines {
     bed: Option<[f32; 2]>,
 }
 
+/// The colour of a rear lamp that does not shine, in linear light: darker than a lamp that does.
+const LENS: [f32; 3] = [0.26, 0.008, 0.008];
+
 /// All kinds of cars.
 pub(crate) const KINDS: [Lines; 10] = [
     // A hatchback.

@@ -39,6 +39,10 @@ const TREES_FAR: f64 = 180.0;
 const CARS_FAR: f64 = 130.0;
 const POSTS_FAR: f64 = 120.0;
 const BOLLARDS_FAR: f64 = 60.0;
+/// The depth of a house in metres, and the widths and storeys of houses. Houses of few sizes share their meshes, which makes
+/// images fast.
+const DEEP: f64 = 8.7;
+const HOUSES: [(f64, f64); 6] = [(8.7, 1.0), (11.6, 1.0), (8.7, 2.0), (11.6, 2.0), (11.6, 3.0), (14.5, 4.0)];
 /// The usual colours of walls.
 const WALLS: [Colour; 7] =
     [[196, 184, 164], [208, 200, 188], [165, 95, 75], [205, 190, 145], [186, 190, 190], [150, 88, 70], [214, 206, 200]];
@@ -136,14 +140,13 @@ fn houses(site: &mut Site, strip: &Strip, chance: &mut Chance) {
     let garden = chance.between(GARDEN[0], GARDEN[1]);
     let mut s = 0.0;
     loop {
-        let (deep, wide) = (chance.between(8.0, 10.0), chance.between(7.0, 13.0));
+        let (wide, storeys) = HOUSES[chance.between(0.0, HOUSES.len() as f64) as usize];
         if s + wide > strip.curve.length() {
             return;
         }
-        let storeys = chance.between(1.0, 4.6).floor();
         let wall = WALLS[chance.between(0.0, WALLS.len() as f64) as usize];
-        let body = Body::block(Class::Building, deep, wide, 2.2 + 2.8 * storeys).coloured(wall);
-        let beyond = edge(strip) + garden + 0.5 * deep;
+        let body = Body::block(Class::Building, DEEP, wide, 2.2 + 2.8 * storeys).coloured(wall);
+        let beyond = edge(strip) + garden + 0.5 * DEEP;
         site.body((body, pose(strip, s + 0.5 * wide, beyond, FRAC_PI_2), 0.0), 0, HOUSES_FAR, true);
         s += wide + chance.between(ALLEY[0], ALLEY[1]);
     }
