@@ -53,6 +53,10 @@ enum Windows {
 
 impl Windows {
     const ALL: [Self; 4] = [Self::Framed, Self::Panes, Self::Rows, Self::None];
+
+    fn is_near(self) -> bool {
+        self == Self::Framed
+    }
 }
 
 impl Walls {
@@ -109,15 +113,18 @@ impl Plan {
         let [length, width, height] = self.size();
         let eaves = self.storeys as f32 * STOREY;
         let (x, y) = (0.5 * length - EAVES, 0.5 * width - EAVES);
+        // From afar, bricks and tiles are too small to be seen.
+        let far = |of: Matter, surface| if windows.is_near() { of } else { Matter { surface, ..of } };
+        let (wall, top) = (far(walls.wall(), SurfaceKind::Cloth), far(walls.roof(), SurfaceKind::Plain));
         let mut clay = Clay::default();
         if self.gabled() {
             let gable = |x: f32| {
                 vec![at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, 0.0, height - 0.1), at(x, -y, eaves)]
             };
-            clay.loft(&[gable(-x), gable(x)], walls.wall());
-            clay.mirrored(|clay| roof(clay, [0.5 * length, 0.5 * width], [eaves, height], walls.roof()));
+            clay.loft(&[gable(-x), gable(x)], wall);
+            clay.mirrored(|clay| roof(clay, [0.5 * length, 0.5 * width], [eaves, height], top));
         } else {
-            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], walls.wall());
+            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], wall);
             clay.cuboid(
                 [-x - EAVES, -y - EAVES, height - 0.3],
                 [x + EAVES, y + EAVES, height],

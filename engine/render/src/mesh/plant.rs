@@ -35,9 +35,9 @@ pub(crate) fn crown(conifer: bool, colour: [f32; 3]) -> Mesh {
     clay.fitted([1.0; 3]).mesh()
 }
 
-/// A crown with few triangles, for trees that are far away.
+/// A crown with few triangles, for trees that are so far away that leaves have no texture.
 pub(crate) fn far_crown(conifer: bool, colour: [f32; 3]) -> Mesh {
-    let leaves = Matter::new(SurfaceKind::Grown, colour, Semantic::Vegetation);
+    let leaves = Matter::new(SurfaceKind::Plain, colour, Semantic::Vegetation);
     let mut clay = Clay::default();
     if conifer {
         for (low, wide, high, narrow) in [(0.0, 0.5, 0.6, 0.16), (0.4, 0.34, 1.0, 0.0)] {
