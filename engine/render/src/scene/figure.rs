@@ -85,7 +85,7 @@ impl<'a> Figure<'a> {
             Class::Truck => scene.push(self.stretched(&models.shining(&models.truck, self.lit), truck::SIZE)),
             Class::Bus => scene.push(self.stretched(&models.shining(&models.bus, self.lit), bus::SIZE)),
             Class::Motorcycle => {
-                scene.push(self.stretched(&models.shining(&models.motorcycle, self.lit), motorcycle::SIZE))
+                scene.push(self.stretched(&models.shining(&models.motorcycle, self.lit), motorcycle::SIZE));
             }
             Class::Bicycle if self.size[2] < RIDDEN => {
                 scene.push(self.stretched(&models.parked_bicycle, bicycle::PARKED));
