@@ -21,7 +21,7 @@ const FLASHES: f64 = 1.5;
 const ACROSS: f64 = 0.3;
 /// The distance in metres before a turn from which a vehicle shows it, if its lane leads nowhere else.
 const BEFORE: f64 = 30.0;
-/// How far a vehicle may be beside a lane, in metres.
+/// The greatest distance of a vehicle from the edge of its lane, in metres.
 const BESIDE: f64 = 0.5;
 /// The greatest angle in radians between a vehicle and its lane, and the metres beside a lane that count as much as a
 /// radian.
