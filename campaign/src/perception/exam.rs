@@ -73,7 +73,7 @@ impl Exam {
     /// Notes the images that have arrived, each time the driver is asked and at the end of the run.
     pub fn note(&self, notes: &mut Notes, run: &Run, appearances: &Appearances) {
         if notes.stage.is_none() {
-            notes.stage = Some(self.stages.of(run.network()));
+            notes.stage = Some(self.stages.of_run(run));
             notes.cast = Some(appearances.cast(run, self.stages.look()));
             notes.seed = run.filmed().cameras().seed;
         }

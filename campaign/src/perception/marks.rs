@@ -125,3 +125,52 @@ impl Marks {
         std::iter::once(taken as f64).chain(values).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paracosm_engine::Pose;
+    use paracosm_engine::object::{Body, BodyState};
+    use paracosm_perception::Rect;
+    use paracosm_render::{Frame, Semantic, is_only_pictured};
+
+    #[test]
+    fn a_detector_that_finds_a_parked_car_of_the_picture_is_neither_rewarded_nor_punished() {
+        // The right half of an image of 4 x 2 pixels shows a car that no body of the run is.
+        let id = u16::MAX;
+        assert!(is_only_pictured(id));
+        let camera = Camera::new(4, 2, 24.0, 36.0).expect("a sound camera");
+        let halves = |left: u16, right: u16| [left, left, right, right].repeat(2);
+        let frame = Frame {
+            camera: camera.clone(),
+            rgb: None,
+            linear: None,
+            depth: None,
+            semantic: Some(halves(Semantic::Road as u16, Semantic::Car as u16).into_iter().map(|n| n as u8).collect()),
+            instance: Some(halves(0, id)),
+            alone: None,
+        };
+        let picture = Rendering { frame, boxes: Vec::new() };
+        let own = BodyState {
+            body: Body::car(),
+            pose: Pose { position: [0.0, 0.0].into(), heading: 0.0 },
+            velocity: [0.0, 0.0].into(),
+            altitude: 0.0,
+            travelled: 0.0,
+            present: true,
+        };
+        let moment = Moment { bodies: vec![own], ..Moment::default() };
+        let task = Task::Detection(Detector::of(vec!["car".to_owned()]));
+        let marks = |boxes: Vec<Detection>| {
+            let mut marks = Marks::default();
+            marks.add(&task, &Percept::Boxes(boxes), (&picture, &moment), 0.0, &camera);
+            marks.at(&task, 0.0)
+        };
+        let car = Rect::between([2.0, 0.0], [4.0, 2.0]);
+        let found = marks(vec![Detection { class: 0, score: 0.9, rect: car }]);
+        assert_eq!(found, marks(Vec::new()));
+        // A detection where there is no car is a false alarm.
+        let road = Rect::between([0.0, 0.0], [2.0, 2.0]);
+        assert_ne!(found, marks(vec![Detection { class: 0, score: 0.9, rect: road }]));
+    }
+}

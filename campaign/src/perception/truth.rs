@@ -1,8 +1,11 @@
 //! The ground truth of an image: the road users in it, with their boxes, their visible shares and their distances.
+//!
+//! The parked cars of the look `textured` are in it, too. They exist only in pictures, so that nobody has to detect them.
 
+use paracosm_engine::object::Class;
 use paracosm_engine::sensor::Moment;
 use paracosm_perception::{Extent, Mask, Rect};
-use paracosm_render::{Box2, Box3, Camera, Rendering, Semantic, boxes};
+use paracosm_render::{Box2, Box3, Camera, Rendering, Semantic, boxes, is_only_pictured};
 
 /// The id of the ego vehicle in images. The ids of the other bodies follow in the order of the bodies.
 const OWN: u16 = 1;
@@ -23,7 +26,8 @@ pub(super) struct RoadUser {
     pub pixels: u32,
     /// The share of the object that is in the image and not behind another object, from 0 to 1.
     pub visible: f64,
-    /// The distance in metres from the middle of the ego vehicle to the middle of the road user.
+    /// The distance in metres from the middle of the ego vehicle to the middle of the road user; infinite for a car that
+    /// exists only in pictures.
     pub distance: f64,
 }
 
@@ -39,8 +43,13 @@ pub(super) fn road_users(picture: &Rendering, moment: &Moment, camera: &Camera, 
     let car = moment.bodies[0].pose.position;
     let user = |seen: Box2| {
         let id = seen.visible.id;
-        let state = moment.bodies.get(usize::from(id).checked_sub(1)?)?;
-        if id == OWN || !state.body.class.is_road_user() {
+        let (class, distance) = if is_only_pictured(id) {
+            (Class::Car, f64::INFINITY)
+        } else {
+            let state = moment.bodies.get(usize::from(id).checked_sub(1)?)?;
+            (state.body.class, (state.pose.position - car).norm())
+        };
+        if id == OWN || !class.is_road_user() {
             return None;
         }
         let alone = picture.frame.alone.iter().flatten().find(|alone| alone.id == id);
@@ -53,11 +62,11 @@ pub(super) fn road_users(picture: &Rendering, moment: &Moment, camera: &Camera, 
         let within = picture.boxes.iter().find(|known| known.id == id).map_or(0.0, |known| share_within(known, camera));
         Some(RoadUser {
             id,
-            kind: state.body.class.to_string(),
+            kind: class.to_string(),
             rect,
             pixels: seen.visible.pixels,
             visible: (1.0 - seen.occlusion.unwrap_or(0.0)) * within,
-            distance: (state.pose.position - car).norm(),
+            distance,
         })
     };
     boxes(&picture.frame).unwrap_or_default().into_iter().filter_map(user).collect()

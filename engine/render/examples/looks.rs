@@ -6,9 +6,12 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::object::{Body, BodyState, Class};
-use paracosm_engine::road::{CrossIntersection, RoadNetwork};
-use paracosm_engine::{AutonomousVehicle, Environment, Pose, Program, RoadSegment, Roadside, Run, Scenario, Setup};
-use paracosm_render::{Atmosphere, Camera, Look, Renderer, Scene, Stage, View, WantedImages};
+use paracosm_engine::road::{Composite, CrossIntersection};
+use paracosm_engine::sensor::Moment;
+use paracosm_engine::{
+    AutonomousVehicle, Environment, Pose, Program, RoadSegment, Roadside, Run, Scenario, Setup, Weather,
+};
+use paracosm_render::{Atmosphere, Camera, Cast, Look, Renderer, Scene, Stage, View, WantedImages};
 use std::error::Error;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -64,6 +67,12 @@ fn camera(width: u32, height: u32) -> Result<Camera, Box<dyn Error>> {
     Ok(Camera::new(width, height, 24.0, 36.0)?.mounted(Point3::new(0.3, 0.0, 1.4), 0.0, 0.02, 0.0)?)
 }
 
+/// Returns the moment of the given bodies, of which every third brakes.
+fn moment(bodies: &[BodyState]) -> Moment {
+    let accelerations = (0..bodies.len()).map(|index| if index % 3 == 0 { -2.0 } else { 0.0 }).collect();
+    Moment { bodies: bodies.to_vec(), accelerations, weather: Weather::default(), ..Moment::default() }
+}
+
 fn carrier(pose: &Pose) -> Isometry3<f64> {
     Isometry3::new(pose.position.push(0.0), Vector3::z() * pose.heading)
 }
@@ -76,15 +85,30 @@ fn write(path: &Path, [width, height]: [u32; 2], rgb: &[u8]) -> Result<(), Box<d
     Ok(())
 }
 
-/// Draws a crossing of wide roads, as a car sees it that comes to it.
-fn crossing(renderer: &mut Renderer, file: &Path) -> Result<(), Box<dyn Error>> {
-    let arm = |name: &str| RoadSegment::new(150.0).lanes(6).named(name);
-    let cross =
-        CrossIntersection::new().lanes(6).connect("one", arm("east"), "one").connect("three", arm("west"), "one");
-    let scene = Stage::in_look(&*cross.build()?, Look::Textured).scene_of([], Atmosphere::default());
+/// A crossing of wide roads, and the same of narrow ones, with a car that comes to it from the west.
+fn crossing(s: &mut Scenario) {
+    let lanes = s.choice("lanes", [2, 4, 6]).default(6).value();
+    let arm = |name: &str| RoadSegment::new(150.0).lanes(lanes).named(name);
+    let cross = CrossIntersection::new().lanes(lanes);
+    let arms = [("one", "east"), ("two", "south"), ("three", "west"), ("four", "north")];
+    let cross = arms.into_iter().fold(Composite::from(cross.named("cross")), |all, (port, name)| {
+        all.connect(&format!("cross.{port}"), arm(name), "one")
+    });
+    let streets = s.place(cross);
+    s.place(AutonomousVehicle::along(streets.way(("west", -1, 45.0), ("east", 1, 60.0))).speed(10.0));
+    s.place(Environment::new());
+}
+
+/// Draws a crossing as a car sees it that comes to it.
+fn draw_crossing(renderer: &mut Renderer, file: &Path, lanes: f64) -> Result<(), Box<dyn Error>> {
+    let program = Program::new("crossing", "a crossing", crossing);
+    let mut test = program.declare()?.nominal();
+    test.set("lanes", lanes);
+    let run = Run::new(&program, &test, Setup::asking_every(0.1))?;
+    let scene = Stage::in_look(run.network(), Look::Textured).dressed(&run).scene(&run);
     let view = camera(1280, 720)?;
-    let pose = Isometry3::translation(-58.0, -5.2, 1.2);
-    let frame = renderer.render(&[View::new(&scene, &view, pose)], COLOURS)?.remove(0)?;
+    let view = View { without: Some(1), ..View::new(&scene, &view, carrier(&run.bodies()[0].pose)) };
+    let frame = renderer.render(&[view], COLOURS)?.remove(0)?;
     write(file, [1280, 720], &frame.rgb.ok_or("the frame has no colours")?)
 }
 
@@ -139,11 +163,12 @@ fn seconds(renderer: &mut Renderer, scene: &Scene, start: &Pose, wanted: WantedI
 fn measure(
     renderer: &mut Renderer,
     name: &str,
-    network: &RoadNetwork,
+    run: &Run,
     bodies: &[BodyState],
     wanted: WantedImages,
 ) -> Result<(), Box<dyn Error>> {
-    let scene = |look: Look| Stage::in_look(network, look).scene_of(bodies.iter().enumerate(), Atmosphere::default());
+    let stage = |look: Look| Stage::in_look(run.network(), look).dressed(run);
+    let scene = |look: Look| stage(look).scene_at(&Cast::new(), &moment(bodies));
     let scenes = Look::ALL.map(scene);
     // The looks take turns, so that a slow moment of the machine meets them all.
     let mut times = Look::ALL.map(|_| Vec::new());
@@ -176,9 +201,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let own = bodies[0].pose;
     let low = Atmosphere { sun_elevation: 0.3, sun_azimuth: 0.9, ..Atmosphere::default() };
     for look in Look::ALL {
-        let stage = Stage::in_look(run.network(), look);
+        let stage = Stage::in_look(run.network(), look).dressed(&run);
         for (weather, air) in [("", Atmosphere::default()), ("-low-sun", low)] {
-            let scene = stage.scene_of(bodies.iter().enumerate(), air);
+            let scene = Scene { air, ..stage.scene_at(&Cast::new(), &moment(&bodies)) };
             for (width, height) in [(640, 480), (200, 66), (1280, 720)] {
                 let camera = camera(width, height)?;
                 let view = View { without: Some(1), ..View::new(&scene, &camera, carrier(&own)) };
@@ -188,7 +213,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
-    crossing(&mut renderer, &folder.join("crossing.png"))?;
+    for lanes in [2.0, 4.0, 6.0] {
+        draw_crossing(&mut renderer, &folder.join(format!("crossing-{lanes}.png")), lanes)?;
+    }
     portraits(&mut renderer, &folder.join("cars.png"), Body::car(), 7.5)?;
     portraits(&mut renderer, &folder.join("people.png"), Body::adult(), 4.5)?;
     portraits(&mut renderer, &folder.join("signs.png"), Body::disc(Class::Sign, 0.05, 2.5), 3.0)?;
@@ -196,8 +223,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let few = &traffic[..4];
     let bare = WantedImages { shadows: false, ..COLOURS };
     for (shadows, wanted) in [("with shadows", COLOURS), ("without shadows", bare)] {
-        measure(&mut renderer, &format!("a full street {shadows}"), run.network(), &bodies, wanted)?;
-        measure(&mut renderer, &format!("four road users {shadows}"), run.network(), few, wanted)?;
+        measure(&mut renderer, &format!("a full street {shadows}"), &run, &bodies, wanted)?;
+        measure(&mut renderer, &format!("four road users {shadows}"), &run, few, wanted)?;
     }
     Ok(())
 }

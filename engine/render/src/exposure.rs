@@ -43,10 +43,9 @@ impl Exposure<'_> {
     /// Returns the scene and the camera from which the renderer draws the `wanted` images. Colours include shadows.
     pub fn sight(&self, wanted: WantedImages) -> Sight {
         let plain = self.optics.is_plain() && self.moment.weather.rain <= 0.0;
-        let Moment { bodies, weather, .. } = self.moment;
-        let car = &bodies[0];
+        let car = &self.moment.bodies[0];
         Sight {
-            scene: self.stage.scene_with(self.cast, bodies.iter().enumerate(), Atmosphere::of(weather)),
+            scene: self.stage.scene_at(self.cast, self.moment),
             camera: self.optics.camera.clone(),
             pose: self.carrier(),
             head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),

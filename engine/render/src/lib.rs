@@ -6,8 +6,8 @@
 //! instances.
 //!
 //! Images have a [`Look`], which a [`Stage`] or a cache of [`Stages`] gives to all of its scenes. The look
-//! [`Flat`](Look::Flat) is the default and never changes. The look [`Textured`](Look::Textured) has textures, and cars and
-//! people of many shapes.
+//! [`Flat`](Look::Flat) is the default and never changes. The look [`Textured`](Look::Textured) has textures, cars and
+//! people of many shapes, lamps that show what a vehicle does, and scenery that exists only in pictures.
 //!
 //! [`Optics`] makes a camera from its description, by the table [`camera_settings`]. An [`Exposure`] is a moment of a
 //! run that a camera is to draw. A [`Developer`] draws many exposures.
@@ -59,6 +59,6 @@ pub use look::{Look, UnknownLook};
 pub use mesh::{Mesh, Semantic, SurfaceKind, Vertex};
 pub use optics::Optics;
 pub use renderer::{Adapter, Renderer, adapter};
-pub use scene::{Atmosphere, Cast, Instance, Model, Scene, Stage, Stages};
+pub use scene::{Atmosphere, Cast, Instance, Model, Scene, Stage, Stages, is_only_pictured};
 pub use settings::{CameraFlaw, CameraSettings, NoCamera, RESOLUTION, camera_settings};
 pub use view::{View, WantedImages};

@@ -1,11 +1,15 @@
 //! A scene: everything that is visible at one moment.
 
+mod cells;
 mod figure;
 mod ground;
 mod markings;
 mod pavement;
+mod scenery;
+mod signals;
 mod stage;
 
+pub use scenery::is_only_pictured;
 pub use stage::{Cast, Model, Stage, Stages};
 
 use crate::{Look, Mesh};

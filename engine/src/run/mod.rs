@@ -233,6 +233,11 @@ impl Run {
         &self.scene.network
     }
 
+    /// Returns the key of the test, which follows from the values of the test.
+    pub fn key(&self) -> u64 {
+        self.sensing.test()
+    }
+
     /// Returns the weather at the present tick.
     pub fn weather(&self) -> Weather {
         self.scene.weather(&self.graph)

@@ -130,6 +130,11 @@ impl Scene {
         Ok(())
     }
 
+    /// Returns the states of all bodies at the previous tick.
+    pub fn before(&self) -> &[BodyState] {
+        &self.previous
+    }
+
     /// Returns the states of all bodies except the scenery.
     pub fn told(&self) -> &[BodyState] {
         &self.bodies[..self.told]

@@ -19,6 +19,11 @@ impl Sensing {
         Self { test: key, ..Self::default() }
     }
 
+    /// Returns the key of the test.
+    pub fn test(&self) -> u64 {
+        self.test
+    }
+
     fn rigs(&mut self) -> [&mut Rig; 3] {
         [&mut self.rig, self.eyes.rig(), self.film.rig()]
     }
@@ -74,6 +79,8 @@ impl Run {
             time: self.time(),
             car: self.scene.ego.dynamics.state(),
             bodies: &self.scene.bodies,
+            before: self.scene.before(),
+            dt: self.dt,
             network: &self.scene.network,
             weather,
             air: Air::of(&weather),

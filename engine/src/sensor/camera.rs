@@ -62,12 +62,31 @@ pub struct CameraSpec {
 pub struct Moment {
     /// The states of all bodies in the world, with the ego vehicle's body first.
     pub bodies: Vec<BodyState>,
+    /// The changes of the bodies' speeds over the last tick, in m/s² and in the order of the bodies.
+    pub accelerations: Vec<f64>,
+    /// The seconds since the run began.
+    pub time: f64,
     /// The weather, which is light, fog, rain and the position of the sun.
     pub weather: Weather,
     /// The speed of the ego vehicle in m/s.
     pub speed: f64,
     /// The distance that the ego vehicle has covered, in metres.
     pub travelled: f64,
+}
+
+impl Moment {
+    /// Sets the moment to the state of the world in a view.
+    pub fn record(&mut self, view: &SensorView<'_>) {
+        self.bodies.clear();
+        self.bodies.extend_from_slice(view.bodies);
+        self.accelerations.clear();
+        let both = view.bodies.iter().zip(view.before);
+        self.accelerations.extend(both.map(|(now, before)| (now.velocity.norm() - before.velocity.norm()) / view.dt));
+        self.time = view.time;
+        self.weather = view.weather;
+        self.speed = view.car.speed();
+        self.travelled = view.car.travelled;
+    }
 }
 
 /// A sensor that records the moments at which a camera takes images, at a fixed period.
@@ -85,11 +104,7 @@ impl Sensor for Shutter {
     }
 
     fn sense(&mut self, view: &SensorView<'_>, _: &mut Chance, moment: &mut Moment) {
-        moment.bodies.clear();
-        moment.bodies.extend_from_slice(view.bodies);
-        moment.weather = view.weather;
-        moment.speed = view.car.speed();
-        moment.travelled = view.car.travelled;
+        moment.record(view);
     }
 }
 

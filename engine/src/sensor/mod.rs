@@ -152,6 +152,10 @@ pub struct SensorView<'a> {
     pub car: &'a VehicleState,
     /// The states of all bodies in the world, with the car's body first.
     pub bodies: &'a [BodyState],
+    /// The states of the same bodies at the previous tick.
+    pub before: &'a [BodyState],
+    /// The seconds since the previous tick.
+    pub dt: f64,
     /// The road network of the world.
     pub network: &'a RoadNetwork,
     /// The weather, which is light, fog, rain and the position of the sun.

@@ -4,7 +4,7 @@
 use super::{Rendering, Shot};
 use paracosm_campaign::Error;
 use paracosm_campaign::files::read_text;
-use paracosm_render::{Box2, Box3, Semantic, boxes};
+use paracosm_render::{Box2, Box3, Semantic, boxes, is_only_pictured};
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 use std::path::Path;
@@ -42,6 +42,7 @@ struct Annotation {
     bbox: [u32; 4],
     /// The number of visible pixels of the object.
     area: u32,
+    /// 1 for an object that a detector should neither be rewarded nor punished for, because it exists only in pictures.
     iscrowd: u8,
     /// The id of the object in the images of ids, which is the same in all images of a test.
     instance: u16,
@@ -158,7 +159,7 @@ fn annotation(id: usize, image_id: usize, seen: &Box2, in_space: Option<&Box3>) 
         category_id: semantic.unwrap_or_default(),
         bbox: [left, top, visible.max[0] - left + 1, visible.max[1] - top + 1],
         area: visible.pixels,
-        iscrowd: 0,
+        iscrowd: u8::from(is_only_pictured(visible.id)),
         instance: visible.id,
         attributes: Attributes { occlusion: *occlusion },
         in_space: in_space.map(|in_space| {

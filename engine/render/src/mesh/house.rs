@@ -42,6 +42,23 @@ pub(crate) enum Walls {
     Plaster,
 }
 
+/// The windows of a house, from near to very far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Windows {
+    Framed,
+    Panes,
+    Rows,
+    None,
+}
+
+impl Windows {
+    const ALL: [Self; 4] = [Self::Framed, Self::Panes, Self::Rows, Self::None];
+
+    fn is_near(self) -> bool {
+        self == Self::Framed
+    }
+}
+
 impl Walls {
     fn wall(self) -> Matter {
         let surface = match self {
@@ -81,19 +98,33 @@ impl Plan {
         [length, width, self.storeys as f32 * STOREY + roof]
     }
 
+    /// Makes the house. In the look `textured`, windows have fewer parts from afar.
     pub fn mesh(&self, walls: Walls) -> Mesh {
+        match walls {
+            Walls::Flat => self.modelled(walls, Windows::Framed),
+            Walls::Brick | Walls::Plaster => {
+                let [framed, panes, rows, none] = Windows::ALL.map(|windows| self.modelled(walls, windows));
+                framed.with_coarse(panes.with_coarse(rows.with_coarse(none)))
+            }
+        }
+    }
+
+    fn modelled(&self, walls: Walls, windows: Windows) -> Mesh {
         let [length, width, height] = self.size();
         let eaves = self.storeys as f32 * STOREY;
         let (x, y) = (0.5 * length - EAVES, 0.5 * width - EAVES);
+        // From afar, bricks and tiles are too small to be seen.
+        let far = |of: Matter, surface| if windows.is_near() { of } else { Matter { surface, ..of } };
+        let (wall, top) = (far(walls.wall(), SurfaceKind::Cloth), far(walls.roof(), SurfaceKind::Plain));
         let mut clay = Clay::default();
         if self.gabled() {
             let gable = |x: f32| {
                 vec![at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, 0.0, height - 0.1), at(x, -y, eaves)]
             };
-            clay.loft(&[gable(-x), gable(x)], walls.wall());
-            clay.mirrored(|clay| roof(clay, [0.5 * length, 0.5 * width], [eaves, height], walls.roof()));
+            clay.loft(&[gable(-x), gable(x)], wall);
+            clay.mirrored(|clay| roof(clay, [0.5 * length, 0.5 * width], [eaves, height], top));
         } else {
-            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], walls.wall());
+            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], wall);
             clay.cuboid(
                 [-x - EAVES, -y - EAVES, height - 0.3],
                 [x + EAVES, y + EAVES, height],
@@ -103,9 +134,15 @@ impl Plan {
         let front = [at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, -y, eaves)];
         let back = [at(-x, y, 0.0), at(-x, -y, 0.0), at(-x, -y, eaves), at(-x, y, eaves)];
         let left = [at(x, y, 0.0), at(-x, y, 0.0), at(-x, y, eaves), at(x, y, eaves)];
-        self.windows(&mut clay, front, self.bays[1], Some(self.bays[1] / 2));
-        self.windows(&mut clay, back, self.bays[1], None);
-        clay.mirrored(|clay| self.windows(clay, left, self.bays[0], None));
+        let add = |clay: &mut Clay, wall: [Point; 4], bays: usize, door: Option<usize>| match windows {
+            Windows::Framed => self.windows(clay, wall, bays, door),
+            Windows::Panes => self.panes(clay, wall, bays),
+            Windows::Rows => self.rows(clay, wall),
+            Windows::None => (),
+        };
+        add(&mut clay, front, self.bays[1], Some(self.bays[1] / 2));
+        add(&mut clay, back, self.bays[1], None);
+        clay.mirrored(|clay| add(clay, left, self.bays[0], None));
         clay.fitted([length, width, height]).mesh()
     }
 
@@ -125,6 +162,25 @@ impl Plan {
                     clay.facet(&patch(wall, [u(from), u(to)], [v(0.33), v(0.79)], 0.04), glass);
                 }
             }
+        }
+    }
+}
+
+impl Plan {
+    /// Adds a pane for every storey and bay of a wall.
+    fn panes(&self, clay: &mut Clay, wall: [Point; 4], bays: usize) {
+        for (storey, bay) in (0..self.storeys).flat_map(|storey| (0..bays).map(move |bay| (storey, bay))) {
+            let u = [0.27, 0.73].map(|share| (bay as f32 + share) / bays as f32);
+            let v = [0.32, 0.81].map(|share| (storey as f32 + share) / self.storeys as f32);
+            clay.facet(&patch(wall, u, v, 0.03), matter(SurfaceKind::Glass, GLASS));
+        }
+    }
+
+    /// Adds a low pane for every storey of a wall, of the same area as the windows of the storey.
+    fn rows(&self, clay: &mut Clay, wall: [Point; 4]) {
+        for storey in 0..self.storeys {
+            let v = [0.44, 0.69].map(|share| (storey as f32 + share) / self.storeys as f32);
+            clay.facet(&patch(wall, [0.05, 0.95], v, 0.03), matter(SurfaceKind::Glass, GLASS));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The shapes of objects: triangles with normals, texture coordinates and surface kinds.
 
+pub(crate) mod barriers;
 pub(crate) mod bicycle;
 pub(crate) mod bus;
 pub(crate) mod car;
@@ -9,12 +10,14 @@ pub(crate) mod colours;
 pub(crate) mod furniture;
 pub(crate) mod garb;
 pub(crate) mod house;
+pub(crate) mod lamps;
 pub(crate) mod models;
 pub(crate) mod motorcycle;
 pub(crate) mod person;
 pub(crate) mod picture;
 mod plant;
 pub(crate) mod signs;
+pub(crate) mod traffic_light;
 pub(crate) mod truck;
 pub(crate) mod van;
 
@@ -60,6 +63,9 @@ pub enum SurfaceKind {
     Tiles = 14,
     /// The bark of a tree in the colour of its corners.
     Bark = 15,
+    /// A lamp that shines in the colour of its corners by day and night, for example a brake lamp. In the look
+    /// [`Flat`](crate::Look::Flat) it does not shine.
+    Glow = 16,
 }
 
 /// The semantic class of an object, with the numbers of CARLA's classes since its version 0.9.14.
@@ -139,7 +145,8 @@ impl Mesh {
     }
 
     /// Sets a mesh of the same shape with fewer triangles. A renderer draws it where the object is small in the image, and
-    /// for shadows.
+    /// for shadows. The mesh with fewer triangles may have one with still fewer, which is drawn where the object is very
+    /// small.
     pub fn with_coarse(self, coarse: impl Into<Arc<Self>>) -> Self {
         Self { coarse: Some(coarse.into()), ..self }
     }

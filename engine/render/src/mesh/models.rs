@@ -4,8 +4,10 @@ use super::colours::linear;
 use super::furniture::{self, Plate};
 use super::garb::{GARBS, Garb, USUAL};
 use super::house::{Plan, Walls};
+use super::lamps::{Lit, shining};
 use super::signs::SIGNS;
-use super::{Mesh, SurfaceKind, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
+use super::traffic_light::{Aspect, traffic_light};
+use super::{Mesh, SurfaceKind, barriers, bicycle, bus, car, cars, motorcycle, person, plant, truck, van};
 use crate::Look;
 use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
@@ -31,17 +33,24 @@ pub(crate) struct Models {
     pub ball: Arc<Mesh>,
     pub parcel: Arc<Mesh>,
     pub barrier: Arc<Mesh>,
+    pub bollard: Arc<Mesh>,
+    pub delineator: Arc<Mesh>,
+    pub rail: Arc<Mesh>,
+    /// The traffic lights, in the order of [`Aspect::ALL`].
+    pub lights: [Arc<Mesh>; 3],
     /// People by the place of their garb in [`GARBS`]; `true` for children.
     people: Shelf<(usize, bool), Person>,
     /// The meshes of cars of many kinds, by kind and size in millimetres.
     cars: Shelf<(usize, [u32; 3])>,
+    /// The meshes of vehicles with lamps that shine, by the key of the mesh without.
+    shining: Shelf<(u64, Lit)>,
     /// The traffic signs of the look `textured`, by their place in [`SIGNS`].
     signs: Shelf<usize>,
     /// The trunks of trees, by their surface.
     trunks: Shelf<SurfaceKind>,
     houses: Shelf<(Plan, Walls)>,
     /// The meshes of the crowns of trees, by colour; `true` for conifers.
-    crowns: Shelf<(bool, Colour)>,
+    crowns: Shelf<(bool, Colour, Look)>,
 }
 
 /// Shapes that are made when they are first asked for.
@@ -98,8 +107,13 @@ impl Models {
             ball: furniture::ball().into(),
             parcel: furniture::parcel().into(),
             barrier: furniture::barrier().into(),
+            bollard: barriers::bollard().into(),
+            delineator: barriers::delineator().into(),
+            rail: barriers::rail().into(),
+            lights: Aspect::ALL.map(|lit| traffic_light(lit).into()),
             people: Shelf::default(),
             cars: Shelf::default(),
+            shining: Shelf::default(),
             signs: Shelf::default(),
             trunks: Shelf::default(),
             houses: Shelf::default(),
@@ -117,6 +131,15 @@ impl Models {
     pub fn car_of(&self, kind: usize, size: [f32; 3]) -> Arc<Mesh> {
         let millimetres = size.map(|metres| (1000.0 * metres).round() as u32);
         take(&self.cars, (kind, millimetres), || cars::car(kind, size).into())
+    }
+
+    /// Returns one of the vehicles of these models with lamps that shine.
+    pub fn shining(&self, vehicle: &Arc<Mesh>, lit: Lit) -> Arc<Mesh> {
+        if lit.is_any() {
+            take(&self.shining, (vehicle.key(), lit), || shining(vehicle, lit).into())
+        } else {
+            vehicle.clone()
+        }
     }
 
     /// Returns the mesh of the trunk of a tree in a look.
@@ -138,8 +161,13 @@ impl Models {
         take(&self.houses, (plan, walls), || plan.mesh(walls).into())
     }
 
-    pub fn crown(&self, conifer: bool, colour: Colour) -> Arc<Mesh> {
-        take(&self.crowns, (conifer, colour), || plant::crown(conifer, linear(colour)).into())
+    /// Returns the mesh of the crown of a tree in a look. In the look `textured`, it has fewer triangles from afar.
+    pub fn crown(&self, conifer: bool, colour: Colour, look: Look) -> Arc<Mesh> {
+        let near = || plant::crown(conifer, linear(colour));
+        take(&self.crowns, (conifer, colour, look), || match look {
+            Look::Flat => near().into(),
+            Look::Textured => near().with_coarse(plant::far_crown(conifer, linear(colour))).into(),
+        })
     }
 }
 

@@ -34,3 +34,18 @@ pub(crate) fn crown(conifer: bool, colour: [f32; 3]) -> Mesh {
     }
     clay.fitted([1.0; 3]).mesh()
 }
+
+/// A crown with few triangles, for trees that are so far away that leaves have no texture.
+pub(crate) fn far_crown(conifer: bool, colour: [f32; 3]) -> Mesh {
+    let leaves = Matter::new(SurfaceKind::Plain, colour, Semantic::Vegetation);
+    let mut clay = Clay::default();
+    if conifer {
+        for (low, wide, high, narrow) in [(0.0, 0.5, 0.6, 0.16), (0.4, 0.34, 1.0, 0.0)] {
+            clay.hose(&[oval(at(0.0, 0.0, low), wide, wide, 5), oval(at(0.0, 0.0, high), narrow, narrow, 5)], leaves);
+        }
+    } else {
+        clay.ball(at(-0.04, 0.02, 0.56), [0.44, 0.42, 0.44], 6, leaves);
+        clay.ball(at(0.02, 0.0, 0.34), [0.47, 0.46, 0.32], 6, leaves);
+    }
+    clay.fitted([1.0; 3]).mesh()
+}

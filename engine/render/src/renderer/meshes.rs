@@ -18,7 +18,7 @@ pub(super) struct GpuMesh {
     pub corners: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     /// The ranges of the mesh's indices that belong to each finish, in the order of [`Finish::ALL`].
-    pub parts: [Range<u32>; 4],
+    pub parts: [Range<u32>; 5],
     /// The pictures of the surface as an input of the programs that draw surfaces, if the mesh has any.
     pub pictures: Option<wgpu::BindGroup>,
     pub low: Vector3<f64>,
@@ -35,27 +35,31 @@ pub(super) enum Finish {
     Glossy,
     /// A surface with a picture.
     Pictured,
-    /// A grained surface, mostly the ground. It is drawn last, since most other objects hide parts of it.
+    /// A grained surface that does not lie on the ground, such as a wall or leaves.
+    Upright,
+    /// A grained surface on the ground. It is drawn last, since most other objects hide parts of it.
     Grained,
 }
 
 impl Finish {
-    pub const ALL: [Self; 4] = [Self::Dull, Self::Glossy, Self::Pictured, Self::Grained];
+    pub const ALL: [Self; 5] = [Self::Dull, Self::Glossy, Self::Pictured, Self::Upright, Self::Grained];
 
     fn of(surface: SurfaceKind) -> Self {
         match surface {
             SurfaceKind::Paint | SurfaceKind::Glass => Self::Glossy,
             SurfaceKind::Asphalt
-            | SurfaceKind::Grown
             | SurfaceKind::Slabs
             | SurfaceKind::Concrete
             | SurfaceKind::Marking
-            | SurfaceKind::Grass
-            | SurfaceKind::Brick
-            | SurfaceKind::Plaster
-            | SurfaceKind::Tiles
-            | SurfaceKind::Bark => Self::Grained,
-            SurfaceKind::Plain | SurfaceKind::Cloth | SurfaceKind::WhiteLamp | SurfaceKind::RedLamp => Self::Dull,
+            | SurfaceKind::Grass => Self::Grained,
+            SurfaceKind::Grown | SurfaceKind::Brick | SurfaceKind::Plaster | SurfaceKind::Tiles | SurfaceKind::Bark => {
+                Self::Upright
+            }
+            SurfaceKind::Plain
+            | SurfaceKind::Cloth
+            | SurfaceKind::WhiteLamp
+            | SurfaceKind::RedLamp
+            | SurfaceKind::Glow => Self::Dull,
         }
     }
 }
@@ -109,7 +113,7 @@ impl Meshes {
 impl GpuMesh {
     /// Returns the number of corner indices of the mesh.
     pub fn count(&self) -> u32 {
-        self.parts[3].end
+        self.parts[4].end
     }
 
     fn new(gpu: &Gpu, textures: &wgpu::BindGroupLayout, mesh: &Mesh) -> Result<Self, Unfit> {
@@ -182,7 +186,7 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
 }
 
 /// Returns the corner indices of triangles, sorted by finish, and the range of each finish.
-fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 4]) {
+fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 5]) {
     let mut indices = Vec::with_capacity(3 * triangles.len());
     let parts = Finish::ALL.map(|finish| {
         let begin = indices.len() as u32;

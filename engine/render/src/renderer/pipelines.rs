@@ -37,7 +37,7 @@ pub(super) struct Pipelines {
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
     /// The programs that draw surfaces without pictures, in the order of [`PLAIN`].
-    pub surfaces: [wgpu::RenderPipeline; 3],
+    pub surfaces: [wgpu::RenderPipeline; 4],
     /// The program that draws the sky; `None` if no colours are wanted.
     pub sky: Option<wgpu::RenderPipeline>,
     /// The textures of surfaces; `None` if the programs read none.
@@ -54,7 +54,7 @@ struct Modules {
 const CORNERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [Some(RawCorner::LAYOUT), Some(RawInstance::LAYOUT)];
 
 /// The finishes of surfaces without pictures.
-pub(super) const PLAIN: [Finish; 3] = [Finish::Dull, Finish::Glossy, Finish::Grained];
+pub(super) const PLAIN: [Finish; 4] = [Finish::Dull, Finish::Glossy, Finish::Upright, Finish::Grained];
 
 const VIEW: &str = include_str!("shaders/view.wgsl");
 
@@ -174,7 +174,8 @@ fn pipeline(
         ("LAMPS", weather.lamps),
         ("FOG", weather.fog),
         ("GLOSSY", finish == Some(Finish::Glossy)),
-        ("GRAINED", finish == Some(Finish::Grained)),
+        ("GRAINED", matches!(finish, Some(Finish::Grained | Finish::Upright))),
+        ("UPRIGHT", finish == Some(Finish::Upright)),
         ("PICTURED", finish == Some(Finish::Pictured)),
     ];
     // The sky's program declares only one of the constants, and refuses others.

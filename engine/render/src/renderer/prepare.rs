@@ -9,6 +9,7 @@ use super::shadow::{ShadowMap, to_sun};
 use crate::{Camera, Instance, InstanceFlaw, Look, View, ViewError, WantedImages};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
+use std::iter::successors;
 use std::ops::Range;
 
 /// A view that is ready to be drawn.
@@ -51,15 +52,15 @@ impl Prepared {
     }
 }
 
-/// The radius in pixels below which an object is drawn with few triangles.
-const SMALL: f64 = 14.0;
+/// The radii in pixels below which an object is drawn with few triangles, with very few, and with the fewest.
+const SMALL: [f64; 3] = [14.0, 8.0, 2.0];
 
 /// An instance that may be drawn.
 struct Placed<'a> {
     instance: &'a Instance,
     mesh: &'a GpuMesh,
-    /// True if the object is so small in the image that few triangles are enough.
-    small: bool,
+    /// The number of times that a coarser mesh is enough, because the object is small in the image.
+    coarser: usize,
     shape: Shape,
     middle: Point3<f64>,
     radius: f64,
@@ -79,7 +80,7 @@ pub(super) fn prepare(
     for (index, instance) in seen() {
         check_instance(index, instance)?;
         let unfit = |unfit: &Unfit| not_drawable(gpu, index, instance.id, unfit);
-        for mesh in [Some(&instance.mesh), instance.mesh.coarse()].into_iter().flatten() {
+        for mesh in successors(Some(&instance.mesh), |mesh| mesh.coarse()) {
             meshes.upload(gpu, mesh).as_ref().map_err(unfit)?;
         }
     }
@@ -90,8 +91,8 @@ pub(super) fn prepare(
         let shape = shape(instance, &to_eye);
         check_outside(index, instance, mesh, &shape)?;
         let (middle, radius) = shape.ball(mesh);
-        let small = radius * focal < SMALL * middle.coords.norm();
-        placed.push(Placed { instance, mesh, small, shape, middle, radius });
+        let coarser = SMALL.iter().filter(|pixels| radius * focal < **pixels * middle.coords.norm()).count();
+        placed.push(Placed { instance, mesh, coarser, shape, middle, radius });
     }
     // Near objects hide far objects, whose hidden pixels then need no colour.
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
@@ -112,27 +113,27 @@ pub(super) fn prepare(
         let ids: BTreeSet<u16> = in_sight.iter().map(|placed| placed.instance.id).collect();
         prepared.bits = ids.into_iter().zip(0..).collect();
     }
-    prepared.draws = prepared.add(in_sight.into_iter(), |placed| placed.small);
+    prepared.draws = prepared.add(in_sight.into_iter(), |placed| placed.coarser);
     if wanted.shadows && wanted.light() && prepared.raw.sun_light.iter().any(|light| *light > 0.0) {
         let throws = |placed: &&Placed<'_>| is_solid(placed) && map.catches(&placed.middle, placed.radius);
-        prepared.casters = prepared.add(placed.iter().filter(throws), |_| true);
+        prepared.casters = prepared.add(placed.iter().filter(throws), |_| SMALL.len());
     }
     Ok(prepared)
 }
 
 impl Prepared {
-    /// Adds the given instances, sorted by mesh. If `coarse` is true for an instance, its mesh with fewer triangles is used,
-    /// if there is one.
+    /// Adds the given instances, sorted by mesh. `coarser` is the number of times that the mesh of an instance gives way to
+    /// its mesh with fewer triangles, if there is one.
     fn add<'a>(
         &mut self,
         placed: impl Iterator<Item = &'a Placed<'a>>,
-        coarse: impl Fn(&Placed<'_>) -> bool,
+        coarser: impl Fn(&Placed<'_>) -> usize,
     ) -> Vec<Draw> {
         let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
         for placed in placed {
-            let mesh = &placed.instance.mesh;
-            let key = mesh.coarse().filter(|_| coarse(placed)).unwrap_or(mesh).key();
+            let levels = successors(Some(&placed.instance.mesh), |mesh| mesh.coarse());
+            let key = levels.take(1 + coarser(placed)).last().unwrap_or(&placed.instance.mesh).key();
             let group = *group_of.entry(key).or_insert(groups.len());
             if group == groups.len() {
                 groups.push((key, Vec::new()));

@@ -8,7 +8,7 @@ use crate::texture::{ALL, TEXELS, levels};
 use wgpu::{FilterMode, MipmapFilterMode};
 
 /// The number of kinds of surfaces.
-const KINDS: usize = 16;
+const KINDS: usize = 17;
 
 /// Returns the constants of the shaders: for each kind of surface the repetitions of its texture in a metre.
 pub(super) fn table() -> String {

@@ -6,10 +6,13 @@
 mod gait;
 mod variety;
 
+pub(in crate::scene) use variety::lot;
+
 use super::Instance;
 use crate::Look;
 use crate::mesh::colours::linear;
 use crate::mesh::house::Walls;
+use crate::mesh::lamps::Lit;
 use crate::mesh::models::Models;
 use crate::mesh::{Mesh, bicycle, bus, car, cars, furniture, house, motorcycle, truck, van};
 use gait::walker;
@@ -39,6 +42,8 @@ pub(super) struct Figure<'a> {
     pub paint: [f32; 3],
     pub id: u16,
     pub look: Look,
+    /// The lamps of a vehicle that shine.
+    pub lit: Lit,
 }
 
 impl<'a> Figure<'a> {
@@ -52,7 +57,7 @@ impl<'a> Figure<'a> {
             Look::Flat => state.body.colour,
             Look::Textured => variety::colour(&state.body, id),
         };
-        Self { state, pose, size: size(&state.body), paint: linear(colour), id, look }
+        Self { state, pose, size: size(&state.body), paint: linear(colour), id, look, lit: Lit::default() }
     }
 
     /// Returns an instance of a mesh at the pose `at` relative to the body.
@@ -72,13 +77,16 @@ impl<'a> Figure<'a> {
         match self.state.body.class {
             Class::Car if self.look == Look::Textured => {
                 let kind = cars::kind(self.size, variety::lot(self.id, variety::KIND));
-                scene.push(self.stretched(&models.car_of(kind, self.size), self.size));
+                let car = models.shining(&models.car_of(kind, self.size), self.lit);
+                scene.push(self.stretched(&car, self.size));
             }
             Class::Car => scene.push(self.stretched(&models.car, car::SIZE)),
-            Class::Van => scene.push(self.stretched(&models.van, van::SIZE)),
-            Class::Truck => scene.push(self.stretched(&models.truck, truck::SIZE)),
-            Class::Bus => scene.push(self.stretched(&models.bus, bus::SIZE)),
-            Class::Motorcycle => scene.push(self.stretched(&models.motorcycle, motorcycle::SIZE)),
+            Class::Van => scene.push(self.stretched(&models.shining(&models.van, self.lit), van::SIZE)),
+            Class::Truck => scene.push(self.stretched(&models.shining(&models.truck, self.lit), truck::SIZE)),
+            Class::Bus => scene.push(self.stretched(&models.shining(&models.bus, self.lit), bus::SIZE)),
+            Class::Motorcycle => {
+                scene.push(self.stretched(&models.shining(&models.motorcycle, self.lit), motorcycle::SIZE));
+            }
             Class::Bicycle if self.size[2] < RIDDEN => {
                 scene.push(self.stretched(&models.parked_bicycle, bicycle::PARKED));
             }
@@ -115,7 +123,7 @@ impl<'a> Figure<'a> {
             [0.5 * length, 0.5 * width, 0.6 * height],
         ));
         let turned = Isometry3::new(Vector3::z() * low, Vector3::z() * (chance % 360) as f32);
-        let crown = models.crown(conifer, self.state.body.colour);
+        let crown = models.crown(conifer, self.state.body.colour, self.look);
         scene.push(self.part(&crown, turned, [wide, wide, height - low]));
     }
 

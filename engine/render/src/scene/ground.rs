@@ -170,7 +170,7 @@ fn plain(bounds: &Bounds, look: Look) -> Instance {
     standing(clay.mesh_at(middle.into()), middle)
 }
 
-fn standing(mesh: Mesh, at: Vector2<f64>) -> Instance {
+pub(super) fn standing(mesh: Mesh, at: Vector2<f64>) -> Instance {
     let pose = Isometry3::translation(at.x as f32, at.y as f32, 0.0);
     Instance { mesh: Arc::new(mesh), pose, scale: [1.0; 3], paint: [1.0; 3], id: 0 }
 }

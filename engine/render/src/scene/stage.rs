@@ -3,12 +3,16 @@
 use super::figure::Figure;
 use super::ground::ground;
 use super::pavement::Pavement;
+use super::scenery::Scenery;
+use super::signals::Signals;
 use super::{Atmosphere, Instance, Scene};
+use crate::mesh::lamps::Lit;
 use crate::{Look, Mesh};
 use nalgebra::{Isometry3, Vector3};
 use paracosm_engine::Run;
 use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::road::RoadNetwork;
+use paracosm_engine::sensor::Moment;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
@@ -27,8 +31,10 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 pub struct Stage {
     look: Look,
     still: Vec<Instance>,
-    pavement: Pavement,
-    models: BTreeMap<Class, Model>,
+    pavement: Arc<Pavement>,
+    signals: Arc<Signals>,
+    models: BTreeMap<Class, Arc<Model>>,
+    scenery: Scenery,
 }
 
 /// A user's own mesh, which is stretched to the bounding box of the body that it represents. The front of the mesh is
@@ -52,7 +58,27 @@ impl Stage {
 
     /// Makes the drawable scenery of a road network. All scenes of the stage have the given look.
     pub fn in_look(network: &RoadNetwork, look: Look) -> Self {
-        Self { look, still: ground(network, look), pavement: Pavement::of(network), models: BTreeMap::new() }
+        Self {
+            look,
+            still: ground(network, look),
+            pavement: Arc::new(Pavement::of(network)),
+            signals: Arc::new(Signals::of(network)),
+            models: BTreeMap::new(),
+            scenery: Scenery::default(),
+        }
+    }
+
+    /// Returns the same stage with the scenery that the look [`Textured`](Look::Textured) adds to the world of a run that
+    /// has just begun: houses, trees, parked cars, posts and guard rails, traffic lights. It follows from the roads and from
+    /// the values of the test, and exists only in pictures. The look [`Flat`](Look::Flat) adds nothing.
+    pub fn dressed(&self, run: &Run) -> Self {
+        let scenery = match self.look {
+            Look::Flat => Scenery::default(),
+            Look::Textured => Scenery::of(run),
+        };
+        let Self { look, still, pavement, signals, models, .. } = self;
+        let (still, pavement, signals, models) = (still.clone(), pavement.clone(), signals.clone(), models.clone());
+        Self { look: *look, still, pavement, signals, models, scenery }
     }
 
     /// Returns the look of all scenes of the stage.
@@ -62,14 +88,28 @@ impl Stage {
 
     /// Sets a user's own mesh as the model of all bodies of a class. The front of the mesh is along x.
     pub fn model(mut self, class: Class, mesh: impl Into<Arc<Mesh>>) -> Self {
-        self.models.insert(class, Model::new(mesh));
+        self.models.insert(class, Arc::new(Model::new(mesh)));
         self
     }
 
     /// Returns the scene of a run at its current tick, with all bodies that are in the world. The ego vehicle has the
     /// id 1, so that a camera mounted on it can leave it out.
     pub fn scene(&self, run: &Run) -> Scene {
-        self.scene_of(run.bodies().iter().enumerate(), Atmosphere::of(&run.weather()))
+        let mut moment = Moment::default();
+        moment.record(&run.view());
+        self.scene_at(&Cast::new(), &moment)
+    }
+
+    /// Returns the scene of a moment, with the bodies in `cast` drawn as users' own models. In the look
+    /// [`Textured`](Look::Textured), vehicles show brake lamps and direction indicators.
+    pub fn scene_at(&self, cast: &Cast, moment: &Moment) -> Scene {
+        let lit = |index: usize, state: &BodyState| match self.look {
+            Look::Flat => Lit::default(),
+            Look::Textured => self.signals.lit(index, state, moment),
+        };
+        let mut scene = self.build(cast, moment.bodies.iter().enumerate(), Atmosphere::of(&moment.weather), lit);
+        self.scenery.draw(&moment.bodies, moment.time, &mut scene.instances);
+        scene
     }
 
     /// Returns the scene of the given bodies in the given light and fog. Each body comes with its index in the run;
@@ -85,13 +125,23 @@ impl Stage {
         bodies: impl IntoIterator<Item = (usize, &'a BodyState)>,
         air: Atmosphere,
     ) -> Scene {
+        self.build(cast, bodies, air, |_, _| Lit::default())
+    }
+
+    fn build<'a>(
+        &self,
+        cast: &Cast,
+        bodies: impl IntoIterator<Item = (usize, &'a BodyState)>,
+        air: Atmosphere,
+        lit: impl Fn(usize, &BodyState) -> Lit,
+    ) -> Scene {
         let mut instances = self.still.clone();
         for (index, state) in bodies.into_iter().filter(|(_, state)| state.present) {
             let on_foot = matches!(state.body.class, Class::Pedestrian | Class::Bicycle);
             let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
             let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
-            let figure = Figure::new(state, raised as f32, id, self.look);
-            let of_class = || self.models.get(&state.body.class);
+            let figure = Figure { lit: lit(index, state), ..Figure::new(state, raised as f32, id, self.look) };
+            let of_class = || self.models.get(&state.body.class).map(Arc::as_ref);
             match cast.get(&index).map(Arc::as_ref).or_else(of_class) {
                 Some(model) => instances.push(model.instance(&figure)),
                 None => figure.draw(&mut instances),
@@ -137,6 +187,15 @@ impl Stages {
     /// Returns the look of the sceneries.
     pub fn look(&self) -> Look {
         self.look
+    }
+
+    /// Returns the stage of a run that has just begun, with the scenery of its look ([`Stage::dressed`]).
+    pub fn of_run(&self, run: &Run) -> Arc<Stage> {
+        let stage = self.of(run.network());
+        match self.look {
+            Look::Flat => stage,
+            Look::Textured => Arc::new(stage.dressed(run)),
+        }
     }
 
     /// Returns the drawable scenery of a road network, from the cache if possible. Tests on the same network share one

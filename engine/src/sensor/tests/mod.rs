@@ -50,7 +50,8 @@ impl World {
     fn view(&self, time: f64) -> SensorView<'_> {
         let air = Air { extinction: self.extinction, ..Air::default() };
         let weather = Weather::default();
-        SensorView { time, car: &self.car, bodies: &self.bodies, network: &self.network, weather, air }
+        let bodies = &self.bodies;
+        SensorView { time, car: &self.car, bodies, before: bodies, dt: 0.01, network: &self.network, weather, air }
     }
 }
 

@@ -242,3 +242,28 @@ fn a_camera_faster_than_the_ticks_of_a_scenario_is_refused() {
     }
     check_rates(&study, &changed("", |camera| camera.rate = 100.0)).expect("an image a tick");
 }
+
+#[test]
+fn a_parked_car_that_exists_only_in_pictures_is_a_crowd_in_the_labels() {
+    if !can_draw() {
+        return;
+    }
+    let (study, trials) = tests_of(of("pedestrian-crossing"), 1);
+    let wide = changed("", |camera| camera.resolution = [160, 100]);
+    let textured = paracosm_campaign::cameras::VariedCameras::from(wide).in_look(paracosm_render::Look::Textured);
+    let dir = tempfile::tempdir().expect("a folder");
+    let dataset = Dataset::open(dir.path(), textured.clone(), Kept::ALL, None).expect("a new data set");
+    let mut projector = Projector::new(textured.nominal(), Kept::ALL.outputs()).expect("there is an adapter");
+    let mut worker = Worker::new(&study).expect("it can be run");
+    dataset.record(&mut worker, &trials[0], &mut projector).expect("it is recorded");
+    let text = fs::read_to_string(dir.path().join("000000/annotations.json")).expect("it is there");
+    let read: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let of_kind = |crowd: bool| {
+        let all = read["annotations"].as_array().expect("a list").iter();
+        all.filter(|one| (one["iscrowd"] == 1) == crowd).map(|one| one["instance"].as_u64()).collect::<Vec<_>>()
+    };
+    let pictured = |id: &Option<u64>| paracosm_render::is_only_pictured(id.expect("a number") as u16);
+    let (crowds, objects) = (of_kind(true), of_kind(false));
+    assert!(crowds.len() > 10 && crowds.iter().all(pictured), "{crowds:?}");
+    assert!(!objects.is_empty() && !objects.iter().any(pictured), "{objects:?}");
+}

@@ -2,7 +2,8 @@
 
 use super::super::SurfaceKind;
 use super::super::clay::{Clay, Matter, Point, at, patch, ring};
-use super::super::colours::{BLACK, GREY, LAMP, RED, RUBBER, STEEL, WHITE};
+use super::super::colours::{BLACK, GREY, LAMP, RUBBER, STEEL, WHITE};
+use super::LENS;
 use super::shell::{Shell, matter, paint};
 
 /// The sides of a wheel, and its spokes.
@@ -125,7 +126,7 @@ impl Shell {
         let bed = self.bed.is_some();
         self.plate(clay, end - 0.014, -1.0, if bed { low - 0.03 } else { low + 0.30 });
         clay.mirrored(|clay| {
-            let lamp = matter(SurfaceKind::RedLamp, RED);
+            let lamp = matter(SurfaceKind::RedLamp, LENS);
             let inner = if bed { 0.80 * wide } else { 0.58 * wide };
             let bottom = if bed { low + 0.24 } else { low + 0.34 };
             let tip = [at(end - 0.008, inner, bottom), at(end - 0.008, 1.005 * wide, bottom)];

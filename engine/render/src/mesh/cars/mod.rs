@@ -3,6 +3,7 @@
 //! A car is modelled for the size of its body, so that the wheels of a stretched car stay round.
 
 mod details;
+mod far;
 pub(crate) mod paints;
 mod shell;
 
@@ -35,6 +36,9 @@ pub(crate) struct Lines {
     /// The rear and the front edge of an open loading bed.
     bed: Option<[f32; 2]>,
 }
+
+/// The colour of a rear lamp that does not shine, in linear light: darker than a lamp that does.
+const LENS: [f32; 3] = [0.26, 0.008, 0.008];
 
 /// All kinds of cars.
 pub(crate) const KINDS: [Lines; 10] = [
@@ -202,7 +206,9 @@ pub(crate) fn car(kind: usize, size: [f32; 3]) -> Mesh {
         shell.details(&mut clay);
         clay.fitted(size).mesh()
     };
-    mesh(false).with_coarse(mesh(true))
+    let mut far = Clay::default();
+    shell::Shell::new(&KINDS[kind], size, true).far(&mut far);
+    mesh(false).with_coarse(mesh(true).with_coarse(far.fitted(size).mesh()))
 }
 
 #[cfg(test)]

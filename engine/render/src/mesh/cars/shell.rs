@@ -80,6 +80,16 @@ impl Shell {
         self.roof[0][0]
     }
 
+    /// Returns the rear end and the front end of the roof: metres along the car, and metres up.
+    pub fn roof_ends(&self) -> [[f32; 2]; 2] {
+        [self.roof[1], self.roof[self.roof.len() - 2]]
+    }
+
+    /// Returns the half-width of the roof.
+    pub fn roof_half_width(&self) -> f32 {
+        self.narrow * self.half[1]
+    }
+
     /// Returns the half-width of the body at a place along the car.
     pub fn wide(&self, x: f32) -> f32 {
         let near = ((x.abs() - (self.half[0] - TAPER[0])) / TAPER[0]).clamp(0.0, 1.0);

@@ -10,6 +10,11 @@ fn grained(colour: vec3f, seen: Seen, pixel: f32) -> vec3f {
     return colour * grain(seen.uv, pixel, seen.kind & 15u);
 }
 
+// Whether a dull surface is a lamp that glows: no lamp does.
+fn glows(kind: u32) -> bool {
+    return false;
+}
+
 fn pictured(uv: vec2f, layer: u32) -> vec3f {
     return vec3f(1.0);
 }

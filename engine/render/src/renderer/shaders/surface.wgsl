@@ -10,10 +10,14 @@ override LAMPS: bool = false;
 // Which kinds of surfaces are drawn.
 override GLOSSY: bool = false;
 override GRAINED: bool = false;
+override UPRIGHT: bool = false;
 override PICTURED: bool = false;
 
 @group(1) @binding(0) var sun_depth: texture_depth_2d;
 @group(1) @binding(1) var sun_sampler: sampler_comparison;
+
+// How much brighter than white paper in the sun a lamp is that glows.
+const GLOW: f32 = 1.6;
 
 const PAINT: u32 = 1u;
 const CLOTH: u32 = 2u;
@@ -30,7 +34,8 @@ struct Seen {
     @location(2) uv: vec2f,
     // The plane of the triangle: those p with dot(plane.xyz, p) = plane.w.
     @location(3) @interpolate(flat) plane: vec4f,
-    // Surface in 4 bits, layer of its texture or picture in 4 bits, class, and id in the upper half.
+    // Surface in 4 bits, layer of its texture or picture in 4 bits, class, and id in the upper half. A lamp that glows is a
+    // plain surface with layer 1.
     @location(4) @interpolate(flat) kind: u32,
 }
 
@@ -100,6 +105,9 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     }
     if LAMPS && !GLOSSY && !GRAINED && kind == RED_LAMP {
         return mix(seen.colour, vec3f(0.9, 0.02, 0.01), view.sun.w);
+    }
+    if !GLOSSY && !GRAINED && !PICTURED && glows(seen.kind) {
+        return GLOW * seen.colour;
     }
     var colour = seen.colour;
     if GRAINED {

@@ -7,6 +7,7 @@
 const OVER: mat2x2f = mat2x2f(0.171, 0.064, -0.064, 0.171);
 
 const ASPHALT: u32 = 4u;
+const GLOWS: u32 = 16u;
 // The layers of the second textures: of asphalt, and of everything else.
 const MENDED: u32 = 0u;
 const STAINED: u32 = 1u;
@@ -19,6 +20,11 @@ fn laid(uv: vec2f, kind: u32) -> vec2f {
 }
 
 fn grained(colour: vec3f, seen: Seen, pixel: f32) -> vec3f {
+    // A wall or a leaf is seen less flatly than the ground, so that one texel is enough, and is too small for a second texture.
+    if UPRIGHT {
+        let texel = textureSample(textures, texture_sampler, seen.uv, (seen.kind >> 4u) & 15u);
+        return 2.0 * texel.w * colour + texel.xyz;
+    }
     let texel = long_texel(seen.uv, (seen.kind >> 4u) & 15u);
     let over = textureSample(textures, texture_sampler, OVER * seen.uv, select(STAINED, MENDED, (seen.kind & 15u) == ASPHALT));
     return (2.0 * texel.w * colour + texel.xyz) * (2.0 * over.w);
@@ -35,6 +41,11 @@ fn long_texel(uv: vec2f, layer: u32) -> vec4f {
     var sum = textureSampleGrad(textures, texture_sampler, uv - 0.5 * long, layer, long, short);
     sum += textureSampleGrad(textures, texture_sampler, uv + 0.5 * long, layer, long, short);
     return 0.5 * sum;
+}
+
+// Whether a dull surface is a lamp that glows.
+fn glows(kind: u32) -> bool {
+    return (kind & 255u) == GLOWS;
 }
 
 // The picture of a user's model.

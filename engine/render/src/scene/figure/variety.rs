@@ -47,7 +47,7 @@ const CYCLES: [Colour; 6] = [[24, 24, 26], [60, 62, 66], [150, 24, 28], [24, 60,
 
 /// Returns a pseudorandom number that depends only on the id of a body and on the purpose (Steele et al., Fast splittable
 /// pseudorandom number generators, 2014).
-pub(super) fn lot(id: u16, purpose: u32) -> u32 {
+pub(in crate::scene) fn lot(id: u16, purpose: u32) -> u32 {
     let mut mixed = (u64::from(id) << 32 | u64::from(purpose)).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
