@@ -33,6 +33,7 @@ pub use paracosm_coverage as coverage;
 pub use paracosm_engine as engine;
 pub use paracosm_generators as generators;
 pub use paracosm_oracles as oracles;
+pub use paracosm_perception as perception;
 #[cfg(feature = "camera")]
 pub use paracosm_render as render;
 pub use paracosm_report as report;

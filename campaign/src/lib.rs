@@ -33,17 +33,21 @@ mod expected;
 mod extension;
 pub mod files;
 mod folder;
+#[cfg(feature = "camera")]
+pub mod gallery;
 mod json;
 mod json_text;
 mod judge;
 mod lock;
 mod log;
 mod observer;
-mod perception;
+pub mod perception;
 mod process;
 mod regression;
 mod samples;
 mod scales;
+#[cfg(feature = "camera")]
+mod seeing;
 mod setting_names;
 mod simulator;
 mod space_file;

@@ -8,7 +8,7 @@ use crate::executor::Desk;
 use crate::expected::Expected;
 use crate::judge::judge;
 #[cfg(feature = "camera")]
-use crate::perception::{Exam, Notes};
+use crate::perception::{Exam, Film, Notes};
 use crate::simulator::Simulator;
 use crate::study::Subject;
 #[cfg(not(feature = "camera"))]
@@ -54,7 +54,7 @@ impl<'a> Worker<'a> {
             simulator.start()?;
             #[cfg(feature = "camera")]
             if let Some(exam) = &worker.exam {
-                simulator.open(exam.cameras().nominal())?;
+                simulator.open(exam.film().cameras().nominal())?;
             }
         }
         Ok(worker)
@@ -143,6 +143,27 @@ impl<'a> Worker<'a> {
         }
     }
 
+    /// Opens the darkroom of the drivers for further cameras.
+    #[cfg(feature = "camera")]
+    pub(crate) fn open_darkroom(&mut self, cameras: &Cameras) -> Result<(), Error> {
+        match &mut self.bench {
+            Bench::Simulator(simulator) => simulator.open(cameras).map(|_| ()),
+            Bench::System(_) => Ok(self.study.subject().scenario().map(|_| ())?),
+        }
+    }
+
+    /// Runs a test while a camera films.
+    #[cfg(feature = "camera")]
+    pub(crate) fn film_with(&mut self, film: &Film, test: &Values, notes: &mut Notes) -> Result<(), Problem> {
+        let Bench::Simulator(simulator) = &mut self.bench else { return Ok(()) };
+        let (shutters, appearances) = (film.shutters(test)?, simulator.appearances().clone());
+        let complete = self.study.complete(test);
+        simulator.watch(Test::new(&complete, self.study.space()), Some(shutters), |run| {
+            film.note(notes, run, &appearances);
+        })?;
+        Ok(())
+    }
+
     /// Runs a test while the camera of the perceiver films, and judges the answers of the perceiver.
     #[cfg(feature = "camera")]
     fn examine(&mut self, index: usize, test: &Values, mut see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
@@ -150,14 +171,14 @@ impl<'a> Worker<'a> {
             return self.film(index, test, None, see);
         };
         let broken = |problem| (Trial::broken(index, test.clone(), problem), None);
-        let shutters = match exam.shutters(test) {
+        let shutters = match exam.film().shutters(test) {
             Ok(shutters) => shutters,
             Err(problem) => return broken(problem),
         };
         let mut notes = Notes::default();
         let appearances = simulator.appearances().clone();
         let outcome = simulator.watch(Test::new(&study.complete(test), study.space()), Some(shutters), |run| {
-            exam.note(&mut notes, run, &appearances);
+            exam.film().note(&mut notes, run, &appearances);
             see(run);
         });
         let outcome = match outcome {
@@ -166,7 +187,7 @@ impl<'a> Worker<'a> {
         };
         let (mut trial, trace) = Trial::simulated(index, test.clone(), outcome);
         let (Some(trace), None) = (trace, &trial.problem) else { return (trial, None) };
-        let darkroom = match simulator.open(exam.cameras().nominal()) {
+        let darkroom = match simulator.open(exam.film().cameras().nominal()) {
             Ok(darkroom) => darkroom,
             Err(error) => return broken(Problem::new(ProblemKind::Camera, error.to_string())),
         };

@@ -26,6 +26,8 @@ mod samplers;
 mod sampling;
 mod system;
 mod transmission;
+#[cfg(feature = "neural")]
+mod vision;
 
 use clap::Parser;
 use indicatif::ProgressBar;
@@ -83,6 +85,13 @@ const STUDIES: &[Study] = &[
         about: "every driver that comes with the software in 200 Halton tests of every scenario",
         time: "1 h",
         run: drivers::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig8",
+        about: "the paper's Figures 7 and 8: detectors of vehicles in traffic, with a white truck that crosses",
+        time: "5 min",
+        run: vision::fig8::run,
     },
     Study {
         name: "fig9",

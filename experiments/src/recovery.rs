@@ -70,8 +70,8 @@ impl Sorted {
 /// The number of sets whose recalls are compared, of each strategy.
 const SETS: u64 = 400;
 
-/// How much shifted Halton sets and random sets of one size tell of a map's failures. One set says little, because the
-/// recalls of sets of one size are spread widely.
+/// The recalls of shifted Halton sets and of random sets of one size. One set says little, because the recalls of sets
+/// of one size are spread widely.
 #[derive(Debug, Clone, Copy)]
 pub struct Recalls {
     /// The median recall of the Halton sets.

@@ -85,9 +85,9 @@ fn an_opened_acceleration_has_the_realistic_values_and_a_named_range_wins() {
     let opened = |study: paracosm::StudyBuilder| {
         let study = study.build().unwrap();
         let parameter = study.space().find("acceleration").unwrap().clone();
-        (parameter.domain.to_string(), parameter.default)
+        (parameter.domain, parameter.default)
     };
-    assert_eq!(opened(study().open("acceleration")), ("0.96..1.65".to_owned(), None));
+    assert_eq!(opened(study().open("acceleration")), (Domain::Interval { lo: 0.96, hi: 1.65 }, None));
     let named = study().open_over("acceleration", Domain::Interval { lo: 1.0, hi: 1000.0 });
-    assert_eq!(opened(named), ("1..1000".to_owned(), Some(1000.0.into())));
+    assert_eq!(opened(named), (Domain::Interval { lo: 1.0, hi: 1000.0 }, Some(1000.0.into())));
 }

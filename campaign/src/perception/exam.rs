@@ -1,16 +1,13 @@
 //! The trial of a perceiver in one test: film, images, answers, signals.
 
+use super::film::{Film, Notes, Taken};
 use super::marks::Marks;
-use crate::cameras::VariedCameras;
 use crate::darkroom::Darkroom;
-use crate::study::{Appearances, ModelFlaw, PerceiverChoice};
+use crate::study::PerceiverChoice;
 use crate::trial::Metric;
 use crate::{Error, Problem, ProblemKind};
-use paracosm_engine::Run;
-use paracosm_engine::sensor::{Moment, Sample, Shutters};
 use paracosm_oracles::Trace;
 use paracosm_perception::{Perceiver, PerceiverError, Percept, Picture, Task};
-use paracosm_render::{Cast, Exposure, Optics, Rendering, Stage, Stages, Undrawn, WantedImages, at_once};
 use paracosm_space::{Space, Values};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -20,17 +17,7 @@ use std::sync::atomic::AtomicBool;
 pub(crate) struct Exam {
     perceiver: Box<dyn Perceiver>,
     task: Task,
-    cameras: VariedCameras,
-    stages: Stages,
-}
-
-/// The notes of a test while it is filmed.
-#[derive(Default)]
-pub(crate) struct Notes {
-    stage: Option<Arc<Stage>>,
-    cast: Option<Result<Cast, ModelFlaw>>,
-    seed: u64,
-    taken: Vec<Sample<Moment>>,
+    film: Film,
 }
 
 impl Exam {
@@ -41,9 +28,14 @@ impl Exam {
     /// The perceiver cannot be made, or the study of a file has a look that does not exist.
     pub fn new(choice: &PerceiverChoice, space: &Space, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let look = choice.look().parse().map_err(crate::cameras::CameraFileFlaw::Look)?;
-        let cameras = VariedCameras::of_space(choice.cameras().clone(), space).in_look(look);
+        let cameras = crate::cameras::VariedCameras::of_space(choice.cameras().clone(), space);
         let (perceiver, task) = (choice.build(stop)?, choice.task().clone());
-        Ok(Self { perceiver, task, cameras, stages: Stages::in_look(look) })
+        Ok(Self { perceiver, task, film: Film::new(cameras, look) })
+    }
+
+    /// Returns the film of the tests.
+    pub fn film(&self) -> &Film {
+        &self.film
     }
 
     /// Asks the perceiver for its answers to images. A panic of the perceiver ends this test alone.
@@ -60,26 +52,6 @@ impl Exam {
         })
     }
 
-    /// Returns the cameras with the usual settings.
-    pub fn cameras(&self) -> &VariedCameras {
-        &self.cameras
-    }
-
-    /// Returns the shutters that film a test.
-    pub fn shutters(&self, test: &Values) -> Result<Shutters, Problem> {
-        Shutters::of(self.cameras.of_test(test)).map_err(|flaw| Problem::new(ProblemKind::Camera, flaw.to_string()))
-    }
-
-    /// Notes the images that have arrived, each time the driver is asked and at the end of the run.
-    pub fn note(&self, notes: &mut Notes, run: &Run, appearances: &Appearances) {
-        if notes.stage.is_none() {
-            notes.stage = Some(self.stages.of_run(run));
-            notes.cast = Some(appearances.cast(run, self.stages.look()));
-            notes.seed = run.filmed().cameras().seed;
-        }
-        notes.taken.extend(run.filmed().arrived().map(|(_, sample)| sample.clone()));
-    }
-
     /// Shows the images of a test to the perceiver, and returns the trace with the signals of the perceiver, and the
     /// metrics of the perceiver.
     pub fn judge(
@@ -89,48 +61,19 @@ impl Exam {
         darkroom: &Darkroom,
         trace: &Trace,
     ) -> Result<(Trace, Vec<(String, Metric)>), Problem> {
-        let failed = |message: String| Problem::new(ProblemKind::Camera, message);
-        let cast = notes.cast.transpose().map_err(|flaw| failed(flaw.to_string()))?.unwrap_or_default();
-        let optics = Optics::of(&self.cameras.of_test(test)).map_err(|flaw| failed(flaw.to_string()))?;
-        let optics = optics.first().map(|optics| optics.with_seed(notes.seed));
         let task = self.task.clone();
-        let scale =
-            optics.as_ref().map_or(1.0, |optics| self.perceiver.scale(optics.camera.width(), optics.camera.height()));
-        let mut marks = Marks::new(scale);
-        if let (Some(stage), Some(optics)) = (&notes.stage, &optics) {
+        let mut marks = Marks::new(1.0);
+        if let Some(optics) = self.film.optics(test)? {
             let camera = &optics.camera;
-            for samples in notes.taken.chunks(at_once(camera.width() as usize * camera.height() as usize)) {
-                let exposures: Vec<Exposure<'_>> = samples
-                    .iter()
-                    .map(|sample| Exposure {
-                        stage,
-                        cast: &cast,
-                        moment: &sample.reading,
-                        optics,
-                        number: sample.number,
-                    })
-                    .collect();
-                let mut drawn: Vec<(&Sample<Moment>, Rendering)> = Vec::with_capacity(samples.len());
-                for (sample, picture) in samples.iter().zip(darkroom.draw(&exposures, WANTED)) {
-                    match picture {
-                        Ok(picture) => drawn.push((sample, picture)),
-                        Err(Undrawn::Inside(_)) => (),
-                        Err(why) => return Err(failed(format!("image {} cannot be drawn: {why}", sample.number))),
-                    }
-                }
-                let pictures: Vec<Picture<'_>> = drawn
-                    .iter()
-                    .map(|(_, picture)| Picture {
-                        width: picture.frame.width(),
-                        height: picture.frame.height(),
-                        rgb: picture.frame.rgb.as_deref().unwrap_or_default(),
-                    })
-                    .collect();
+            marks = Marks::new(self.perceiver.scale(camera.width(), camera.height()));
+            Film::develop(notes, &optics, darkroom, |taken| {
+                let pictures: Vec<Picture<'_>> = taken.iter().map(Taken::shown).collect();
                 let percepts = self.ask(&pictures)?;
-                for ((sample, picture), percept) in drawn.iter().zip(&percepts) {
+                for (Taken { sample, picture }, percept) in taken.iter().zip(&percepts) {
                     marks.add(&task, percept, (picture, &sample.reading), sample.time, camera);
                 }
-            }
+                Ok(())
+            })?;
         }
         let names = trace.signals().iter().cloned().chain(task.signals().iter().map(|name| (*name).to_owned()));
         let mut extended = Trace::new(trace.dt(), names.collect());
@@ -145,6 +88,10 @@ impl Exam {
     }
 }
 
-/// The images for the perceiver and for the ground truth.
-const WANTED: WantedImages =
-    WantedImages { rgb: true, linear: false, depth: false, semantic: true, instance: true, alone: true, shadows: true };
+impl Taken {
+    /// Returns the image as a perceiver sees it.
+    pub fn shown(&self) -> Picture<'_> {
+        let frame = &self.picture.frame;
+        Picture { width: frame.width(), height: frame.height(), rgb: frame.rgb.as_deref().unwrap_or_default() }
+    }
+}

@@ -49,8 +49,8 @@ impl Grades {
 
     /// Counts the road users that a group means, by their properties. `detections` are the detections of the group. A
     /// road user counts even if it need not be detected. `scale` makes pixels of the perceiver's input from pixels of the
-    /// image.
-    pub fn sort(&mut self, users: &[&RoadUser], detections: &[Detection], least: f64, scale: f64) {
+    /// image. Returns the number of road users with a match.
+    pub fn sort(&mut self, users: &[&RoadUser], detections: &[Detection], least: f64, scale: f64) -> usize {
         let object = |user: &&RoadUser| Object { rect: user.rect, area: f64::from(user.pixels), crowd: false };
         let truth: Vec<Object> = users.iter().map(object).collect();
         let matching = match_boxes(&truth, detections, Criterion::Overlap(least), Areas::ALL);
@@ -66,6 +66,7 @@ impl Grades {
                 *matches += usize::from(detection.is_some());
             }
         }
+        matching.detected.iter().flatten().count()
     }
 
     /// Returns the metrics of the test.

@@ -67,6 +67,7 @@ impl Marks {
         let group_of = detector.groups_of_classes();
         let found = suppress(boxes, detector.threshold, detector.overlap);
         let (mut objects, mut matches, mut centred, mut false_alarms) = (0usize, 0usize, 0usize, 0usize);
+        let (mut visible, mut seen) = (0usize, 0usize);
         let mut margin: f64 = 1.0;
         let mut wanted = Vec::new();
         for (place, group) in detector.groups.iter().enumerate() {
@@ -86,7 +87,9 @@ impl Marks {
             centred += on_objects.filter(|(detection, _)| detection.is_some()).count();
             self.grades.tally(place, &truth, &boxes, (detector.overlap, OVERLAP));
             let meant = users.iter().filter(|user| group.is.contains(&user.kind) && user.visible >= SEEN);
-            self.grades.sort(&meant.copied().collect::<Vec<_>>(), &detections, OVERLAP, self.scale);
+            let meant: Vec<&RoadUser> = meant.copied().collect();
+            visible += meant.len();
+            seen += self.grades.sort(&meant, &detections, OVERLAP, self.scale);
             false_alarms += matching.objects.iter().filter(|object| object.is_none()).count();
             for (user, detection) in users.iter().zip(&matching.detected).filter(|(user, _)| must(user)) {
                 objects += 1;
@@ -105,6 +108,8 @@ impl Marks {
             matches as f64,
             (objects - matches) as f64,
             centred as f64,
+            visible as f64,
+            seen as f64,
             false_alarms as f64,
             share(matches, objects),
             share(matches, matches + false_alarms),
@@ -119,7 +124,7 @@ impl Marks {
         let taken = self.images.partition_point(|(at, _)| *at <= time + 1e-9);
         let values = match (taken.checked_sub(1), task) {
             (Some(last), _) => self.images[last].1.clone(),
-            (None, Task::Detection(_)) => vec![0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0],
+            (None, Task::Detection(_)) => vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0],
             (None, Task::Segmentation(_)) => vec![1.0, 1.0, 1.0],
         };
         std::iter::once(taken as f64).chain(values).collect()
@@ -162,7 +167,7 @@ mod tests {
         let moment = Moment { bodies: vec![own], ..Moment::default() };
         let task = Task::Detection(Detector::of(vec!["car".to_owned()]));
         let marks = |boxes: Vec<Detection>| {
-            let mut marks = Marks::default();
+            let mut marks = Marks::new(1.0);
             marks.add(&task, &Percept::Boxes(boxes), (&picture, &moment), 0.0, &camera);
             marks.at(&task, 0.0)
         };

@@ -7,17 +7,21 @@
 #[cfg(feature = "camera")]
 mod exam;
 #[cfg(feature = "camera")]
+mod film;
+#[cfg(feature = "camera")]
 mod grades;
 #[cfg(feature = "camera")]
 mod marks;
-#[cfg(feature = "camera")]
-mod process;
 #[cfg(all(test, feature = "camera"))]
 mod tests;
 #[cfg(feature = "camera")]
 mod truth;
 
 #[cfg(feature = "camera")]
-pub(crate) use exam::{Exam, Notes};
+pub(crate) use exam::Exam;
 #[cfg(feature = "camera")]
-pub(crate) use process::SeeingProcess;
+pub(crate) use film::{Film, Notes, Taken};
+#[cfg(feature = "camera")]
+pub use truth::RoadUser;
+#[cfg(feature = "camera")]
+pub(crate) use truth::{mask, road_users};

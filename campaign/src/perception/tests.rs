@@ -1,6 +1,7 @@
 //! Tests of perceivers on trial, with perceivers that are simple enough to know what they see.
 
 use crate::cameras::VariedCameras;
+use crate::gallery::Gallery;
 use crate::simulator::tests::can_draw;
 use crate::study::{PerceiverChoice, StudyBuilder};
 use crate::{Campaign, Log, Study, Worker};
@@ -8,8 +9,10 @@ use paracosm_engine::object::Body;
 use paracosm_engine::sensor::{CameraSpec, Cameras};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
 use paracosm_oracles::{Trace, Verdict};
-use paracosm_perception::{Detection, Detector, Mask, Perceiver, PerceiverError, Percept, Picture, Rect, Task};
+use paracosm_perception::{Detection, Detector, Extent, Mask, Perceiver, PerceiverError, Percept, Picture, Rect, Task};
+use paracosm_render::Look;
 use std::num::NonZeroUsize;
+use std::sync::{Arc, Mutex};
 
 /// A red car drives ahead on an empty road.
 const RED_CAR: Program = Program::new("red-car", "a red car drives ahead", red_car);
@@ -212,4 +215,41 @@ fn formulas_about_perception_replace_the_usual_requirement_and_unknown_signals_a
     assert!(given.title().ends_with("perceiver red"));
     // Without a perceiver there are no such signals.
     assert!(Study::of(RED_CAR).spec("always (perception.recall >= 1)").build().is_err());
+}
+
+#[test]
+fn a_gallery_shows_the_images_that_a_perceiver_sees_with_their_ground_truth() {
+    if !can_draw() {
+        return;
+    }
+    /// A perceiver that keeps the images.
+    struct Keeper(Task, Arc<Mutex<Vec<Vec<u8>>>>);
+    impl Perceiver for Keeper {
+        fn task(&self) -> &Task {
+            &self.0
+        }
+        fn perceive(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, PerceiverError> {
+            self.1.lock().unwrap().extend(pictures.iter().map(|picture| picture.rgb.to_vec()));
+            Ok(pictures.iter().map(|_| Percept::Boxes(Vec::new())).collect())
+        }
+    }
+    let seen = Arc::new(Mutex::new(Vec::new()));
+    let (kept, task) = (seen.clone(), Red::new(Behaviour::Blind).task);
+    let study = Study::of(RED_CAR).budget(1);
+    let study =
+        study.own_perceiver("keeper", cameras(), move || Box::new(Keeper(task.clone(), kept.clone()))).build().unwrap();
+    let test = Campaign::new(&study).unwrap().into_log().unwrap().trials()[0].test.clone();
+    let plain = Study::of(RED_CAR).driver("planner").build().unwrap();
+    let shown = Gallery::new(&plain, cameras(), Look::Flat).unwrap().show(&test).unwrap();
+    let seen = seen.lock().unwrap();
+    assert_eq!(shown.len(), seen.len());
+    assert!(shown.len() >= 20);
+    for (shown, seen) in shown.iter().zip(seen.iter()) {
+        assert!(shown.picture().rgb == &seen[..], "at {} s", shown.time());
+        let users = shown.road_users(Extent::Visible);
+        assert_eq!(users.len(), 1);
+        assert!(users[0].kind == "car" && users[0].should_be_detected(), "{users:?}");
+        let road = shown.mask(&["road".to_owned()]).pixels;
+        assert!(road.iter().filter(|is_road| **is_road).count() > road.len() / 10);
+    }
 }

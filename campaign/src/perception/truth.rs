@@ -15,7 +15,7 @@ const NEAR: f64 = 40.0;
 
 /// A road user in an image.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct RoadUser {
+pub struct RoadUser {
     /// The id of the body in the images of a test.
     pub id: u16,
     /// The name of the class.
@@ -32,14 +32,15 @@ pub(super) struct RoadUser {
 }
 
 impl RoadUser {
-    /// Returns `true` if a detector should detect the road user.
+    /// Returns `true` if a detector should detect the road user: at least 75 % of it is visible, and it is at most 40 m
+    /// away.
     pub fn should_be_detected(&self) -> bool {
         self.visible >= VISIBLE && self.distance <= NEAR
     }
 }
 
 /// Returns the road users in an image, sorted by id.
-pub(super) fn road_users(picture: &Rendering, moment: &Moment, camera: &Camera, extent: Extent) -> Vec<RoadUser> {
+pub(crate) fn road_users(picture: &Rendering, moment: &Moment, camera: &Camera, extent: Extent) -> Vec<RoadUser> {
     let car = moment.bodies[0].pose.position;
     let user = |seen: Box2| {
         let id = seen.visible.id;
@@ -89,7 +90,7 @@ fn share_within(known: &Box3, camera: &Camera) -> f64 {
 }
 
 /// Returns the pixels of an image that show one of these semantic classes.
-pub(super) fn mask(picture: &Rendering, classes: &[String]) -> Mask {
+pub(crate) fn mask(picture: &Rendering, classes: &[String]) -> Mask {
     let frame = &picture.frame;
     let wanted: Vec<bool> = Semantic::names().iter().map(|name| classes.iter().any(|class| class == name)).collect();
     let shows = |number: &u8| wanted.get(usize::from(*number)).copied().unwrap_or(false);

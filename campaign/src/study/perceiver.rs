@@ -2,9 +2,9 @@
 
 use super::StatedRequirement;
 use crate::black_box::{TimeoutFlaw, checked_timeout};
-#[cfg(feature = "camera")]
-use crate::perception::SeeingProcess;
 use crate::process::{self, CommandFlaw};
+#[cfg(feature = "camera")]
+use crate::seeing::SeeingProcess;
 use crate::{Error, Reason};
 use paracosm_engine::sensor::Cameras;
 use paracosm_oracles::Semantics;

@@ -44,6 +44,8 @@ mod limits;
 mod model;
 #[cfg(feature = "train")]
 mod network;
+#[cfg(feature = "train")]
+mod onnx_file;
 #[cfg(feature = "onnx")]
 mod pilot;
 #[cfg(feature = "onnx")]

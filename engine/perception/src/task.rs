@@ -18,12 +18,14 @@ pub enum Task {
 }
 
 /// The signals of a detector.
-const OF_DETECTORS: [&str; 10] = [
+const OF_DETECTORS: [&str; 12] = [
     "perception.images",
     "perception.objects",
     "perception.matches",
     "perception.misses",
     "perception.centred",
+    "perception.visible",
+    "perception.found",
     "perception.false_alarms",
     "perception.recall",
     "perception.precision",

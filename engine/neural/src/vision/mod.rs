@@ -3,6 +3,8 @@
 mod answer;
 mod description;
 mod frame;
+#[cfg(feature = "train")]
+pub mod learn;
 #[cfg(test)]
 mod tests;
 

@@ -95,6 +95,10 @@ impl Stage {
     /// Returns the scene of a run at its current tick, with all bodies that are in the world. The ego vehicle has the
     /// id 1, so that a camera mounted on it can leave it out.
     pub fn scene(&self, run: &Run) -> Scene {
+        if self.look == Look::Flat {
+            // No lamp shines, so the accelerations are not needed.
+            return self.scene_of(run.bodies().iter().enumerate(), Atmosphere::of(&run.weather()));
+        }
         let mut moment = Moment::default();
         moment.record(&run.view());
         self.scene_at(&Cast::new(), &moment)

@@ -1,0 +1,183 @@
+//! The paper's Figures 7 and 8: detectors of vehicles on six lanes of traffic, with a white truck that crosses the road.
+//!
+//! The car drives along the innermost lane. Every 10 m, the vehicles in the image are counted, those that a detector
+//! found, and its false alarms. Thresholds are frozen before, on easy scenes: at 0.1 false alarms an image.
+
+use super::detectors::{ALARMS, Found, Named, Vehicles, fetched, frozen};
+use super::{Failure, still};
+use crate::{Done, print, scenario, write};
+use indicatif::ProgressBar;
+use paracosm::campaign::Worker;
+use paracosm::campaign::gallery::{Gallery, Shown};
+use paracosm::campaign::perception::RoadUser;
+use paracosm::render::Look;
+use paracosm::report::{Axis, Lines, Picture};
+use paracosm::space::{Value, Values};
+use std::path::Path;
+
+/// The distance of neighbouring images in metres.
+const EVERY: f64 = 10.0;
+/// The least height of a vehicle that counts as visible, in pixels of the image.
+const HEIGHT: f64 = 8.0;
+/// The easy scenes in which thresholds are frozen: the scenarios, and the number of tests.
+const EASY: [&str; 3] = ["follow-leader", "cut-in", "oncoming-distractor"];
+const EASY_TESTS: usize = 4;
+const RESOLUTION: [u32; 2] = [640, 384];
+
+/// The counts of a detector in an image.
+#[derive(Debug, Clone, Copy)]
+struct Counts {
+    travelled: f64,
+    visible: usize,
+    found: usize,
+    false_alarms: usize,
+    /// The truck that crosses: `None` if it is not visible, else whether it was found.
+    truck: Option<bool>,
+}
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let (mut detectors, absent) = fetched()?;
+    let easy = easy(bar)?;
+    let drive = drive()?;
+    let mut table = vec!["detector,threshold,travelled_m,visible,found,false_alarms,truck".to_owned()];
+    let mut text = format!("thresholds at {ALARMS} false alarms an image of {} images of easy scenes\n", easy.len());
+    let mut charts = Vec::new();
+    for detector in &mut detectors {
+        let seen = |shown: &Shown, detector: &mut Named| -> Result<(Vehicles, Found), Failure> {
+            let found = detector.find(shown.picture())?;
+            Ok((Vehicles::of(shown, detector, |user| user.rect.height >= HEIGHT), found))
+        };
+        let images = easy.iter().map(|shown| seen(shown, detector)).collect::<Result<Vec<_>, _>>()?;
+        let threshold = frozen(&images);
+        let mut counts = Vec::new();
+        for (travelled, shown) in &drive {
+            let (vehicles, found) = seen(shown, detector)?;
+            counts.push(counted(*travelled, &vehicles, &found, threshold));
+        }
+        let name = detector.name;
+        for Counts { travelled, visible, found, false_alarms, truck } in &counts {
+            let truck = truck.map_or("", |found| if found { "found" } else { "missed" });
+            table.push(format!("{name},{threshold:.4},{travelled:.1},{visible},{found},{false_alarms},{truck}"));
+        }
+        let sum = |of: fn(&Counts) -> usize| counts.iter().map(of).sum::<usize>();
+        let trucks: Vec<bool> = counts.iter().filter_map(|counts| counts.truck).collect();
+        text += &format!(
+            "{name:<18}threshold {threshold:.2}: {} of {} vehicles, {} false alarms, the truck in {} of {} images\n",
+            sum(|counts| counts.found),
+            sum(|counts| counts.visible),
+            sum(|counts| counts.false_alarms),
+            trucks.iter().filter(|found| **found).count(),
+            trucks.len()
+        );
+        charts.push(chart(name, threshold, &counts));
+    }
+    for name in absent {
+        text += &format!("{name:<18}absent: experiments/detectors/fetch.py fetches it\n");
+    }
+    bar.finish_and_clear();
+    if !charts.is_empty() {
+        let picture = Picture::of_lines(charts);
+        write(&out.join("fig8.svg"), picture.svg()?)?;
+        write(&out.join("fig8.png"), picture.png()?)?;
+    }
+    write(&out.join("fig8.csv"), table.join("\n") + "\n")?;
+    print(&text)
+}
+
+/// Returns the images of easy scenes: few vehicles, by day.
+fn easy(bar: &ProgressBar) -> Result<Vec<Shown>, Failure> {
+    bar.set_length((EASY.len() * EASY_TESTS) as u64);
+    let mut all = Vec::new();
+    for name in EASY {
+        let study = scenario(name)?.driver("planner").build()?;
+        all.extend(super::halton(&study, &still(RESOLUTION, 24.0, 1.0), EASY_TESTS, bar)?);
+    }
+    Ok(all)
+}
+
+/// Returns the images of the drive, one every 10 m, with the distance that the car had travelled.
+fn drive() -> Result<Vec<(f64, Shown)>, Failure> {
+    let study = scenario("highway-traffic")?.driver("planner").build()?;
+    let number = |name: &str, value: f64| (name.to_owned(), Value::Number(value));
+    let test: Values = [number("truck_delay", 5.0), number("truck_speed", 8.0)].into_iter().collect();
+    let (trial, trace) = Worker::new(&study)?.run(0, &test);
+    let trace = trace.ok_or_else(|| trial.error().unwrap_or_default().to_owned())?;
+    let travelled: Vec<f64> = trace.signal("car.travelled").into_iter().flatten().collect();
+    let shown = Gallery::new(&study, still(RESOLUTION, 24.0, 10.0), Look::Textured)?.show(&test)?;
+    let mut next = 0.0;
+    let mut drive = Vec::new();
+    for shown in shown {
+        let tick = (shown.time() / trace.dt()).round() as usize;
+        let Some(at) = travelled.get(tick).copied().filter(|at| *at >= next) else { continue };
+        next = (at / EVERY).floor() * EVERY + EVERY;
+        drive.push((at, shown));
+    }
+    Ok(drive)
+}
+
+fn counted(travelled: f64, vehicles: &Vehicles, found: &Found, threshold: f64) -> Counts {
+    let matching = vehicles.matched(found, threshold);
+    let is_found = |place: &usize| matching.detected[*place].is_some();
+    let counting: Vec<usize> = vehicles.counting().collect();
+    // The truck that crosses is the first car of the fleet, whose id follows the ego vehicle's.
+    let is_it = |user: &RoadUser| user.id == super::CROSSING_TRUCK && user.kind == "truck";
+    let truck = counting.iter().find(|place| is_it(&vehicles.users[**place]));
+    Counts {
+        travelled,
+        visible: counting.len(),
+        found: counting.iter().filter(|place| is_found(place)).count(),
+        false_alarms: matching.objects.iter().filter(|object| object.is_none()).count(),
+        truck: truck.map(is_found),
+    }
+}
+
+fn chart(name: &str, threshold: f64, counts: &[Counts]) -> Lines {
+    let line = |of: fn(&Counts) -> usize| counts.iter().map(|counts| (counts.travelled, of(counts) as f64)).collect();
+    let end = counts.last().map_or(EVERY, |last| (last.travelled / EVERY).ceil() * EVERY);
+    let most = counts.iter().map(|counts| counts.visible).max().unwrap_or(1).max(4);
+    Lines {
+        title: format!("{name} at {threshold:.2}"),
+        note: "vehicles of which a quarter is visible, at least 8 pixels high".to_owned(),
+        x: Axis { label: "travelled [m]".to_owned(), range: (0.0, end) },
+        y: Axis { label: "vehicles".to_owned(), range: (0.0, most as f64 + 1.0) },
+        curves: vec![
+            ("visible".to_owned(), line(|counts| counts.visible)),
+            ("found".to_owned(), line(|counts| counts.found)),
+            ("false alarms".to_owned(), line(|counts| counts.false_alarms)),
+        ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    /// The sums of a detector in the table of the page.
+    #[derive(Default)]
+    struct Sums {
+        threshold: String,
+        counts: [usize; 5],
+    }
+
+    #[test]
+    fn the_page_has_the_sums_of_the_table_of_all_images() {
+        let mut sums: Vec<(&str, Sums)> = Vec::new();
+        for row in include_str!("../../data/fig8.csv").lines().skip(1) {
+            let fields: Vec<&str> = row.split(',').collect();
+            let [name, threshold, _, visible, found, alarms, truck] = fields[..] else { panic!("{row}") };
+            if sums.last().is_none_or(|(last, _)| *last != name) {
+                sums.push((name, Sums::default()));
+            }
+            let sum = &mut sums.last_mut().unwrap().1;
+            sum.threshold = format!("{:.2}", threshold.parse::<f64>().unwrap());
+            let counts = [visible, found, alarms].map(|count| count.parse::<usize>().unwrap());
+            let truck = [usize::from(!truck.is_empty()), usize::from(truck == "found")];
+            sum.counts.iter_mut().zip(counts.into_iter().chain(truck)).for_each(|(sum, count)| *sum += count);
+        }
+        assert_eq!(sums.len(), super::super::detectors::NAMES.len());
+        let page = include_str!("../../fig8.md");
+        for (name, Sums { threshold, counts: [visible, found, alarms, truck, truck_found] }) in sums {
+            let row = format!("| `{name}` | {threshold} | {visible} | {found} | {alarms} | {truck} | {truck_found} |");
+            assert!(page.contains(&row), "expected on the page: {row}");
+        }
+    }
+}
