@@ -66,6 +66,9 @@ pub enum Goal {
     Vehicles,
 }
 
+/// The name and the shape of an output of a file.
+type Answer = (&'static str, Vec<i64>);
+
 /// The network of a goal.
 struct Form {
     /// The layers of the network.
@@ -78,7 +81,7 @@ struct Form {
     loss: fn(Tensor<4>, Tensor<4>) -> Tensor<1>,
     /// Adds the operations from the last convolution to the outputs of a file. Returns the names and the shapes of the
     /// outputs.
-    finish: fn(&mut File, &str, [u32; 2]) -> Vec<(&'static str, Vec<i64>)>,
+    finish: fn(&mut File, &str, [u32; 2]) -> Vec<Answer>,
     /// The description of the task.
     task: &'static str,
     /// The description of the outputs.
@@ -118,7 +121,7 @@ pub fn train(
     let form = goal.form();
     assert!(!examples.is_empty() && recipe.batch > 0, "training needs examples, and batches of at least one");
     assert!(
-        recipe.resolution.iter().all(|size| *size as usize % form.stride == 0),
+        recipe.resolution.iter().all(|size| (*size as usize).is_multiple_of(form.stride)),
         "the stride divides the resolution"
     );
     let device = Device::flex().autodiff();

@@ -3,8 +3,8 @@
 //! Dilated Convolutions", 2016), and each output gives the pixels of a square of 4 x 4 (Shi et al., "Real-Time Single
 //! Image and Video Super-Resolution Using an Efficient Sub-Pixel Convolutional Neural Network", 2016).
 
-use super::Form;
 use super::stack::Layer;
+use super::{Answer, Form};
 use crate::onnx_file::{File, attribute};
 use burn::prelude::Tensor;
 use burn::tensor::activation::relu;
@@ -38,7 +38,7 @@ fn loss(outputs: Tensor<4>, truth: Tensor<4>) -> Tensor<1> {
     (relu(scores.clone()) - scores * truth + rest).mean()
 }
 
-fn finish(file: &mut File, last: &str, [width, height]: [u32; 2]) -> Vec<(&'static str, Vec<i64>)> {
+fn finish(file: &mut File, last: &str, [width, height]: [u32; 2]) -> Vec<Answer> {
     let [side, across, down] = [SIDE, width as usize / SIDE, height as usize / SIDE].map(|size| size as i64);
     file.integers("squares shape", &[1, side, side, down, across]);
     file.integers("mask shape", &[1, 1, down * side, across * side]);

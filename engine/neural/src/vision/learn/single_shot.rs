@@ -2,8 +2,8 @@
 //! the middle of the cell to the sides of the box (Liu et al., "SSD: Single Shot MultiBox Detector", 2016; without
 //! anchors as in Tian et al., "FCOS: Fully Convolutional One-Stage Object Detection", 2019).
 
-use super::Form;
 use super::stack::Layer;
+use super::{Answer, Form};
 use crate::onnx_file::{File, attribute, integer};
 use burn::prelude::Tensor;
 use burn::tensor::activation::sigmoid;
@@ -103,7 +103,7 @@ fn loss(outputs: Tensor<4>, truth: Tensor<4>) -> Tensor<1> {
     (scores + errors.sum() * 0.5) / objects
 }
 
-fn finish(file: &mut File, last: &str, resolution: [u32; 2]) -> Vec<(&'static str, Vec<i64>)> {
+fn finish(file: &mut File, last: &str, resolution: [u32; 2]) -> Vec<Answer> {
     let [_, across, down] = planes(resolution);
     let cells = across * down;
     file.integers("columns shape", &[1, 5, cells as i64]);
