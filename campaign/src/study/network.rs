@@ -140,7 +140,7 @@ pub(super) fn in_worker<T: Send>(
     read: impl FnOnce() -> Result<T, paracosm_neural::ModelError> + Send,
 ) -> Result<T, Error> {
     let thread = std::thread::Builder::new().name(WORKER.to_owned());
-    let read = std::thread::scope(|scope| thread.spawn_scoped(scope, read).map(|handle| handle.join()));
+    let read = std::thread::scope(|scope| thread.spawn_scoped(scope, read).map(std::thread::ScopedJoinHandle::join));
     match read.map_err(Error::io("read", file.as_ref()))? {
         Ok(read) => read.map_err(|error| Error::in_file(file.as_ref(), None, error)),
         Err(panic) => std::panic::resume_unwind(panic),
