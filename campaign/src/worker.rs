@@ -155,6 +155,7 @@ impl<'a> Worker<'a> {
     /// Runs a test while a camera films.
     #[cfg(feature = "camera")]
     pub(crate) fn film_with(&mut self, film: &Film, test: &Values, notes: &mut Notes) -> Result<(), Problem> {
+        // The darkroom of a system has not been opened, so nothing films it.
         let Bench::Simulator(simulator) = &mut self.bench else { return Ok(()) };
         let (shutters, appearances) = (film.shutters(test)?, simulator.appearances().clone());
         let complete = self.study.complete(test);

@@ -106,7 +106,7 @@ enum Verb {
     #[command(after_help = record::EXAMPLES)]
     Record(Box<record::Options>),
     /// Run a campaign with a perception network on trial, which sees the images of a camera
-    #[command(after_help = perceive::EXAMPLES)]
+    #[command(after_help = perceive::examples())]
     Perceive(Box<perceive::Options>),
     /// Show the graphics adapter of this machine, and how fast it draws
     #[command(after_help = "Example:\n  paracosm-fuzz doctor")]

@@ -6,11 +6,12 @@ use super::{Failure, Status, Verbosity};
 use clap::Args;
 use paracosm_campaign::StudyBuilder;
 use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
+use paracosm_perception::{Detector, Segmenter, Task};
 use paracosm_render::Look;
 use paracosm_report::record::check_rates;
 use std::path::PathBuf;
 
-pub(super) const EXAMPLES: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz perceive highway-traffic --perceiver detector.onnx --open light --open fog --strategy auto
   paracosm-fuzz perceive grid-traffic --perceiver-command 'python3 my_detector.py' --cameras cameras.toml --k 2
@@ -18,9 +19,21 @@ Examples:
 
 detector.toml beside detector.onnx describes the input and the outputs of the network (docs/perception.md).
 The driver only drives [default: planner], and its requirements do not count. Without --spec, a detector has the
-requirement `detection`: every road user that is visible to 75 % and within 40 m is matched within 0.5 s.
-Signals for formulas: perception.objects, .matches, .misses, .false_alarms, .recall, .precision, .margin, .unmatched,
-.images; of a segmentation network perception.overlap, .recall, .precision, .images.";
+requirement `detection`: every road user that is visible to 75 % and within 40 m is matched within 0.5 s.";
+
+/// Returns the examples, and the signals for formulas.
+pub(super) fn examples() -> String {
+    let detector = Task::Detection(Detector::of(Vec::new()));
+    let signals = |of: &Task| {
+        let names = of.signals().iter().map(|name| format!("  {name}\n"));
+        names.collect::<String>()
+    };
+    format!(
+        "{EXAMPLES}\n\nSignals of a detector for formulas (docs/perception.md):\n{}\nSignals of a segmentation network:\n{}",
+        signals(&detector),
+        signals(&Task::Segmentation(Segmenter::default())),
+    )
+}
 
 /// The options of `perceive`.
 #[derive(Debug, Args)]

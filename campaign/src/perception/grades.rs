@@ -26,7 +26,7 @@ pub(super) struct Grades {
 }
 
 impl Grades {
-    /// Counts an image: the road users that should be detected, those with a match, and the false alarms.
+    /// Counts an image: the road users that should be detected, the matches, and the false alarms.
     pub fn count(&mut self, objects: usize, matches: usize, false_alarms: usize) {
         self.images += 1;
         self.objects += objects;
@@ -50,7 +50,7 @@ impl Grades {
     /// Counts the road users that a group means, by their properties. `detections` are the detections of the group. A
     /// road user counts even if it need not be detected. `scale` makes pixels of the perceiver's input from pixels of the
     /// image. Returns the number of road users with a match.
-    pub fn sort(&mut self, users: &[&RoadUser], detections: &[Detection], least: f64, scale: f64) -> usize {
+    pub fn count_by_ranges(&mut self, users: &[&RoadUser], detections: &[Detection], least: f64, scale: f64) -> usize {
         let object = |user: &&RoadUser| Object { rect: user.rect, area: f64::from(user.pixels), crowd: false };
         let truth: Vec<Object> = users.iter().map(object).collect();
         let matching = match_boxes(&truth, detections, Criterion::Overlap(least), Areas::ALL);

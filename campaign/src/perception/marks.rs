@@ -89,7 +89,7 @@ impl Marks {
             let meant = users.iter().filter(|user| group.is.contains(&user.kind) && user.visible >= SEEN);
             let meant: Vec<&RoadUser> = meant.copied().collect();
             visible += meant.len();
-            seen += self.grades.sort(&meant, &detections, OVERLAP, self.scale);
+            seen += self.grades.count_by_ranges(&meant, &detections, OVERLAP, self.scale);
             false_alarms += matching.objects.iter().filter(|object| object.is_none()).count();
             for (user, detection) in users.iter().zip(&matching.detected).filter(|(user, _)| must(user)) {
                 objects += 1;

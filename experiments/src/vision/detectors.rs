@@ -1,5 +1,5 @@
-//! The detectors that are compared, and how they are: a threshold is frozen on easy scenes, then they see
-//! other scenes.
+//! The detectors of a comparison. The threshold of each detector is frozen on easy scenes; then the detector sees other
+//! scenes.
 
 use super::Failure;
 use paracosm::campaign::gallery::Shown;

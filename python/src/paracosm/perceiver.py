@@ -27,8 +27,8 @@ class Detection:
 class Perceiver:
     """A perceiver under test: subclass it, and implement `detect` or `segment`.
 
-    An answer may depend on its image alone. Then a test has the same result wherever and whenever it is run. Whatever the
-    perceiver prints goes to the standard error.
+    An answer must depend on its image alone. Then a test has the same result in every run. Text that the perceiver prints
+    goes to the standard error.
     """
 
     classes: tuple[str, ...] = ()
