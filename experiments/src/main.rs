@@ -88,6 +88,13 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "fig6",
+        about: "the paper's Figures 5 and 6: networks that mark the road, at focal lengths of 10 to 50 mm",
+        time: "5 min",
+        run: vision::fig6::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig8",
         about: "the paper's Figures 7 and 8: detectors of vehicles in traffic, with a white truck that crosses",
         time: "5 min",
@@ -104,6 +111,27 @@ const STUDIES: &[Study] = &[
         about: "which strategy covers a space most evenly: ten strategies by eight measures in 2, 3 and 5 dimensions",
         time: "4 min",
         run: samplers::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "recall",
+        about: "how many of the near cars each detector finds by day, with a frozen threshold",
+        time: "5 min",
+        run: vision::recall::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "train-road",
+        about: "teaches the networks that mark the road, for Figure 6",
+        time: "1 h",
+        run: vision::road::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "train-vehicles",
+        about: "teaches the detectors of vehicles, for Figure 8",
+        time: "1 h",
+        run: vision::vehicles::run,
     },
     #[cfg(feature = "neural")]
     Study {

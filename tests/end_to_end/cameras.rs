@@ -57,6 +57,24 @@ fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
     refused(&fuzz(dir, &[&replay[..], &["front"]].concat()), &["front exists"]);
 }
 
+#[test]
+fn all_parameters_of_a_scenario_can_be_fixed_if_a_setting_of_a_camera_is_open() {
+    if !can_draw() {
+        return;
+    }
+    let dir = tempfile::tempdir().expect("a folder");
+    let dir = dir.path();
+    write_cameras(dir);
+    let fixed = ["record", "--set", "speed=1", "--set", "distance=9", "--cameras", "cameras.toml", "--budget", "2"];
+    refused(&fuzz(dir, &fixed), &["`distance`", "nothing to test"]);
+    let cameras = fs::read_to_string(dir.join("cameras.toml")).expect("a file");
+    let opened = cameras.replace("focal_mm = 24.0", "focal_mm = \"10..50\"");
+    assert_ne!(opened, cameras);
+    fs::write(dir.join("cameras.toml"), opened).expect("a file");
+    let recorded = succeeds(fuzz(dir, &fixed));
+    assert!(stderr(&recorded).contains("of 2 tests written"), "{}", stderr(&recorded));
+}
+
 /// Checks that a film has so many pictures of 40 x 24 pixels, and, where there is something that can decode it, that
 /// they are hardly other than those in a folder.
 fn shows_the_same(dir: &Path, film: &str, folder: &str, count: usize) {

@@ -90,6 +90,7 @@ fn a_blind_detector_misses_every_encounter_and_a_stranger_must_give_its_command_
         stdout(&succeeds(fuzz(dir, &["replay", "out", "0", "--perceiver-command", &command, "--format", "json"])));
     let again: Value = serde_json::from_str(&again).unwrap();
     assert_eq!(again["robustness"], trials[0]["robustness"]);
+    refused(&fuzz(dir, &["blame", "out", "--trust"]), &["perceiver.py", "cannot replace"]);
 }
 
 #[test]

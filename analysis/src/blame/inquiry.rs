@@ -38,6 +38,15 @@ pub enum InquiryFlaw {
         /// The command that starts the system under test.
         command: String,
     },
+    /// A perceiver is on trial, which a reference driver cannot replace.
+    #[error(
+        "the campaign tests the perceiver `{name}`, which a reference driver cannot replace: blame is judged for \
+         failures of drivers only"
+    )]
+    Perceiver {
+        /// The name of the perceiver.
+        name: String,
+    },
     /// No reference driver is named.
     #[error("no reference driver is named, expected at least one")]
     NoDriver,
@@ -68,11 +77,14 @@ impl Inquiry {
     /// Makes an inquiry that uses all cores, with these reference drivers in their standard settings.
     ///
     /// # Errors
-    /// The study tests a system, which has no driver to replace; or the scenario or a driver does not exist; or no
+    /// The study tests a system or a perceiver, which has no driver to replace; or the scenario or a driver does not exist; or no
     /// driver is named, or a driver is named twice.
     pub fn new(study: &Study, references: &[&str]) -> Result<Self, Error> {
         if let Subject::System(system) = study.subject() {
             return Err(InquiryFlaw::System { command: system.command.clone() }.into());
+        }
+        if let Some(perceiver) = study.perceiver() {
+            return Err(InquiryFlaw::Perceiver { name: perceiver.name().to_owned() }.into());
         }
         if references.is_empty() {
             return Err(InquiryFlaw::NoDriver.into());

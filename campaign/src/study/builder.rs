@@ -350,6 +350,9 @@ impl StudyBuilder {
         if !self.cameras.is_empty() {
             study.open_cameras(self.cameras)?;
         }
+        if let (true, Some((name, _))) = (study.space.parameters().is_empty(), self.fixed.last()) {
+            return Err(ParameterMisuse::LastOpen { name: name.clone() }.into());
+        }
         self.models.iter().try_for_each(|(actor, file)| study.show(actor, file))?;
         self.odd.iter().try_for_each(|path| study.odd_of_space(path))?;
         self.requirements.iter().try_for_each(|path| study.require(path))?;

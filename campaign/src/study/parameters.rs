@@ -125,9 +125,6 @@ impl Study {
     pub(super) fn fix(&mut self, name: &str, value: Value) -> Result<(), Error> {
         self.declared(name)?.check(&value)?;
         self.rebuild(name, None)?;
-        if self.space.parameters().is_empty() {
-            return Err(ParameterMisuse::LastOpen { name: name.to_owned() }.into());
-        }
         self.subject.scenario_mut()?.fixed.set(name, value);
         Ok(())
     }

@@ -68,29 +68,53 @@ fn judged(images: &[Image], cases: &[(f64, Areas)]) -> Option<Vec<(f64, f64)>> {
     Some(serde_json::from_slice(&output.stdout).unwrap())
 }
 
-#[test]
-fn average_precision_and_recall_of_500_images_are_those_of_pycocotools() {
+/// The least overlaps and the areas for which results are compared.
+fn cases() -> Vec<(f64, Areas)> {
     let small = Areas { least: 0.0, most: 1024.0 };
     let large = Areas { least: 1024.0, most: 1e10 };
-    let cases: Vec<(f64, Areas)> = [0.5, 0.75, 0.95, 1.0]
-        .into_iter()
-        .flat_map(|least| [Areas::ALL, small, large].map(|areas| (least, areas)))
-        .collect();
+    let areas = [Areas::ALL, small, large];
+    [0.5, 0.75, 0.95, 1.0].into_iter().flat_map(|least| areas.map(|areas| (least, areas))).collect()
+}
+
+/// Checks that average precision and recall are those of `pycocotools`.
+fn compare(images: &[Image], of: &str) {
+    let Some(expected) = judged(images, &cases()) else { return };
+    for ((least, areas), (precision, recall)) in cases().iter().zip(expected) {
+        let mut tally = Tally::default();
+        for (objects, detections) in images {
+            tally.add(objects, detections, Criterion::Overlap(*least), *areas);
+        }
+        let found = (tally.average_precision().unwrap_or(-1.0), tally.recall().unwrap_or(-1.0));
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9;
+        assert!(
+            near(found.0, precision) && near(found.1, recall),
+            "{of}, overlap {least}, {areas:?}: {found:?}, pycocotools has {precision} and {recall}"
+        );
+    }
+}
+
+#[test]
+fn average_precision_and_recall_of_500_random_images_are_those_of_pycocotools() {
     for seed in 0..3 {
         let mut rng = Pcg64::seed_from_u64(seed);
-        let images: Vec<Image> = (0..IMAGES).map(|_| image(&mut rng)).collect();
-        let Some(expected) = judged(&images, &cases) else { return };
-        for ((least, areas), (precision, recall)) in cases.iter().zip(expected) {
-            let mut tally = Tally::default();
-            for (objects, detections) in &images {
-                tally.add(objects, detections, Criterion::Overlap(*least), *areas);
-            }
-            let found = (tally.average_precision().unwrap_or(-1.0), tally.recall().unwrap_or(-1.0));
-            let near = |a: f64, b: f64| (a - b).abs() <= 1e-9;
-            assert!(
-                near(found.0, precision) && near(found.1, recall),
-                "seed {seed}, overlap {least}, {areas:?}: {found:?}, pycocotools has {precision} and {recall}"
-            );
+        compare(&(0..IMAGES).map(|_| image(&mut rng)).collect::<Vec<_>>(), &format!("seed {seed}"));
+    }
+}
+
+#[test]
+fn average_precision_and_recall_of_500_recorded_images_are_those_of_pycocotools() {
+    let mut images: Vec<Image> = vec![Image::default(); IMAGES];
+    // The study `recall` writes the table.
+    for row in include_str!("../../../experiments/data/recall-boxes.csv").lines().skip(1) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let number = |column: usize| fields[column].parse::<f64>().unwrap();
+        let rect = Rect { left: number(2), top: number(3), width: number(4), height: number(5) };
+        let (objects, detections) = &mut images[number(0) as usize - 1];
+        match fields[1] {
+            "car" => objects.push(Object { rect, area: number(6), crowd: fields[7] == "1" }),
+            _ => detections.push(Detection { class: 0, score: number(6), rect }),
         }
     }
+    assert!(images.iter().filter(|(objects, _)| !objects.is_empty()).count() > IMAGES / 2);
+    compare(&images, "recorded images");
 }

@@ -41,7 +41,7 @@ pub struct WantedImages {
     /// True if the id of the object at each pixel is wanted.
     pub instance: bool,
     /// True if the pixels of each object without the objects in front are wanted, for the computation of occlusion.
-    /// Everything is drawn a second time for it.
+    /// Objects with ids are drawn a second time for it.
     pub alone: bool,
     /// True if objects are to throw shadows in the images `rgb` and `linear`.
     pub shadows: bool,

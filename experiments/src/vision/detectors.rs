@@ -1,12 +1,18 @@
 //! The detectors of a comparison. The threshold of each detector is frozen on easy scenes; then the detector sees other
 //! scenes.
 
-use super::Failure;
+use super::hog::Hog;
+use super::vehicles::{INPUT, RESOLUTION};
+use super::{Failure, halton, is_vehicle, still};
+use crate::scenario;
+use indicatif::ProgressBar;
 use paracosm::campaign::gallery::Shown;
 use paracosm::campaign::perception::RoadUser;
 use paracosm::perception::{
-    Areas, Criterion, Detection, Detector, Matching, Object, Perceiver, Percept, Picture, Task, match_boxes, suppress,
+    Areas, Criterion, Detection, Detector, Extent, Matching, Object, Perceiver, Percept, Picture, Task, match_boxes,
+    suppress,
 };
+use paracosm_neural::vision::learn::Goal;
 use paracosm_neural::vision::{Description, Vision};
 use std::fs;
 use std::path::Path;
@@ -17,20 +23,51 @@ const FETCHED: &str = "target/detectors";
 /// The fetched detectors. `experiments/detectors` has the script that fetches them.
 pub const NAMES: [&str; 3] = ["ssd-coco", "centernet-coco", "ssd-open-images"];
 
+/// A single-shot network that was trained here.
+pub struct SingleShot {
+    /// The name of the detector, and of its file.
+    pub name: &'static str,
+    /// True if vehicles that cross were in its lessons.
+    pub crossing: bool,
+    contents: &'static [u8],
+}
+
+/// The single-shot networks. `train-vehicles` made them.
+pub const SINGLE_SHOTS: [SingleShot; 2] = [
+    SingleShot { name: "single-shot", crossing: true, contents: include_bytes!("../../networks/single-shot.onnx") },
+    SingleShot {
+        name: "single-shot-ahead",
+        crossing: false,
+        contents: include_bytes!("../../networks/single-shot-ahead.onnx"),
+    },
+];
+
+/// The name of the detector by histograms of oriented gradients, and its windows.
+pub const HOG: &str = "hog";
+const HOG_WINDOWS: &str = include_str!("../../networks/hog.json");
+
 /// The overlap (IoU) from which on a detection matches.
-const OVERLAP: f64 = 0.5;
+pub const OVERLAP: f64 = 0.5;
 /// The least visible share of a vehicle that counts.
 const VISIBLE: f64 = 0.25;
+/// The least height of a vehicle that counts, in pixels of the image.
+const HEIGHT: f64 = 8.0;
 /// The least score of a box that counts.
 const FLOOR: f64 = 0.05;
 /// The number of false alarms in an image at which thresholds are frozen.
 pub const ALARMS: f64 = 0.1;
 
+/// The easy scenes in which thresholds are frozen: the scenarios, and the number of tests.
+const EASY: [&str; 3] = ["follow-leader", "cut-in", "oncoming-distractor"];
+const EASY_TESTS: usize = 4;
+/// The seed of the tests of easy scenes.
+const EASY_SEED: u64 = 1;
+
 /// A detector with its name.
 pub struct Named {
     /// The name of the detector.
     pub name: &'static str,
-    network: Vision,
+    perceiver: Box<dyn Perceiver>,
     detector: Detector,
 }
 
@@ -41,35 +78,62 @@ pub type Found = Vec<Detection>;
 pub struct Vehicles {
     /// The vehicles.
     pub users: Vec<RoadUser>,
-    objects: Vec<Object>,
+    /// The vehicles as objects; crowds need not be found.
+    pub objects: Vec<Object>,
 }
 
-/// Returns the fetched detectors that are there, and the names of the others.
-pub fn fetched() -> Result<(Vec<Named>, Vec<&'static str>), Failure> {
+/// Returns all detectors that are there, and the names of the fetched detectors that are absent.
+pub fn all() -> Result<(Vec<Named>, Vec<&'static str>), Failure> {
     let (mut all, mut absent) = (Vec::new(), Vec::new());
     for name in NAMES {
         let file = Path::new(FETCHED).join(name);
         match fs::read(file.with_extension("onnx")) {
-            Ok(contents) => all.push(Named::read(name, &contents, &fs::read_to_string(file.with_extension("toml"))?)?),
+            Ok(contents) => {
+                all.push(Named::network(name, &contents, &fs::read_to_string(file.with_extension("toml"))?)?);
+            }
             Err(_) => absent.push(name),
         }
     }
+    for SingleShot { name, contents, .. } in SINGLE_SHOTS {
+        all.push(Named::network(name, contents, &Goal::Vehicles.description(INPUT))?);
+    }
+    all.push(Named::of(HOG, Box::new(Hog::read(HOG_WINDOWS)?))?);
     Ok((all, absent))
 }
 
+/// Returns the images of easy scenes: few vehicles, by day.
+pub fn easy(bar: &ProgressBar) -> Result<Vec<Shown>, Failure> {
+    bar.set_length((EASY.len() * EASY_TESTS) as u64);
+    let mut all = Vec::new();
+    for name in EASY {
+        let study = scenario(name)?.driver("planner").build()?;
+        let tests = halton(&study, &still(RESOLUTION, 24.0, 1.0), (EASY_TESTS, EASY_SEED), bar, |shown| shown)?;
+        all.extend(tests.into_iter().flatten());
+    }
+    Ok(all)
+}
+
 impl Named {
-    /// Reads a detector from an ONNX file and its description.
-    pub fn read(name: &'static str, contents: &[u8], description: &str) -> Result<Self, Failure> {
-        let description = Description::parse(description)?;
-        let Task::Detection(detector) = description.task.clone() else {
+    /// Reads a network from an ONNX file and its description.
+    fn network(name: &'static str, contents: &[u8], description: &str) -> Result<Self, Failure> {
+        Self::of(name, Box::new(Vision::read(contents, Description::parse(description)?)?))
+    }
+
+    fn of(name: &'static str, perceiver: Box<dyn Perceiver>) -> Result<Self, Failure> {
+        let Task::Detection(detector) = perceiver.task().clone() else {
             return Err(format!("{name} is no detector").into());
         };
-        Ok(Self { name, network: Vision::read(contents, description)?, detector })
+        Ok(Self { name, perceiver, detector })
+    }
+
+    /// Returns the factor that makes pixels of the detector's input from pixels of images, by the height.
+    pub fn scale(&self) -> f64 {
+        self.perceiver.scale(RESOLUTION[0], RESOLUTION[1])
     }
 
     /// Returns the boxes that mean vehicles in an image.
     pub fn find(&mut self, picture: Picture<'_>) -> Result<Found, Failure> {
-        let Percept::Boxes(boxes) = self.network.perceive(&[picture])?.remove(0) else { return Ok(Vec::new()) };
+        let Percept::Boxes(boxes) = self.perceiver.perceive(&[picture])?.remove(0) else { return Ok(Vec::new()) };
         let vehicles = self.detector.groups.iter().position(|group| group.is.iter().any(|kind| kind == "car"));
         let group_of = self.detector.groups_of_classes();
         // Classes of vehicles are one class: the best box of any of them wins.
@@ -77,19 +141,41 @@ impl Named {
         let as_one: Vec<Detection> = meant.map(|one| Detection { class: 0, ..*one }).collect();
         Ok(suppress(&as_one, FLOOR, self.detector.overlap))
     }
+
+    /// Returns the vehicles in an image and the boxes that the detector found. A vehicle counts if at least a quarter of
+    /// it is visible and it is at least 8 pixels high.
+    pub fn see(&mut self, shown: &Shown) -> Result<(Vehicles, Found), Failure> {
+        let counts = |user: &RoadUser| user.visible >= VISIBLE && user.rect.height >= HEIGHT;
+        Ok((Vehicles::of(shown, self.detector.extent, counts), self.find(shown.picture())?))
+    }
+
+    /// Returns the least threshold with at most 0.1 false alarms an image, over images of easy scenes.
+    pub fn freeze(&mut self, easy: &[Shown]) -> Result<f64, Failure> {
+        let mut alarms: Vec<f64> = Vec::new();
+        for shown in easy {
+            let (vehicles, found) = self.see(shown)?;
+            let matching = vehicles.matched(&found, 0.0);
+            let pairs = matching.detections.iter().zip(&matching.objects);
+            alarms.extend(pairs.filter(|(_, object)| object.is_none()).map(|(place, _)| found[*place].score));
+        }
+        alarms.sort_by(|a, b| b.total_cmp(a));
+        let allowed = (ALARMS * easy.len() as f64).floor() as usize;
+        // Just above the score of the first false alarm that is one too many.
+        Ok(alarms.get(allowed).map_or(FLOOR, |score| score.next_up()))
+    }
+
+    /// Returns the extent of the boxes that the detector makes.
+    pub fn extent(&self) -> Extent {
+        self.detector.extent
+    }
 }
 
 impl Vehicles {
-    /// Returns the vehicles in an image, with boxes as the detector makes them. A vehicle counts if `counts` says so and
-    /// at least a quarter of it is visible.
-    pub fn of(shown: &Shown, detector: &Named, counts: impl Fn(&RoadUser) -> bool) -> Self {
-        let is_vehicle = |user: &RoadUser| ["car", "van", "truck", "bus"].contains(&user.kind.as_str());
-        let users: Vec<RoadUser> = shown.road_users(detector.detector.extent).into_iter().filter(is_vehicle).collect();
-        let object = |user: &RoadUser| Object {
-            rect: user.rect,
-            area: f64::from(user.pixels),
-            crowd: user.visible < VISIBLE || !counts(user),
-        };
+    /// Returns the vehicles in an image, with boxes of this extent. Other vehicles than those that count need not be
+    /// found.
+    pub fn of(shown: &Shown, extent: Extent, counts: impl Fn(&RoadUser) -> bool) -> Self {
+        let users: Vec<RoadUser> = shown.road_users(extent).into_iter().filter(is_vehicle).collect();
+        let object = |user: &RoadUser| Object { rect: user.rect, area: f64::from(user.pixels), crowd: !counts(user) };
         Self { objects: users.iter().map(object).collect(), users }
     }
 
@@ -103,18 +189,4 @@ impl Vehicles {
     pub fn counting(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.objects.len()).filter(|place| !self.objects[*place].crowd)
     }
-}
-
-/// Returns the least threshold with at most this number of false alarms an image.
-pub fn frozen(images: &[(Vehicles, Found)]) -> f64 {
-    let mut alarms: Vec<f64> = Vec::new();
-    for (vehicles, found) in images {
-        let matching = vehicles.matched(found, 0.0);
-        let pairs = matching.detections.iter().zip(&matching.objects);
-        alarms.extend(pairs.filter(|(_, object)| object.is_none()).map(|(place, _)| found[*place].score));
-    }
-    alarms.sort_by(|a, b| b.total_cmp(a));
-    let allowed = (ALARMS * images.len() as f64).floor() as usize;
-    // Just above the score of the first false alarm that is one too many.
-    alarms.get(allowed).map_or(FLOOR, |score| score.next_up())
 }

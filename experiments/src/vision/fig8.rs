@@ -3,13 +3,14 @@
 //! The car drives along the innermost lane. Every 10 m, the vehicles in the image are counted, those that a detector
 //! found, and its false alarms. Thresholds are frozen before, on easy scenes: at 0.1 false alarms an image.
 
-use super::detectors::{ALARMS, Found, Named, Vehicles, fetched, frozen};
-use super::{Failure, still};
+use super::detectors::{ALARMS, Found, Vehicles, all, easy};
+use super::vehicles::RESOLUTION;
+use super::{Failure, is_crossing_truck, sheet, still};
 use crate::{Done, print, scenario, write};
+use image::RgbImage;
 use indicatif::ProgressBar;
 use paracosm::campaign::Worker;
 use paracosm::campaign::gallery::{Gallery, Shown};
-use paracosm::campaign::perception::RoadUser;
 use paracosm::render::Look;
 use paracosm::report::{Axis, Lines, Picture};
 use paracosm::space::{Value, Values};
@@ -17,12 +18,8 @@ use std::path::Path;
 
 /// The distance of neighbouring images in metres.
 const EVERY: f64 = 10.0;
-/// The least height of a vehicle that counts as visible, in pixels of the image.
-const HEIGHT: f64 = 8.0;
-/// The easy scenes in which thresholds are frozen: the scenarios, and the number of tests.
-const EASY: [&str; 3] = ["follow-leader", "cut-in", "oncoming-distractor"];
-const EASY_TESTS: usize = 4;
-const RESOLUTION: [u32; 2] = [640, 384];
+/// The distance at which the sample image is taken, in metres: the truck is in the middle of the crossing.
+const SAMPLE: f64 = 210.0;
 
 /// The counts of a detector in an image.
 #[derive(Debug, Clone, Copy)]
@@ -37,22 +34,20 @@ struct Counts {
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let (mut detectors, absent) = fetched()?;
+    let (mut detectors, absent) = all()?;
     let easy = easy(bar)?;
     let drive = drive()?;
     let mut table = vec!["detector,threshold,travelled_m,visible,found,false_alarms,truck".to_owned()];
     let mut text = format!("thresholds at {ALARMS} false alarms an image of {} images of easy scenes\n", easy.len());
-    let mut charts = Vec::new();
+    let (mut charts, mut samples) = (Vec::new(), Vec::new());
     for detector in &mut detectors {
-        let seen = |shown: &Shown, detector: &mut Named| -> Result<(Vehicles, Found), Failure> {
-            let found = detector.find(shown.picture())?;
-            Ok((Vehicles::of(shown, detector, |user| user.rect.height >= HEIGHT), found))
-        };
-        let images = easy.iter().map(|shown| seen(shown, detector)).collect::<Result<Vec<_>, _>>()?;
-        let threshold = frozen(&images);
+        let threshold = detector.freeze(&easy)?;
         let mut counts = Vec::new();
         for (travelled, shown) in &drive {
-            let (vehicles, found) = seen(shown, detector)?;
+            let (vehicles, found) = detector.see(shown)?;
+            if *travelled >= SAMPLE && samples.len() == charts.len() {
+                samples.push(marked(shown, &vehicles, &found, threshold));
+            }
             counts.push(counted(*travelled, &vehicles, &found, threshold));
         }
         let name = detector.name;
@@ -80,20 +75,28 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         let picture = Picture::of_lines(charts);
         write(&out.join("fig8.svg"), picture.svg()?)?;
         write(&out.join("fig8.png"), picture.png()?)?;
+        let rows: Vec<Vec<RgbImage>> = samples.chunks(2).map(<[RgbImage]>::to_vec).collect();
+        write(&out.join("fig7.png"), sheet::png(&rows)?)?;
     }
     write(&out.join("fig8.csv"), table.join("\n") + "\n")?;
     print(&text)
 }
 
-/// Returns the images of easy scenes: few vehicles, by day.
-fn easy(bar: &ProgressBar) -> Result<Vec<Shown>, Failure> {
-    bar.set_length((EASY.len() * EASY_TESTS) as u64);
-    let mut all = Vec::new();
-    for name in EASY {
-        let study = scenario(name)?.driver("planner").build()?;
-        all.extend(super::halton(&study, &still(RESOLUTION, 24.0, 1.0), EASY_TESTS, bar)?);
+/// Returns the image of the drive with all vehicles and the boxes of a detector: found, missed and false. Vehicles that
+/// need not be found have no box.
+fn marked(shown: &Shown, vehicles: &Vehicles, found: &Found, threshold: f64) -> RgbImage {
+    let mut image = sheet::pixels(&shown.picture());
+    let matching = vehicles.matched(found, threshold);
+    for place in vehicles.counting() {
+        let colour = if matching.detected[place].is_some() { sheet::RIGHT } else { sheet::MISSED };
+        sheet::frame(&mut image, &vehicles.objects[place].rect, colour);
     }
-    Ok(all)
+    for (place, object) in matching.detections.iter().zip(&matching.objects) {
+        if object.is_none() {
+            sheet::frame(&mut image, &found[*place].rect, sheet::FALSE);
+        }
+    }
+    image
 }
 
 /// Returns the images of the drive, one every 10 m, with the distance that the car had travelled.
@@ -120,9 +123,7 @@ fn counted(travelled: f64, vehicles: &Vehicles, found: &Found, threshold: f64) -
     let matching = vehicles.matched(found, threshold);
     let is_found = |place: &usize| matching.detected[*place].is_some();
     let counting: Vec<usize> = vehicles.counting().collect();
-    // The truck that crosses is the first car of the fleet, whose id follows the ego vehicle's.
-    let is_it = |user: &RoadUser| user.id == super::CROSSING_TRUCK && user.kind == "truck";
-    let truck = counting.iter().find(|place| is_it(&vehicles.users[**place]));
+    let truck = counting.iter().find(|place| is_crossing_truck(&vehicles.users[**place]));
     Counts {
         travelled,
         visible: counting.len(),

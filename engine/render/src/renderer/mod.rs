@@ -210,7 +210,7 @@ impl Renderer {
             });
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
-            self.draw(&mut pass, targets, &prepared.casters, first, None);
+            self.draw(&mut pass, targets, prepared.casters.iter(), first, None);
         }
         {
             let mut pass = targets.begin(encoder, layer, true);
@@ -218,14 +218,14 @@ impl Renderer {
             pass.set_bind_group(1, &self.pipelines.sun, &[]);
             if let Some(pictured) = &pictured {
                 pass.set_pipeline(pictured);
-                self.draw(&mut pass, targets, &prepared.draws, first, Some(Finish::Pictured));
+                self.draw(&mut pass, targets, prepared.draws.iter(), first, Some(Finish::Pictured));
             }
             if let Some(textures) = &drawing.textures {
                 pass.set_bind_group(2, textures, &[]);
             }
             for (finish, surface) in PLAIN.into_iter().zip(&drawing.surfaces) {
                 pass.set_pipeline(surface);
-                self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));
+                self.draw(&mut pass, targets, prepared.draws.iter(), first, Some(finish));
             }
             if let Some(sky) = &drawing.sky {
                 pass.set_pipeline(sky);
@@ -249,21 +249,22 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.alone);
             pass.set_bind_group(0, &targets.view_group, &[layer * view_stride(&self.gpu) as u32]);
             pass.set_bind_group(1, &masks.group, &[]);
-            self.draw(&mut pass, targets, &view.prepared.draws, first, None);
+            let with_ids = view.prepared.draws.iter().filter(|draw| draw.has_ids);
+            self.draw(&mut pass, targets, with_ids, first, None);
         }
     }
 
     /// Draws all surfaces of the instances of the given meshes, or only the surfaces of one finish.
-    fn draw(
+    fn draw<'a>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         targets: &Targets,
-        draws: &[Draw],
+        draws: impl Iterator<Item = &'a Draw>,
         first: u32,
         finish: Option<Finish>,
     ) {
         pass.set_vertex_buffer(1, targets.instances.slice(..));
-        for Draw { mesh, instances } in draws {
+        for Draw { mesh, instances, .. } in draws {
             let mesh = self.meshes.get(*mesh);
             let part = finish.map_or(0..mesh.count(), |finish| mesh.parts[finish as usize].clone());
             if !part.is_empty() {

@@ -38,6 +38,8 @@ pub(super) struct Weather {
 pub(super) struct Draw {
     pub mesh: u64,
     pub instances: Range<u32>,
+    /// True if the instances have ids, so that images show which of them is where.
+    pub has_ids: bool,
 }
 
 impl Prepared {
@@ -111,42 +113,48 @@ pub(super) fn prepare(
     let in_sight: Vec<_> = placed.iter().filter(|placed| frustum.meets(&placed.middle, placed.radius)).collect();
     if wanted.alone {
         let ids: BTreeSet<u16> = in_sight.iter().map(|placed| placed.instance.id).collect();
-        prepared.bits = ids.into_iter().zip(0..).collect();
+        prepared.bits = ids.into_iter().filter(|id| *id != 0).zip(0..).collect();
     }
     prepared.draws = prepared.add(in_sight.into_iter(), |placed| placed.coarser);
     if wanted.shadows && wanted.light() && prepared.raw.sun_light.iter().any(|light| *light > 0.0) {
-        let throws = |placed: &&Placed<'_>| is_solid(placed) && map.catches(&placed.middle, placed.radius);
+        let shade = Shade { eye: &eye, sun: &sun };
+        let throws = |placed: &&Placed<'_>| {
+            let (middle, radius) = (&placed.middle, placed.radius);
+            let is_caught = is_solid(placed) && map.catches(middle, radius);
+            is_caught && frustum.meets_swept(middle, &shade.of(middle, radius), radius + SHADE_MARGIN)
+        };
         prepared.casters = prepared.add(placed.iter().filter(throws), |_| SMALL.len());
     }
     Ok(prepared)
 }
 
 impl Prepared {
-    /// Adds the given instances, sorted by mesh. `coarser` is the number of times that the mesh of an instance gives way to
+    /// Adds the given instances, sorted by mesh, and apart by whether they have ids. `coarser` is the number of times that the mesh of an instance gives way to
     /// its mesh with fewer triangles, if there is one.
     fn add<'a>(
         &mut self,
         placed: impl Iterator<Item = &'a Placed<'a>>,
         coarser: impl Fn(&Placed<'_>) -> usize,
     ) -> Vec<Draw> {
-        let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
+        let mut groups: Vec<((u64, bool), Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
         for placed in placed {
             let levels = successors(Some(&placed.instance.mesh), |mesh| mesh.coarse());
-            let key = levels.take(1 + coarser(placed)).last().unwrap_or(&placed.instance.mesh).key();
+            let mesh = levels.take(1 + coarser(placed)).last().unwrap_or(&placed.instance.mesh).key();
+            let key = (mesh, placed.instance.id != 0);
             let group = *group_of.entry(key).or_insert(groups.len());
             if group == groups.len() {
                 groups.push((key, Vec::new()));
             }
             groups[group].1.push(placed);
         }
-        let draw = |(mesh, group): (u64, Vec<&Placed<'_>>)| {
+        let draw = |((mesh, has_ids), group): ((u64, bool), Vec<&Placed<'_>>)| {
             let first = self.instances.len() as u32;
             for placed in group {
                 let bit = self.bits.get(&placed.instance.id).copied().unwrap_or_default();
                 self.instances.push(RawInstance::new(&placed.shape, placed.instance.paint, placed.instance.id, bit));
             }
-            Draw { mesh, instances: first..self.instances.len() as u32 }
+            Draw { mesh, instances: first..self.instances.len() as u32, has_ids }
         };
         groups.into_iter().map(draw).collect()
     }
@@ -223,7 +231,35 @@ impl Frustum {
     }
 
     fn meets(&self, middle: &Point3<f64>, radius: f64) -> bool {
-        middle.x > Camera::NEAR - radius && self.sides.iter().all(|side| side.dot(&middle.coords) > -radius)
+        self.meets_swept(middle, &Vector3::zeros(), radius)
+    }
+
+    /// Returns `false` if a ball that moves along a straight line never touches the region.
+    fn meets_swept(&self, middle: &Point3<f64>, along: &Vector3<f64>, radius: f64) -> bool {
+        let end = middle.coords + along;
+        let farthest = |side: &Vector3<f64>| side.dot(&middle.coords).max(side.dot(&end));
+        middle.x.max(end.x) > Camera::NEAR - radius && self.sides.iter().all(|side| farthest(side) > -radius)
+    }
+}
+
+/// The distance in metres from the shadow of a ball within which points may read it, because shadows have soft edges.
+const SHADE_MARGIN: f64 = 0.5;
+/// The height of the lowest surface that shadows fall on, in metres.
+const LOWEST: f64 = -1.0;
+
+/// The way of shadows, away from the sun to the ground.
+struct Shade<'a> {
+    eye: &'a Isometry3<f64>,
+    /// The direction to the sun, in the world.
+    sun: &'a Vector3<f64>,
+}
+
+impl Shade<'_> {
+    /// Returns the way of the shadow of a ball, in the camera's coordinates.
+    fn of(&self, middle: &Point3<f64>, radius: f64) -> Vector3<f64> {
+        let height = (self.eye * middle).z + radius - LOWEST;
+        let length = (height / self.sun.z.max(1e-6)).clamp(0.0, ShadowMap::DEPTH);
+        self.eye.inverse_transform_vector(&(-self.sun * length))
     }
 }
 

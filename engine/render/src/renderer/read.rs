@@ -87,5 +87,5 @@ pub(super) fn alone(format: Format, top: u32, masks: &[u8], bits: &BTreeMap<u16,
             }
         }
     }
-    extents.into_iter().flatten().filter(|extent| extent.id != 0).collect()
+    extents.into_iter().flatten().collect()
 }

@@ -29,6 +29,9 @@ pub(super) fn to_sun(air: &Atmosphere) -> Vector3<f64> {
 }
 
 impl ShadowMap {
+    /// The greatest distance in metres from an object to a point that its shadow falls on.
+    pub const DEPTH: f64 = 2.0 * DEEP;
+
     /// Makes the shadow map for a pose of the camera and a direction to the sun.
     pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>) -> Self {
         let ahead = camera * Vector3::x();
