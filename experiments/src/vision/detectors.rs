@@ -190,3 +190,13 @@ impl Vehicles {
         (0..self.objects.len()).filter(|place| !self.objects[*place].crowd)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_beside_a_network_describes_it() {
+        assert_eq!(include_str!("../../networks/single-shot.toml"), Goal::Vehicles.description(INPUT));
+    }
+}
