@@ -152,6 +152,8 @@ fn chart(name: &str, threshold: f64, counts: &[Counts]) -> Lines {
 
 #[cfg(test)]
 mod tests {
+    use super::super::detectors::{NAMES, SINGLE_SHOTS};
+
     /// The sums of a detector in the table of the page.
     #[derive(Default)]
     struct Sums {
@@ -174,7 +176,7 @@ mod tests {
             let truck = [usize::from(!truck.is_empty()), usize::from(truck == "found")];
             sum.counts.iter_mut().zip(counts.into_iter().chain(truck)).for_each(|(sum, count)| *sum += count);
         }
-        assert_eq!(sums.len(), super::super::detectors::NAMES.len());
+        assert_eq!(sums.len(), NAMES.len() + SINGLE_SHOTS.len() + 1);
         let page = include_str!("../../fig8.md");
         for (name, Sums { threshold, counts: [visible, found, alarms, truck, truck_found] }) in sums {
             let row = format!("| `{name}` | {threshold} | {visible} | {found} | {alarms} | {truck} | {truck_found} |");

@@ -158,7 +158,7 @@ impl Perceiver for Hog {
             let levels = levels(&grey(picture));
             let hits = self.windows.iter().flat_map(|window| window.hits(&levels, LEAST));
             // The logistic function makes a score from 0 to 1 of a margin; it changes no order.
-            let score = |margin: f32| 1.0 / (1.0 + (-f64::from(margin)).exp());
+            let score = |margin: f32| 1.0 / (1.0 + libm::exp(-f64::from(margin)));
             let boxes: Vec<Detection> =
                 hits.map(|hit| Detection { class: 0, score: score(hit.margin), rect: hit.rect }).collect();
             // Many windows hit each vehicle; the best window alone is an answer.
