@@ -2,7 +2,6 @@
 //! scenes.
 
 use super::hog::Hog;
-use super::vehicles::{INPUT, RESOLUTION};
 use super::{Failure, halton, is_vehicle, still};
 use crate::scenario;
 use indicatif::ProgressBar;
@@ -16,6 +15,10 @@ use paracosm_neural::vision::learn::Goal;
 use paracosm_neural::vision::{Description, Vision};
 use std::fs;
 use std::path::Path;
+
+/// The width and the height of images in pixels, and of the input of our networks: half of them.
+pub const RESOLUTION: [u32; 2] = [640, 384];
+pub const INPUT: [u32; 2] = [RESOLUTION[0] / 2, RESOLUTION[1] / 2];
 
 /// The folder of the fetched detectors.
 const FETCHED: &str = "target/detectors";

@@ -3,8 +3,7 @@
 //! The car drives along the innermost lane. Every 10 m, the vehicles in the image are counted, those that a detector
 //! found, and its false alarms. Thresholds are frozen before, on easy scenes: at 0.1 false alarms an image.
 
-use super::detectors::{ALARMS, Found, Vehicles, all, easy};
-use super::vehicles::RESOLUTION;
+use super::detectors::{ALARMS, Found, RESOLUTION, Vehicles, all, easy};
 use super::{Failure, is_crossing_truck, sheet, still};
 use crate::{Done, print, scenario, write};
 use image::RgbImage;

@@ -1,8 +1,7 @@
-//! How many of the near cars detectors find by day: recall, false alarms and average precision by size, with frozen
+//! Counts the near cars that detectors find by day: recall, false alarms and average precision by size, with frozen
 //! thresholds.
 
-use super::detectors::{ALARMS, Found, HOG, Named, OVERLAP, Vehicles, all, easy};
-use super::vehicles::RESOLUTION;
+use super::detectors::{ALARMS, Found, HOG, Named, OVERLAP, RESOLUTION, Vehicles, all, easy};
 use super::{Failure, halton, still};
 use crate::{Done, print, scenario, write};
 use indicatif::ProgressBar;

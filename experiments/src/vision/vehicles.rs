@@ -1,6 +1,6 @@
 //! Teaches the detectors of vehicles: single-shot networks, and HOG with a linear support vector machine.
 
-use super::detectors::{HOG, SINGLE_SHOTS, SingleShot};
+use super::detectors::{HOG, INPUT, RESOLUTION, SINGLE_SHOTS, SingleShot};
 use super::hog::{self, Hit, Window};
 use super::{Failure, Lesson, lessons, still, support_vectors};
 use crate::{Done, write};
@@ -14,10 +14,6 @@ use rand::SeedableRng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64;
 use std::path::Path;
-
-/// The resolution of the images, and the size of the input of the networks: half of it.
-pub const RESOLUTION: [u32; 2] = [640, 384];
-pub const INPUT: [u32; 2] = [RESOLUTION[0] / 2, RESOLUTION[1] / 2];
 
 /// The scenarios of the lessons. Figure 8 shows `highway-traffic` with the traffic of seed 1.
 const LESSONS: [Lesson; 6] = [
