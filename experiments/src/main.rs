@@ -90,14 +90,14 @@ const STUDIES: &[Study] = &[
     Study {
         name: "fig6",
         about: "the paper's Figures 5 and 6: networks that mark the road, at focal lengths of 10 to 50 mm",
-        time: "5 min",
+        time: "2 min",
         run: vision::fig6::run,
     },
     #[cfg(feature = "neural")]
     Study {
         name: "fig8",
         about: "the paper's Figures 7 and 8: detectors of vehicles in traffic, with a white truck that crosses",
-        time: "5 min",
+        time: "2 min",
         run: vision::fig8::run,
     },
     Study {
@@ -116,7 +116,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "recall",
         about: "how many of the near cars each detector finds by day, with a frozen threshold",
-        time: "5 min",
+        time: "10 min",
         run: vision::recall::run,
     },
     #[cfg(feature = "neural")]
@@ -130,7 +130,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "train-vehicles",
         about: "teaches the detectors of vehicles, for Figure 8",
-        time: "1 h",
+        time: "30 min",
         run: vision::vehicles::run,
     },
     #[cfg(feature = "neural")]

@@ -124,6 +124,29 @@ fn shadows_fall_where_the_sun_is_hidden() {
 }
 
 #[test]
+fn things_out_of_sight_throw_shadows_into_the_image() {
+    let Some(mut renderer) = renderer() else { return };
+    let camera = camera(320, 200);
+    let floor = Arc::new(sheet([-50.0, -50.0], [50.0, 50.0], look([0.8; 3], SurfaceKind::Plain, Semantic::Ground)));
+    let tower = Arc::new(cuboid([1.0, 1.0, 8.0], look([0.8; 3], SurfaceKind::Plain, Semantic::Static)));
+    let at = camera.project(&(camera.pose(&Isometry3::identity()).inverse() * Point3::new(14.0, 0.0, 0.0)));
+    let index = at.map(|at| at.y as usize * 320 + at.x as usize).expect("before the camera");
+    let wanted = WantedImages { shadows: true, linear: true, ..support::NOTHING };
+    // The sun shines from where the tower stands: behind the camera, or beside the place that is seen.
+    for (place, azimuth) in [([-4.0, 0.0, 0.0], 1.0), ([14.0, 16.0, 0.0], 0.5), ([14.0, -16.0, 0.0], -0.5)] {
+        let mut light = |towers: usize| {
+            let things = [thing(&floor, [0.0; 3], 0.0, 0), thing(&tower, place, 0.0, 1)];
+            let mut scene = scene(things.into_iter().take(1 + towers).collect());
+            let sun_azimuth = azimuth * std::f32::consts::PI;
+            scene.air = Atmosphere { sun_azimuth, sun_elevation: 0.35, ..Atmosphere::default() };
+            let frame = one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), wanted);
+            frame.linear.expect("asked for")[3 * index]
+        };
+        assert!(light(1) < 0.9 * light(0), "the tower at {place:?} throws no shadow");
+    }
+}
+
+#[test]
 fn a_level_floor_throws_no_shadow_on_itself_however_low_the_sun() {
     let Some(mut renderer) = renderer() else { return };
     let slope = Arc::new(cuboid([60.0, 60.0, 0.5], look([0.8; 3], SurfaceKind::Plain, Semantic::Ground)));

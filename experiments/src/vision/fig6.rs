@@ -16,7 +16,7 @@ use paracosm::campaign::gallery::Gallery;
 use paracosm::perception::{Perceiver, Percept, Segmenter};
 use paracosm::render::Look;
 use paracosm::report::{Axis, Lines, Picture};
-use paracosm::space::{Domain, Value, Values};
+use paracosm::space::{Value, Values};
 use paracosm::{Campaign, Study, StudyBuilder, Trial};
 use paracosm_neural::vision::learn::Goal;
 use paracosm_neural::vision::{Description, Vision};
@@ -74,12 +74,16 @@ fn study(network: &'static [u8]) -> Result<Study, Failure> {
     Ok(study.spec("always (perception.overlap >= 0.9)").build()?)
 }
 
+/// Returns the test at a focal length.
+fn at(length: f64) -> Values {
+    [(LENS.to_owned(), Value::Number(length))].into_iter().collect()
+}
+
 /// Returns the shares of a network at each focal length.
 fn shares(network: &'static [u8], bar: &ProgressBar) -> Result<Vec<Shares>, Failure> {
     let study = study(network)?;
-    let test = |length: f64| -> Values { [(LENS.to_owned(), Value::Number(length))].into_iter().collect() };
     let mut found = Vec::new();
-    Campaign::new(&study)?.run_tests(&lengths().map(test).collect::<Vec<_>>(), 0, |trial| {
+    Campaign::new(&study)?.run_tests(&lengths().map(at).collect::<Vec<_>>(), 0, |trial| {
         bar.inc(1);
         found.push(of_trial(trial));
         Ok(())
@@ -117,11 +121,12 @@ fn samples() -> Result<Vec<u8>, Failure> {
     for course in NETWORKS {
         networks.push(Vision::read(course[0], description()?)?);
     }
+    let cameras = cameras(RESOLUTION, (SAMPLES[0], SAMPLES[SAMPLES.len() - 1]))?;
+    let study = scene()?.open_cameras(cameras.parameters().cloned()).driver("planner").build()?;
+    let mut gallery = Gallery::new(&study, cameras, Look::Textured)?;
     let mut rows = Vec::new();
     for length in SAMPLES {
-        let study = scene()?.open_over("light", Domain::Interval { lo: 0.5, hi: 1.0 }).driver("planner").build()?;
-        let test = [("light".to_owned(), Value::Number(1.0))].into_iter().collect();
-        let shown = Gallery::new(&study, cameras(RESOLUTION, (length, length))?, Look::Textured)?.show(&test)?;
+        let shown = gallery.show(&at(length))?;
         let shown = shown.into_iter().find(|shown| shown.time() >= MOMENT).ok_or("the run ends before the moment")?;
         let picture = shown.picture();
         let truth = shown.mask(&Segmenter::default().is);
@@ -247,10 +252,9 @@ mod tests {
     fn a_network_has_the_row_of_the_table_when_it_is_tested_again() {
         let study = study(NETWORKS[0][0]).unwrap();
         let mut again = None;
-        let test = [(LENS.to_owned(), Value::Number(TAUGHT))].into_iter().collect();
         Campaign::new(&study)
             .unwrap()
-            .run_tests(&[test], 0, |trial| {
+            .run_tests(&[at(TAUGHT)], 0, |trial| {
                 again = Some(of_trial(trial));
                 Ok(())
             })
