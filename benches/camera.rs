@@ -6,7 +6,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm::engine::{Run, Setup, driver};
-use paracosm::render::{Camera, Renderer, Scene, Stages, View, WantedImages};
+use paracosm::render::{Camera, Look, Renderer, Scene, Stages, View, WantedImages};
 
 const BATCH: usize = 64;
 
@@ -22,6 +22,7 @@ fn main() {
 fn rgb_depth_semantic(bencher: Bencher) {
     batches(
         bencher,
+        crossing(),
         &camera(128, 128),
         WantedImages { rgb: true, depth: true, semantic: true, ..WantedImages::default() },
     );
@@ -30,27 +31,49 @@ fn rgb_depth_semantic(bencher: Bencher) {
 /// Images of 200 x 66 pixels: RGB.
 #[divan::bench(sample_count = 20)]
 fn rgb(bencher: Bencher) {
-    batches(bencher, &camera(200, 66), WantedImages { rgb: true, ..WantedImages::default() });
+    batches(bencher, crossing(), &camera(200, 66), WantedImages { rgb: true, ..WantedImages::default() });
 }
 
 /// Images of 200 x 66 pixels: RGB with shadows, as shown to drivers with cameras.
 #[divan::bench(sample_count = 20)]
 fn rgb_shadows_small(bencher: Bencher) {
-    batches(bencher, &camera(200, 66), WantedImages { rgb: true, shadows: true, ..WantedImages::default() });
+    batches(
+        bencher,
+        crossing(),
+        &camera(200, 66),
+        WantedImages { rgb: true, shadows: true, ..WantedImages::default() },
+    );
+}
+
+/// Images of 200 x 66 pixels in each look: RGB with shadows, in a town and on a highway.
+#[divan::bench(sample_count = 20, args = [("pedestrian-crossing", Look::Flat), ("pedestrian-crossing", Look::Textured),
+    ("highway-traffic", Look::Flat), ("highway-traffic", Look::Textured)])]
+fn looks(bencher: Bencher, (scenario, look): (&str, Look)) {
+    let wanted = WantedImages { rgb: true, shadows: true, ..WantedImages::default() };
+    batches(bencher, moments(scenario, look), &camera(200, 66), wanted);
 }
 
 /// Images of 640 x 480 pixels: RGB with shadows.
 #[divan::bench(sample_count = 5)]
 fn rgb_shadows(bencher: Bencher) {
-    batches(bencher, &camera(640, 480), WantedImages { rgb: true, shadows: true, ..WantedImages::default() });
+    batches(
+        bencher,
+        crossing(),
+        &camera(640, 480),
+        WantedImages { rgb: true, shadows: true, ..WantedImages::default() },
+    );
+}
+
+fn crossing() -> Vec<(Scene, Isometry3<f64>)> {
+    moments("pedestrian-crossing", Look::Flat)
 }
 
 /// Returns the scenes in front of a camera behind the windscreen, with the poses of the car, three times a second.
-fn moments() -> Vec<(Scene, Isometry3<f64>)> {
-    let program = paracosm::scenarios::find("pedestrian-crossing").expect("it is in the catalogue");
+fn moments(scenario: &str, look: Look) -> Vec<(Scene, Isometry3<f64>)> {
+    let program = paracosm::scenarios::find(scenario).expect("it is in the catalogue");
     let test = program.declare().expect("it is sound").nominal();
     let mut run = Run::new(program, &test, Setup::asking_every(0.1)).expect("its nominal test is sound");
-    let stage = Stages::default().of(run.network());
+    let stage = Stages::in_look(look).of_run(&run);
     let mut driver = driver::find("aeb").and_then(|driver| driver.build(&[])).expect("it is in the catalogue");
     let mut moments = Vec::new();
     run.watch(driver.as_mut(), |run| {
@@ -70,9 +93,8 @@ fn camera(width: u32, height: u32) -> Camera {
     camera.mounted(Point3::new(0.3, 0.0, 1.35), 0.0, 0.03, 0.0).expect("a sound place")
 }
 
-fn batches(bencher: Bencher, camera: &Camera, wanted: WantedImages) {
+fn batches(bencher: Bencher, moments: Vec<(Scene, Isometry3<f64>)>, camera: &Camera, wanted: WantedImages) {
     let mut renderer = Renderer::new().expect("there is an adapter");
-    let moments = moments();
     assert_eq!(moments.len(), BATCH);
     bencher.counter(ItemsCount::new(BATCH)).bench_local(|| draw(&mut renderer, &moments, camera, wanted));
 }

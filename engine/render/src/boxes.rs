@@ -69,8 +69,14 @@ pub fn boxes_in_space(scene: &Scene, camera: &Camera, carrier: &Isometry3<f64>) 
     let to_camera = camera.pose(carrier).inverse();
     let around = |(id, instances): (u16, Vec<&Instance>)| {
         let base: Isometry3<f64> = instances[0].pose.cast();
-        let corners = instances.iter().flat_map(|instance| corners_of(instance)).map(|corner| base.inverse() * corner);
-        let (low, high) = corners.fold(EMPTY, |(low, high), corner| (low.inf(&corner), high.sup(&corner)));
+        let to_base = base.inverse();
+        let (low, high) = match instances[..] {
+            [only] => bounds_of(only),
+            _ => {
+                let corners = instances.iter().flat_map(|instance| corners_of(instance, &to_base));
+                corners.fold(EMPTY, |(low, high), corner| (low.inf(&corner), high.sup(&corner)))
+            }
+        };
         let middle = nalgebra::center(&low, &high);
         let pose = to_camera * base * Isometry3::translation(middle.x, middle.y, middle.z);
         (low.x <= high.x).then(|| Box3 { id, pose, size: high - low })
@@ -83,9 +89,17 @@ const EMPTY: (Point3<f64>, Point3<f64>) = (
     Point3::new(-f64::INFINITY, -f64::INFINITY, -f64::INFINITY),
 );
 
-/// Returns the positions in the world of all corners of an instance's mesh.
-fn corners_of(instance: &Instance) -> impl Iterator<Item = Point3<f64>> + use<'_> {
-    let pose: Isometry3<f64> = instance.pose.cast();
+/// Returns the least and the greatest coordinates of the corners of an instance's mesh, turned like the instance.
+fn bounds_of(instance: &Instance) -> (Point3<f64>, Point3<f64>) {
+    let [low, high] = instance.mesh.bounds().map(|bound| {
+        Point3::from(Vector3::from(bound).cast::<f64>().component_mul(&Vector3::from(instance.scale).cast()))
+    });
+    (low, high)
+}
+
+/// Returns the positions of all corners of an instance's mesh, moved from the world by `motion`.
+fn corners_of<'a>(instance: &'a Instance, motion: &Isometry3<f64>) -> impl Iterator<Item = Point3<f64>> + use<'a> {
+    let pose: Isometry3<f64> = motion * instance.pose.cast::<f64>();
     let scale = Vector3::from(instance.scale).cast::<f64>();
     instance
         .mesh

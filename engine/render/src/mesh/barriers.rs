@@ -24,7 +24,11 @@ pub(crate) fn bollard() -> Mesh {
     clay.hose(&[level(0.70, 0.056), level(0.82, 0.056)], plain(WHITE, Semantic::Pole));
     clay.hose(&[level(0.82, 0.055), level(0.92, 0.055), level(0.95, 0.035)], dark);
     clay.facet(&level(0.95, 0.035), dark);
-    clay.mesh()
+    let mut far = Clay::default();
+    for (low, high, of) in [(0.0, 0.70, dark), (0.70, 0.82, plain(WHITE, Semantic::Pole)), (0.82, 0.94, dark)] {
+        far.hose(&[low, high].map(|z| oval(at(0.0, 0.0, z), 0.06, 0.06, 4)), of);
+    }
+    clay.mesh().with_coarse(far.mesh(), 0.04)
 }
 
 /// A white delineator post with a slanted black band and a reflector. Its front faces along x.

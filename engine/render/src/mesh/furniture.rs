@@ -28,7 +28,9 @@ fn of(semantic: Semantic) -> impl Fn([f32; 3]) -> Matter {
 pub(crate) fn pole() -> Mesh {
     let mut clay = Clay::default();
     clay.loft(&[0.0, 1.0].map(|z| oval(at(0.0, 0.0, z), 1.0, 1.0, 8)), of(Semantic::Pole)(STEEL));
-    clay.mesh()
+    let mut far = Clay::default();
+    far.hose(&[0.0, 1.0].map(|z| oval(at(0.0, 0.0, z), 1.1, 1.1, 4)), of(Semantic::Pole)(STEEL));
+    clay.mesh().with_coarse(far.mesh(), 0.5)
 }
 
 /// Makes a plate around the origin that faces along x. The parts that are neither rim nor symbol have the colour of the
@@ -89,7 +91,12 @@ pub(crate) fn lantern() -> Mesh {
     clay.cuboid([1.05, -0.14, top - 0.1], [1.75, 0.14, top], of(GREY));
     let lamp = Matter::new(SurfaceKind::WhiteLamp, LAMP, Semantic::Pole);
     clay.cuboid([1.1, -0.11, top - 0.15], [1.7, 0.11, top - 0.09], lamp);
-    clay.mesh()
+    let mut far = Clay::default();
+    far.hose(&[0.0, 1.3].map(|x| ring(at(x, 0.0, top - 0.05), Point::x(), 0.05, 3)), of(STEEL));
+    far.cuboid([1.05, -0.14, top - 0.1], [1.75, 0.14, top], of(GREY));
+    let below = [[1.1, -0.11], [1.1, 0.11], [1.7, 0.11], [1.7, -0.11]].map(|[x, y]| at(x, y, top - 0.12));
+    far.facet(&below, lamp);
+    clay.mesh().with_coarse(far.mesh(), 0.06)
 }
 
 /// A traffic cone in a box of 1 m each way.

@@ -22,6 +22,8 @@ const BAY: f32 = 2.9;
 const GABLED: usize = 3;
 const STOREYS: usize = 30;
 const BAYS: usize = 20;
+/// The width of the frame of a window, in metres.
+const FRAME: f32 = 0.09;
 /// The colour of a roof of slate, in linear light.
 const SLATE: [f32; 3] = [0.085, 0.085, 0.095];
 /// The distance by which the roof extends beyond the walls.
@@ -104,7 +106,7 @@ impl Plan {
             Walls::Flat => self.modelled(walls, Windows::Framed),
             Walls::Brick | Walls::Plaster => {
                 let [framed, panes, rows, none] = Windows::ALL.map(|windows| self.modelled(walls, windows));
-                framed.with_coarse(panes.with_coarse(rows.with_coarse(none)))
+                framed.with_coarse(panes.with_coarse(rows.with_coarse(none, STOREY), 0.2 * BAY), FRAME)
             }
         }
     }

@@ -47,7 +47,7 @@ pub(crate) fn shining(mesh: &Mesh, lit: Lit) -> Mesh {
     }
     let shown = Mesh::new(vertices, indices);
     match mesh.coarse() {
-        Some(coarse) => shown.with_coarse(shining(coarse, lit)),
+        Some(coarse) => shown.with_coarse(shining(coarse, lit), mesh.detail()),
         None => shown,
     }
 }

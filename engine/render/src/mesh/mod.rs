@@ -127,8 +127,16 @@ pub struct Mesh {
     key: u64,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
-    coarse: Option<Arc<Mesh>>,
+    bounds: [[f32; 3]; 2],
+    coarse: Option<Coarse>,
     pictures: Option<Pictures>,
+}
+
+/// A mesh of the same shape with fewer triangles.
+#[derive(Debug)]
+struct Coarse {
+    mesh: Arc<Mesh>,
+    detail: f32,
 }
 
 impl Mesh {
@@ -141,14 +149,19 @@ impl Mesh {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         assert!(indices.len().is_multiple_of(3), "three indices make a triangle");
         assert!(indices.iter().all(|index| (*index as usize) < vertices.len()), "an index names a corner");
-        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices, coarse: None, pictures: None }
+        let bound = |start: f32, best: fn(f32, f32) -> f32| {
+            let positions = vertices.iter().map(|vertex| vertex.position);
+            positions.fold([start; 3], |bound, of| std::array::from_fn(|axis| best(bound[axis], of[axis])))
+        };
+        let bounds = [bound(f32::INFINITY, f32::min), bound(f32::NEG_INFINITY, f32::max)];
+        Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices, bounds, coarse: None, pictures: None }
     }
 
-    /// Sets a mesh of the same shape with fewer triangles. A renderer draws it where the object is small in the image, and
-    /// for shadows. The mesh with fewer triangles may have one with still fewer, which is drawn where the object is very
-    /// small.
-    pub fn with_coarse(self, coarse: impl Into<Arc<Self>>) -> Self {
-        Self { coarse: Some(coarse.into()), ..self }
+    /// Sets a mesh of the same shape with fewer triangles. `detail` is the size in metres, across the mesh, of the largest
+    /// parts that the coarse mesh lacks. In the look [`Textured`](crate::Look::Textured), a renderer draws the coarse mesh
+    /// where these parts are smaller than one and a half pixels, and for shadows. The coarse mesh may have a coarse mesh of its own.
+    pub fn with_coarse(self, coarse: impl Into<Arc<Self>>, detail: f32) -> Self {
+        Self { coarse: Some(Coarse { mesh: coarse.into(), detail }), ..self }
     }
 
     /// Adds the pictures of the surface, and for each triangle the place of its picture, if it has one.
@@ -164,13 +177,23 @@ impl Mesh {
 
     /// Returns the mesh of the same shape with fewer triangles, if there is one.
     pub fn coarse(&self) -> Option<&Arc<Self>> {
-        self.coarse.as_ref()
+        self.coarse.as_ref().map(|coarse| &coarse.mesh)
+    }
+
+    /// Returns the size in metres of the largest parts that the mesh with fewer triangles lacks; 0 without such a mesh.
+    pub fn detail(&self) -> f32 {
+        self.coarse.as_ref().map_or(0.0, |coarse| coarse.detail)
     }
 
     /// Returns a number that identifies the mesh within the process. A renderer uses it to know which meshes it has
     /// uploaded.
     pub fn key(&self) -> u64 {
         self.key
+    }
+
+    /// Returns the least and the greatest coordinates of the corners in metres; infinite if there are no corners.
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
+        self.bounds
     }
 
     /// Returns the corners of the mesh.

@@ -166,7 +166,7 @@ impl Models {
         let near = || plant::crown(conifer, linear(colour));
         take(&self.crowns, (conifer, colour, look), || match look {
             Look::Flat => near().into(),
-            Look::Textured => near().with_coarse(plant::far_crown(conifer, linear(colour))).into(),
+            Look::Textured => near().with_coarse(plant::far_crown(conifer, linear(colour)), plant::BOUGH).into(),
         })
     }
 }

@@ -4,12 +4,18 @@ use super::clay::{Clay, Matter, at, oval};
 use super::colours::BARK;
 use super::{Mesh, Semantic, SurfaceKind};
 
+/// The size of the parts of a crown that are missing from afar, relative to the width of the crown.
+pub(crate) const BOUGH: f32 = 0.05;
+
 /// A trunk of radius 1 and height 1, whose bark has the given surface.
 pub(crate) fn trunk(surface: SurfaceKind) -> Mesh {
     let mut clay = Clay::default();
     let bark = Matter::new(surface, BARK, Semantic::Vegetation);
-    clay.loft(&[oval(at(0.0, 0.0, 0.0), 1.0, 1.0, 8), oval(at(0.0, 0.0, 1.0), 0.6, 0.6, 8)], bark);
-    clay.mesh()
+    let shape = |sides: usize| [(0.0, 1.0), (1.0, 0.6)].map(|(z, radius)| oval(at(0.0, 0.0, z), radius, radius, sides));
+    clay.loft(&shape(8), bark);
+    let mut far = Clay::default();
+    far.hose(&shape(5), Matter { surface: SurfaceKind::Plain, ..bark });
+    clay.mesh().with_coarse(far.mesh(), 0.5)
 }
 
 /// A crown in a box of 1 m each way: that of a conifer, or one of broad leaves.

@@ -205,7 +205,11 @@ impl Renderer {
         });
         if wanted.shadows {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
+                depth_stencil_attachment: Some(cleared(
+                    &self.pipelines.suns[prepared.shadows].depth,
+                    1.0,
+                    wgpu::StoreOp::Store,
+                )),
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipelines.shadow);
@@ -215,7 +219,7 @@ impl Renderer {
         {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
-            pass.set_bind_group(1, &self.pipelines.sun, &[]);
+            pass.set_bind_group(1, &self.pipelines.suns[prepared.shadows].group, &[]);
             if let Some(pictured) = &pictured {
                 pass.set_pipeline(pictured);
                 self.draw(&mut pass, targets, prepared.draws.iter(), first, Some(Finish::Pictured));

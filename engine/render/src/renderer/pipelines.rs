@@ -18,9 +18,8 @@ pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    /// The shadow map as an input of the programs that draw surfaces, and as the image into which it is drawn.
-    pub sun: wgpu::BindGroup,
-    pub sun_depth: wgpu::TextureView,
+    /// The shadow maps, in the order of [`TEXELS`].
+    pub suns: [Sun; TEXELS.len()],
     /// The layouts of the inputs of the programs that draw surfaces, in the order of [`Look::ALL`].
     shaded: [wgpu::PipelineLayout; 2],
     pub texture_layout: wgpu::BindGroupLayout,
@@ -31,6 +30,13 @@ pub(super) struct Pipelines {
     drawing: BTreeMap<(WantedImages, Weather, Look), Drawing>,
     /// The programs that draw surfaces with pictures; made when they are first needed.
     pictured: BTreeMap<(WantedImages, Weather), wgpu::RenderPipeline>,
+}
+
+/// A shadow map: as an input of the programs that draw surfaces, and as the image into which it is drawn.
+#[derive(Debug)]
+pub(super) struct Sun {
+    pub group: wgpu::BindGroup,
+    pub depth: wgpu::TextureView,
 }
 
 /// The programs that draw a set of images.
@@ -76,7 +82,14 @@ impl Pipelines {
             min_binding_size: None,
         };
         let masks = layout(gpu, &[(ShaderStages::FRAGMENT, words)]);
-        let (sun_depth, sun_layout, sun) = sun(gpu);
+        let depth = BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Depth,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+        let sun_layout = layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)]);
+        let suns = TEXELS.map(|texels| Sun::new(gpu, &sun_layout, texels));
         let texture = BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },
             view_dimension: wgpu::TextureViewDimension::D2Array,
@@ -104,20 +117,7 @@ impl Pipelines {
             sky: module(include_str!("shaders/sky.wgsl")),
         };
         let (textures, drawing, pictured) = (None, BTreeMap::new(), BTreeMap::new());
-        Self {
-            modules,
-            views,
-            masks,
-            sun,
-            sun_depth,
-            shaded,
-            texture_layout,
-            textures,
-            shadow,
-            alone,
-            drawing,
-            pictured,
-        }
+        Self { modules, views, masks, suns, shaded, texture_layout, textures, shadow, alone, drawing, pictured }
     }
 
     /// Returns the programs that draw the wanted images in the given weather and look.
@@ -140,6 +140,37 @@ impl Pipelines {
         let look = Look::Textured;
         let make = || pipeline(gpu, modules, &shaded[look as usize], wanted, (weather, look), Some(Finish::Pictured));
         pictured.entry((wanted, weather)).or_insert_with(make).clone()
+    }
+}
+
+impl Sun {
+    fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, texels: u32) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("sun"),
+            size: wgpu::Extent3d { width: texels, height: texels, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: DEPTH_FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let depth = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&depth) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
+            ],
+        });
+        Self { group, depth }
     }
 }
 
@@ -283,40 +314,4 @@ fn pipeline_layout(gpu: &Gpu, groups: &[&wgpu::BindGroupLayout]) -> wgpu::Pipeli
         bind_group_layouts: &groups,
         immediate_size: 0,
     })
-}
-
-fn sun(gpu: &Gpu) -> (wgpu::TextureView, wgpu::BindGroupLayout, wgpu::BindGroup) {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("sun"),
-        size: wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: DEPTH_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        compare: Some(CompareFunction::LessEqual),
-        ..Default::default()
-    });
-    let depth = BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Depth,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    let layout = layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)]);
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
-        ],
-    });
-    (view, layout, group)
 }

@@ -6,17 +6,20 @@ use super::meshes::{GpuMesh, Meshes, Unfit};
 use super::raw::Shape;
 use super::raw::{RawInstance, RawView, four};
 use super::shadow::{ShadowMap, to_sun};
-use crate::{Camera, Instance, InstanceFlaw, Look, View, ViewError, WantedImages};
+use crate::{Camera, Instance, InstanceFlaw, Look, Mesh, View, ViewError, WantedImages};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter::successors;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A view that is ready to be drawn.
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub raw: RawView,
     pub look: Look,
+    /// The index of the shadow map among the sizes of maps.
+    pub shadows: usize,
     /// The instances that the camera sees, and the instances that throw shadows.
     pub instances: Vec<RawInstance>,
     pub draws: Vec<Draw>,
@@ -54,15 +57,16 @@ impl Prepared {
     }
 }
 
-/// The radii in pixels below which an object is drawn with few triangles, with very few, and with the fewest.
-const SMALL: [f64; 3] = [14.0, 8.0, 2.0];
+/// The size in pixels below which parts of objects may be missing.
+const INVISIBLE: f64 = 1.5;
 
 /// An instance that may be drawn.
 struct Placed<'a> {
     instance: &'a Instance,
     mesh: &'a GpuMesh,
-    /// The number of times that a coarser mesh is enough, because the object is small in the image.
-    coarser: usize,
+    /// The key of the mesh that is fine enough for the size of the object in the image, and the key of the coarsest mesh.
+    fine_enough: u64,
+    coarsest: u64,
     shape: Shape,
     middle: Point3<f64>,
     radius: f64,
@@ -93,18 +97,20 @@ pub(super) fn prepare(
         let shape = shape(instance, &to_eye);
         check_outside(index, instance, mesh, &shape)?;
         let (middle, radius) = shape.ball(mesh);
-        let coarser = SMALL.iter().filter(|pixels| radius * focal < **pixels * middle.coords.norm()).count();
-        placed.push(Placed { instance, mesh, coarser, shape, middle, radius });
+        let invisible = INVISIBLE * (middle.coords.norm() - radius) / focal;
+        let (fine_enough, coarsest) = levels(instance, view.scene.look, invisible);
+        placed.push(Placed { instance, mesh, fine_enough, coarsest, shape, middle, radius });
     }
     // Near objects hide far objects, whose hidden pixels then need no colour.
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
 
     let sun = to_sun(&view.scene.air);
-    let map = ShadowMap::new(&eye, &sun);
+    let map = ShadowMap::new(&eye, focal, &sun, view.scene.look);
     let frustum = Frustum::new(view.camera);
     let mut prepared = Prepared {
         raw: raw_view(view, &eye, &sun, &map, &placed),
         look: view.scene.look,
+        shadows: map.grade,
         instances: Vec::with_capacity(placed.len()),
         draws: Vec::new(),
         casters: Vec::new(),
@@ -115,33 +121,31 @@ pub(super) fn prepare(
         let ids: BTreeSet<u16> = in_sight.iter().map(|placed| placed.instance.id).collect();
         prepared.bits = ids.into_iter().filter(|id| *id != 0).zip(0..).collect();
     }
-    prepared.draws = prepared.add(in_sight.into_iter(), |placed| placed.coarser);
+    prepared.draws = prepared.add(in_sight.into_iter(), |placed| placed.fine_enough);
     if wanted.shadows && wanted.light() && prepared.raw.sun_light.iter().any(|light| *light > 0.0) {
         let shade = Shade { eye: &eye, sun: &sun };
         let throws = |placed: &&Placed<'_>| {
             let (middle, radius) = (&placed.middle, placed.radius);
-            let is_caught = is_solid(placed) && map.catches(middle, radius);
+            let is_caught = is_solid(placed, map.low()) && map.catches(middle, radius);
             is_caught && frustum.meets_swept(middle, &shade.of(middle, radius), radius + SHADE_MARGIN)
         };
-        prepared.casters = prepared.add(placed.iter().filter(throws), |_| SMALL.len());
+        prepared.casters = prepared.add(placed.iter().filter(throws), |placed| placed.coarsest);
     }
     Ok(prepared)
 }
 
 impl Prepared {
-    /// Adds the given instances, sorted by mesh, and apart by whether they have ids. `coarser` is the number of times that the mesh of an instance gives way to
-    /// its mesh with fewer triangles, if there is one.
+    /// Adds the given instances, sorted by mesh, and apart by whether they have ids. `mesh` returns the key of the mesh that
+    /// is drawn for an instance.
     fn add<'a>(
         &mut self,
         placed: impl Iterator<Item = &'a Placed<'a>>,
-        coarser: impl Fn(&Placed<'_>) -> usize,
+        mesh: impl Fn(&Placed<'_>) -> u64,
     ) -> Vec<Draw> {
         let mut groups: Vec<((u64, bool), Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
         for placed in placed {
-            let levels = successors(Some(&placed.instance.mesh), |mesh| mesh.coarse());
-            let mesh = levels.take(1 + coarser(placed)).last().unwrap_or(&placed.instance.mesh).key();
-            let key = (mesh, placed.instance.id != 0);
+            let key = (mesh(placed), placed.instance.id != 0);
             let group = *group_of.entry(key).or_insert(groups.len());
             if group == groups.len() {
                 groups.push((key, Vec::new()));
@@ -160,9 +164,22 @@ impl Prepared {
     }
 }
 
-/// Returns `true` if the object can throw a shadow because it is not flat. The ground cannot.
-fn is_solid(placed: &Placed<'_>) -> bool {
-    (placed.mesh.high.z - placed.mesh.low.z) * placed.shape.scale.z > 0.05
+/// Returns `true` if the object can throw a shadow because it is higher than `low` metres. The ground cannot.
+fn is_solid(placed: &Placed<'_>, low: f64) -> bool {
+    (placed.mesh.high.z - placed.mesh.low.z) * placed.shape.scale.z > low
+}
+
+/// Returns the keys of the mesh that is fine enough where parts of `invisible` metres may be missing, and of the coarsest
+/// mesh. The look `flat` has no coarse meshes.
+fn levels(instance: &Instance, look: Look, invisible: f64) -> (u64, u64) {
+    if look == Look::Flat {
+        return (instance.mesh.key(), instance.mesh.key());
+    }
+    let across = f64::from(instance.scale[0].max(instance.scale[1]));
+    let is_fine = |mesh: &&Arc<Mesh>| across * f64::from(mesh.detail()) >= invisible;
+    let all = || successors(Some(&instance.mesh), |mesh| mesh.coarse());
+    let coarsest = all().last().map_or(instance.mesh.key(), |mesh| mesh.key());
+    (all().find(is_fine).map_or(coarsest, |mesh| mesh.key()), coarsest)
 }
 
 fn shape(instance: &Instance, to_eye: &Isometry3<f64>) -> Shape {

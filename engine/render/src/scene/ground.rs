@@ -74,9 +74,26 @@ fn lie(surface: Paved, look: Look) -> Lie {
     }
 }
 
+/// Meshes of the ground that are being modelled, one for each square of the plane.
+#[derive(Debug, Default)]
+pub(super) struct Chunks(BTreeMap<[i64; 2], Clay>);
+
+impl Chunks {
+    /// Returns the mesh at a place, and the origin of its coordinates.
+    pub fn at(&mut self, place: Vector2<f64>) -> (&mut Clay, Vector2<f64>) {
+        let chunk: [i64; 2] = place.map(|metres| (metres / CHUNK).floor() as i64).into();
+        (self.0.entry(chunk).or_default(), origin(chunk))
+    }
+
+    /// Returns the finished meshes.
+    pub fn meshes(self) -> impl Iterator<Item = Instance> {
+        self.0.into_iter().map(|(chunk, clay)| standing(clay.mesh_at(origin(chunk).into()), origin(chunk)))
+    }
+}
+
 /// Returns the meshes of the road network and of the plain around it.
 pub(super) fn ground(network: &RoadNetwork, look: Look) -> Vec<Instance> {
-    let mut chunks: BTreeMap<[i64; 2], Clay> = BTreeMap::new();
+    let mut chunks = Chunks::default();
     for strip in network.strips().iter().flat_map(Strip::solid_parts) {
         lay(&strip, look, &mut chunks);
     }
@@ -84,27 +101,18 @@ pub(super) fn ground(network: &RoadNetwork, look: Look) -> Vec<Instance> {
         edge_lines(network).iter().for_each(|line| lay(line, look, &mut chunks));
         arrows(network).iter().for_each(|part| paint(part, &mut chunks));
     }
-    let chunks = chunks.into_iter().map(|(chunk, clay)| {
-        let origin = origin(chunk);
-        standing(clay.mesh_at(origin.into()), origin)
-    });
-    chunks.chain([plain(&network.bounds(), look)]).collect()
+    chunks.meshes().chain([plain(&network.bounds(), look)]).collect()
 }
 
 /// Adds a convex polygon of paint to the meshes of the ground.
-fn paint(part: &[Vector2<f64>], chunks: &mut BTreeMap<[i64; 2], Clay>) {
-    let chunk = chunk_of(part[0]);
+fn paint(part: &[Vector2<f64>], chunks: &mut Chunks) {
+    let (clay, origin) = chunks.at(part[0]);
     let corners = part.iter().map(|point| {
-        let point = point - origin(chunk);
+        let point = point - origin;
         at(point.x as f32, point.y as f32, PAINT as f32)
     });
     let matter = lie(Paved::LaneLine, Look::Textured).matter;
-    chunks.entry(chunk).or_default().facet(&corners.collect::<Vec<_>>(), matter);
-}
-
-/// Returns the chunk of the ground at a place.
-fn chunk_of(place: Vector2<f64>) -> [i64; 2] {
-    place.map(|metres| (metres / CHUNK).floor() as i64).into()
+    clay.facet(&corners.collect::<Vec<_>>(), matter);
 }
 
 fn origin(chunk: [i64; 2]) -> Vector2<f64> {
@@ -122,7 +130,7 @@ pub(super) fn cuts(curve: &Curve, right: f64, left: f64) -> Vec<f64> {
 }
 
 /// Adds the surface of a strip of road to the meshes of the ground.
-fn lay(strip: &Strip, look: Look, chunks: &mut BTreeMap<[i64; 2], Clay>) {
+fn lay(strip: &Strip, look: Look, chunks: &mut Chunks) {
     let Lie { matter, height, wider, longer } = lie(strip.surface, look);
     let (right, left) = (strip.right - wider[0], strip.left + wider[1]);
     if right >= left {
@@ -135,14 +143,13 @@ fn lay(strip: &Strip, look: Look, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     for i in 0..last {
         let ends = [cuts[i], cuts[i + 1]];
         let middle = strip.curve.beside(0.5 * (ends[0] + ends[1]), 0.5 * (left + right));
-        let chunk = chunk_of(middle);
+        let (clay, origin) = chunks.at(middle);
         let corners = |z: f64| {
             [(ends[0], right), (ends[1], right), (ends[1], left), (ends[0], left)].map(|(along, offset)| {
-                let point = strip.curve.beside(along, offset) - origin(chunk);
+                let point = strip.curve.beside(along, offset) - origin;
                 at(point.x as f32, point.y as f32, z as f32)
             })
         };
-        let clay = chunks.entry(chunk).or_default();
         let top = corners(height);
         clay.facet(&top, matter);
         if height > PAINT {
@@ -170,7 +177,7 @@ fn plain(bounds: &Bounds, look: Look) -> Instance {
     standing(clay.mesh_at(middle.into()), middle)
 }
 
-pub(super) fn standing(mesh: Mesh, at: Vector2<f64>) -> Instance {
+fn standing(mesh: Mesh, at: Vector2<f64>) -> Instance {
     let pose = Isometry3::translation(at.x as f32, at.y as f32, 0.0);
     Instance { mesh: Arc::new(mesh), pose, scale: [1.0; 3], paint: [1.0; 3], id: 0 }
 }

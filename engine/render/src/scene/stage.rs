@@ -159,9 +159,7 @@ impl Model {
     /// Makes a model from a mesh, whose bounding box is computed.
     pub fn new(mesh: impl Into<Arc<Mesh>>) -> Self {
         let mesh = mesh.into();
-        let points = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position));
-        let min = points().fold(Vector3::repeat(f32::INFINITY), |min, point| min.inf(&point));
-        let max = points().fold(Vector3::repeat(f32::NEG_INFINITY), |max, point| max.sup(&point));
+        let [min, max] = mesh.bounds().map(Vector3::from);
         let foot = Vector3::new(0.5 * (min.x + max.x), 0.5 * (min.y + max.y), min.z);
         let size = (max - min).map(|metres| if metres > 0.0 { metres } else { 1.0 }).into();
         Self { mesh, foot, size }

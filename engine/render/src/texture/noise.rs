@@ -23,16 +23,29 @@ pub(super) fn rise(low: f32, high: f32, at: f32) -> f32 {
     part * part * (3.0 - 2.0 * part)
 }
 
+/// Returns the greatest whole number that is not greater than a number.
+fn floor(at: f32) -> f32 {
+    let cut = at as i32 as f32;
+    if cut > at { cut - 1.0 } else { cut }
+}
+
+/// Returns the number of a cell in a row of `cells` cells that repeats.
+fn wrapped(cell: i32, cells: u32) -> u32 {
+    // Nearly all cells are in the first repetition, and a division is slow.
+    if (0..cells as i32).contains(&cell) { cell as u32 } else { cell.rem_euclid(cells as i32) as u32 }
+}
+
 /// Returns smooth noise from 0 to 1 on a lattice of `cells` cells in each direction.
 pub(super) fn smooth([u, v]: [f32; 2], cells: [u32; 2], seed: u32) -> f32 {
     let (x, y) = (u * cells[0] as f32, v * cells[1] as f32);
-    let (left, low) = (x.floor(), y.floor());
+    let (left, low) = (floor(x), floor(y));
     let (along, up) = (rise(0.0, 1.0, x - left), rise(0.0, 1.0, y - low));
-    let wrapped = |at: f32, more: u32, cells: u32| (at as i32).rem_euclid(cells as i32) as u32 + more;
-    let corner = |right: u32, upper: u32| {
-        share(hash(wrapped(left, right, cells[0]) % cells[0], wrapped(low, upper, cells[1]) % cells[1], seed))
+    let pair = |at: f32, cells: u32| [0, 1].map(|more| wrapped(at as i32 + more, cells));
+    let (columns, rows) = (pair(left, cells[0]), pair(low, cells[1]));
+    let row = |upper: usize| {
+        let [from, to] = columns.map(|column| share(hash(column, rows[upper], seed)));
+        from + (to - from) * along
     };
-    let row = |upper: u32| corner(0, upper) + (corner(1, upper) - corner(0, upper)) * along;
     row(0) + (row(1) - row(0)) * up
 }
 
@@ -62,11 +75,10 @@ pub(super) struct Nearest {
 /// Returns the nearest scattered point (Worley, A cellular texture basis function, SIGGRAPH 1996).
 pub(super) fn scattered([u, v]: [f32; 2], cells: [u32; 2], seed: u32) -> Nearest {
     let (x, y) = (u * cells[0] as f32, v * cells[1] as f32);
-    let (left, low) = (x.floor(), y.floor());
+    let (left, low) = (floor(x), floor(y));
     let (mut first, mut second, mut of) = (f32::INFINITY, f32::INFINITY, 0);
     for (right, up) in (-1..=1).flat_map(|right| (-1..=1).map(move |up| (right, up))) {
-        let column = (left as i32 + right).rem_euclid(cells[0] as i32) as u32;
-        let row = (low as i32 + up).rem_euclid(cells[1] as i32) as u32;
+        let (column, row) = (wrapped(left as i32 + right, cells[0]), wrapped(low as i32 + up, cells[1]));
         let hash = hash(column, row, seed);
         let off = [left + right as f32 + share(hash) - x, low + up as f32 + share(hash.rotate_left(13)) - y];
         let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();

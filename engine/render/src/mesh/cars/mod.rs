@@ -196,6 +196,10 @@ pub(crate) fn kind(size: [f32; 3], chance: u32) -> usize {
     0
 }
 
+/// The sizes in metres of the largest parts that are missing from afar, and from very far.
+const HANDLE: f32 = 0.09;
+const WHEEL_ARCH: f32 = 0.21;
+
 /// Makes a car of a kind with a length, a width and a height in metres.
 pub(crate) fn car(kind: usize, size: [f32; 3]) -> Mesh {
     let mesh = |coarse: bool| {
@@ -208,7 +212,7 @@ pub(crate) fn car(kind: usize, size: [f32; 3]) -> Mesh {
     };
     let mut far = Clay::default();
     shell::Shell::new(&KINDS[kind], size, true).far(&mut far);
-    mesh(false).with_coarse(mesh(true).with_coarse(far.fitted(size).mesh()))
+    mesh(false).with_coarse(mesh(true).with_coarse(far.fitted(size).mesh(), WHEEL_ARCH), HANDLE)
 }
 
 #[cfg(test)]

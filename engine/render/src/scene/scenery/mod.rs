@@ -12,10 +12,9 @@ mod verge;
 
 use super::Instance;
 use super::figure::Figure;
-use super::ground::standing;
+use super::ground::Chunks;
 use crate::Look;
 use crate::mesh::Mesh;
-use crate::mesh::clay::Clay;
 use lights::Light;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use paracosm_engine::object::{Body, BodyState};
@@ -120,20 +119,18 @@ struct Site {
     room: Room,
     things: Vec<Thing>,
     /// The paving of parking bays.
-    paving: Clay,
+    paving: Chunks,
     /// The number of things with ids.
     known: u16,
 }
 
 impl Site {
     fn of(run: &Run) -> Self {
-        Self { room: Room::of(run), things: Vec::new(), paving: Clay::default(), known: 0 }
+        Self { room: Room::of(run), things: Vec::new(), paving: Chunks::default(), known: 0 }
     }
 
     fn finish(self) -> Scenery {
-        let mesh = self.paving.mesh();
-        let ground = if mesh.indices().is_empty() { Vec::new() } else { vec![standing(mesh, Vector2::zeros())] };
-        Scenery { ground, things: self.things }
+        Scenery { ground: self.paving.meshes().collect(), things: self.things }
     }
 
     /// Returns an id for a thing that detectors may find; 0 if there are no more ids.
