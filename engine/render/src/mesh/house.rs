@@ -22,8 +22,8 @@ const BAY: f32 = 2.9;
 const GABLED: usize = 3;
 const STOREYS: usize = 30;
 const BAYS: usize = 20;
-/// The width of the frame of a window, in metres.
-const FRAME: f32 = 0.09;
+/// The size of the panes, sills and frames that windows lack from afar, in metres.
+const FRAME: f32 = 0.15;
 /// The colour of a roof of slate, in linear light.
 const SLATE: [f32; 3] = [0.085, 0.085, 0.095];
 /// The distance by which the roof extends beyond the walls.
@@ -56,8 +56,9 @@ enum Windows {
 impl Windows {
     const ALL: [Self; 4] = [Self::Framed, Self::Panes, Self::Rows, Self::None];
 
+    /// Returns `true` if bricks and tiles still show where the house has such windows.
     fn is_near(self) -> bool {
-        self == Self::Framed
+        matches!(self, Self::Framed | Self::Panes)
     }
 }
 

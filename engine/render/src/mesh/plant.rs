@@ -5,7 +5,7 @@ use super::colours::BARK;
 use super::{Mesh, Semantic, SurfaceKind};
 
 /// The size of the parts of a crown that are missing from afar, relative to the width of the crown.
-pub(crate) const BOUGH: f32 = 0.05;
+pub(crate) const BOUGH: f32 = 0.08;
 
 /// A trunk of radius 1 and height 1, whose bark has the given surface.
 pub(crate) fn trunk(surface: SurfaceKind) -> Mesh {
