@@ -128,7 +128,9 @@ impl GpuMesh {
         if bytes > gpu.limits.max_buffer_size {
             return Err(Unfit::TooLarge(bytes));
         }
-        let positions = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position).cast::<f64>());
+        // A mesh without corners has no bounds.
+        let bounds = if corners.is_empty() { Default::default() } else { mesh.bounds() };
+        let [low, high] = bounds.map(|bound| Vector3::from(bound).cast());
         let buffer = |contents: &[u8], usage| {
             let (size, usage) = (contents.len() as u64, usage | wgpu::BufferUsages::COPY_DST);
             let mesh = wgpu::BufferDescriptor { label: Some("mesh"), size, usage, mapped_at_creation: false };
@@ -143,8 +145,8 @@ impl GpuMesh {
             indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             parts,
             pictures: mesh.pictures().map(|of| pictures(gpu, textures, &of.all)),
-            low: positions().reduce(|low, position| low.inf(&position)).unwrap_or_default(),
-            high: positions().reduce(|high, position| high.sup(&position)).unwrap_or_default(),
+            low,
+            high,
             lamp: lamp_of(mesh),
         })
     }

@@ -170,8 +170,8 @@ fn is_solid(placed: &Placed<'_>, low: f64) -> bool {
 }
 
 /// Returns the keys of the mesh that is fine enough where parts of `invisible` metres may be missing, and of the coarsest
-/// mesh. The look `flat` has no coarse meshes.
-fn levels(instance: &Instance, look: Look, invisible: f64) -> (u64, u64) {
+/// mesh. The look `flat` draws no coarse meshes.
+pub(super) fn levels(instance: &Instance, look: Look, invisible: f64) -> (u64, u64) {
     if look == Look::Flat {
         return (instance.mesh.key(), instance.mesh.key());
     }

@@ -1,10 +1,12 @@
-//! What only the renderer itself can see: that it forgets meshes, and that it survives the loss of its device.
+//! What only the renderer itself can see: that it forgets meshes, which mesh of an object it draws, and that it survives the loss
+//! of its device.
 
 #[path = "../../tests/support/adapter.rs"]
 mod adapter;
 
 use super::Renderer;
-use crate::{Camera, Instance, Mesh, RenderError, Scene, Semantic, SurfaceKind, Vertex, View, WantedImages};
+use super::prepare::levels;
+use crate::{Camera, Instance, Look, Mesh, RenderError, Scene, Semantic, SurfaceKind, Vertex, View, WantedImages};
 use nalgebra::Isometry3;
 use std::sync::Arc;
 
@@ -119,4 +121,23 @@ fn masks_of_things_alone_are_the_same_in_however_many_bands_they_are_drawn() {
     let refused =
         renderer.render(&views[..1], wanted).expect("the adapter works").remove(0).expect_err("a row is more");
     assert!(refused.to_string().contains("a row of pixels in the occlusion masks"), "{refused}");
+}
+
+#[test]
+fn a_coarse_mesh_is_drawn_where_its_missing_parts_are_small_and_never_in_the_look_flat() {
+    let mesh = || Mesh::new(Vec::new(), Vec::new());
+    let [near, middle, far] = [mesh(), mesh(), mesh()];
+    let keys = [near.key(), middle.key(), far.key()];
+    let instance = Instance {
+        mesh: near.with_coarse(middle.with_coarse(far, 0.5), 0.1).into(),
+        pose: Isometry3::identity(),
+        scale: [2.0, 1.0, 9.0],
+        paint: [1.0; 3],
+        id: 0,
+    };
+    // The mesh is stretched by 2 across, so its parts are twice as large.
+    for (invisible, drawn) in [(-1.0, 0), (0.19, 0), (0.21, 1), (0.99, 1), (1.01, 2)] {
+        assert_eq!(levels(&instance, Look::Textured, invisible), (keys[drawn], keys[2]), "{invisible}");
+        assert_eq!(levels(&instance, Look::Flat, invisible), (keys[0], keys[0]), "{invisible}");
+    }
 }
