@@ -47,7 +47,7 @@ mod regression;
 mod samples;
 mod scales;
 #[cfg(feature = "camera")]
-mod seeing;
+pub mod seeing;
 mod setting_names;
 mod simulator;
 mod space_file;

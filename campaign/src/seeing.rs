@@ -113,7 +113,7 @@ impl SeeingProcess {
             }
         };
         let heard = process.ask(question, self.timeout, &self.stop);
-        match heard.and_then(|line| read(&line, &self.task, pictures)) {
+        match heard.and_then(|line| read_percepts(&line, &self.task, pictures)) {
             Ok(percepts) => {
                 self.process = Some(process);
                 Ok(percepts)
@@ -162,8 +162,15 @@ fn line(question: &impl Serialize) -> Vec<u8> {
 
 /// Asks a new process what its answers mean.
 fn introduced(process: &mut Process, timeout: Duration, stop: &AtomicBool) -> Result<Task, Problem> {
-    let said = process.ask(&line(&Hello { hello: PROTOCOL }), timeout, stop)?;
-    let Meaning { classes, threshold, overlap, extent, groups, segments, error } = parsed(&said)?;
+    read_meaning(&process.ask(&line(&Hello { hello: PROTOCOL }), timeout, stop)?)
+}
+
+/// Reads the answer to `hello`: the meaning of the answers to images.
+///
+/// # Errors
+/// The line is not such an answer, or the meaning makes no sense.
+pub fn read_meaning(line: &str) -> Result<Task, Problem> {
+    let Meaning { classes, threshold, overlap, extent, groups, segments, error } = parsed(line)?;
     let wrong = |message: String| Problem::new(ProblemKind::Answer, message);
     match (classes, segments, error) {
         (_, _, Some(error)) => Err(wrong(format!("the perceiver refuses: {error}"))),
@@ -195,8 +202,11 @@ fn parsed<'a, T: Deserialize<'a>>(line: &'a str) -> Result<T, Problem> {
     })
 }
 
-/// Reads the answer to images.
-fn read(line: &str, task: &Task, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, Problem> {
+/// Reads the answer to images of a perceiver with the given task. The percepts fit the images.
+///
+/// # Errors
+/// The line is not such an answer, or the answer does not fit the task or the images.
+pub fn read_percepts(line: &str, task: &Task, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, Problem> {
     let wrong = |message: String| Problem::new(ProblemKind::Answer, message);
     let answers = match parsed(line)? {
         Answered { error: Some(error), .. } => return Err(wrong(format!("the perceiver has no answer: {error}"))),
@@ -205,6 +215,11 @@ fn read(line: &str, task: &Task, pictures: &[Picture<'_>]) -> Result<Vec<Percept
             return Err(wrong("found an answer without `answers`, expected one entry for each image".into()));
         }
     };
+    // A mask takes as much memory as its image has pixels, so answers to no image are refused before they are read.
+    let (found, expected) = (answers.len(), pictures.len());
+    if found != expected {
+        return Err(wrong(PerceiverError::Count { found, expected }.to_string()));
+    }
     let classes = match task {
         Task::Detection(detector) => detector.classes.as_slice(),
         Task::Segmentation(_) => &[],
@@ -217,11 +232,9 @@ fn read(line: &str, task: &Task, pictures: &[Picture<'_>]) -> Result<Vec<Percept
         })?;
         Ok(Detection { class, score: found.score, rect: Rect { left, top, width, height } })
     };
-    let percept = |(place, answer): (usize, OneAnswer)| match answer {
+    let percept = |(picture, answer): (&Picture<'_>, OneAnswer)| match answer {
         OneAnswer::Boxes(boxes) => Ok(Percept::Boxes(boxes.into_iter().map(one).collect::<Result<_, Problem>>()?)),
         OneAnswer::Mask(runs) => {
-            // An answer to no image is counted by the check of all perceivers.
-            let picture = pictures.get(place).or(pictures.last()).expect("there are images");
             let pixels = picture.width as usize * picture.height as usize;
             let found = runs.iter().try_fold(0usize, |sum, run| sum.checked_add(*run));
             if found != Some(pixels) {
@@ -233,5 +246,7 @@ fn read(line: &str, task: &Task, pictures: &[Picture<'_>]) -> Result<Vec<Percept
             Ok(Percept::Mask(Mask { width: picture.width, height: picture.height, pixels: mask }))
         }
     };
-    answers.into_iter().enumerate().map(percept).collect()
+    let percepts: Vec<_> = pictures.iter().zip(answers).map(percept).collect::<Result<_, Problem>>()?;
+    task.check(pictures, &percepts).map_err(|error| wrong(error.to_string()))?;
+    Ok(percepts)
 }

@@ -5,8 +5,10 @@
 //! with an error. A parser must not panic, hang, or take more than 2 GiB of memory.
 
 use paracosm::campaign::cameras::read_cameras;
+use paracosm::campaign::seeing::{read_meaning, read_percepts};
 use paracosm::campaign::{Answer, Log, Regression, SpaceFile, StudyFile, TestSet, Trust, read_tests, read_trace};
 use paracosm::oracles::Formula;
+use paracosm::perception::{Detector, Picture, Segmenter, Task};
 use paracosm::space::constraint::Expression;
 use paracosm::space::{Distribution, Space};
 use paracosm::{Study, catalogue};
@@ -38,6 +40,7 @@ pub const PARSERS: &[Parser] = &[
     Parser { name: "gltf", read: |data| in_file("model.gltf", data, gltf) },
     Parser { name: "glb", read: |data| in_file("model.glb", data, gltf) },
     Parser { name: "answer", read: |data| look(Answer::read(&String::from_utf8_lossy(data), 3), |_| ()) },
+    Parser { name: "percepts", read: percepts },
 ];
 
 /// Writes the message of an error, or uses a value.
@@ -115,6 +118,20 @@ fn study(data: &[u8]) {
         // Nothing that a file names is run without trust.
         look(paracosm::campaign::Worker::until(log.trusting(&Trust::default()).study(), Default::default()), |_| ());
     });
+}
+
+/// An answer of a perceiver in a process: the meaning of its answers, or what it sees in two images.
+fn percepts(data: &[u8]) {
+    let line = String::from_utf8_lossy(data);
+    look(read_meaning(&line), |task| look(task.check(&[], &[]), |()| ()));
+    let picture = Picture { width: 6, height: 4, rgb: &[0; 72] };
+    let detection = Task::Detection(Detector::of(["car", "person"].map(str::to_owned).into()));
+    let segmentation = Task::Segmentation(Segmenter { is: vec!["road".to_owned()] });
+    for task in [detection, segmentation] {
+        look(read_percepts(&line, &task, &[picture; 2]), |percepts| {
+            assert!(task.check(&[picture; 2], &percepts).is_ok());
+        });
+    }
 }
 
 fn requirements(path: &Path) {

@@ -144,4 +144,20 @@ macro_rules! each {
     };
 }
 
-each!(space, pict, formula, points, tests, trace, trials, study, cameras, requirements, regression, gltf, glb, answer,);
+each!(
+    space,
+    pict,
+    formula,
+    points,
+    tests,
+    trace,
+    trials,
+    study,
+    cameras,
+    requirements,
+    regression,
+    gltf,
+    glb,
+    answer,
+    percepts,
+);
