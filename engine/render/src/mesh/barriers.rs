@@ -10,6 +10,8 @@ pub(crate) const RAIL: f64 = 4.0;
 /// The height of a guard rail, and of a delineator post, in metres (EN 1317; RPS, Germany).
 const RAIL_HIGH: f32 = 0.75;
 const POST_HIGH: f32 = 1.0;
+/// The size of the edges that a bollard has from afar, in metres.
+const BOLLARD_EDGE: f32 = 0.04;
 
 fn plain(colour: [f32; 3], semantic: Semantic) -> Matter {
     Matter::new(SurfaceKind::Plain, colour, semantic)
@@ -28,7 +30,7 @@ pub(crate) fn bollard() -> Mesh {
     for (low, high, of) in [(0.0, 0.70, dark), (0.70, 0.82, plain(WHITE, Semantic::Pole)), (0.82, 0.94, dark)] {
         far.hose(&[low, high].map(|z| oval(at(0.0, 0.0, z), 0.06, 0.06, 4)), of);
     }
-    clay.mesh().with_coarse(far.mesh(), 0.04)
+    clay.mesh().with_coarse(far.mesh(), BOLLARD_EDGE)
 }
 
 /// A white delineator post with a slanted black band and a reflector. Its front faces along x.

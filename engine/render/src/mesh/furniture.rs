@@ -2,6 +2,7 @@
 
 use super::clay::{Clay, Matter, Point, at, oval, ring};
 use super::colours::{BLACK, GREY, LAMP, ORANGE, RED, STEEL, WHITE};
+use super::plant::EDGE;
 use super::{Mesh, Semantic, SurfaceKind};
 
 /// The kinds of signs, which differ in shape.
@@ -30,7 +31,7 @@ pub(crate) fn pole() -> Mesh {
     clay.loft(&[0.0, 1.0].map(|z| oval(at(0.0, 0.0, z), 1.0, 1.0, 8)), of(Semantic::Pole)(STEEL));
     let mut far = Clay::default();
     far.hose(&[0.0, 1.0].map(|z| oval(at(0.0, 0.0, z), 1.1, 1.1, 4)), of(Semantic::Pole)(STEEL));
-    clay.mesh().with_coarse(far.mesh(), 0.5)
+    clay.mesh().with_coarse(far.mesh(), EDGE)
 }
 
 /// Makes a plate around the origin that faces along x. The parts that are neither rim nor symbol have the colour of the
@@ -82,6 +83,8 @@ fn turned(x: f32, size: f32, sides: usize) -> Vec<Point> {
 /// The height at which a lantern is modelled, in metres. By this height a renderer knows that the lantern lights up the
 /// street.
 pub(crate) const LANTERN: f32 = 6.0;
+/// The thickness of the parts of a lantern that are missing from afar, in metres.
+const RIM: f32 = 0.06;
 
 /// Makes the top of a lamp post: an arm over the road, and the lamp.
 pub(crate) fn lantern() -> Mesh {
@@ -96,7 +99,7 @@ pub(crate) fn lantern() -> Mesh {
     far.cuboid([1.05, -0.14, top - 0.1], [1.75, 0.14, top], of(GREY));
     let below = [[1.1, -0.11], [1.1, 0.11], [1.7, 0.11], [1.7, -0.11]].map(|[x, y]| at(x, y, top - 0.12));
     far.facet(&below, lamp);
-    clay.mesh().with_coarse(far.mesh(), 0.06)
+    clay.mesh().with_coarse(far.mesh(), RIM)
 }
 
 /// A traffic cone in a box of 1 m each way.

@@ -24,6 +24,8 @@ const STOREYS: usize = 30;
 const BAYS: usize = 20;
 /// The size of the panes, sills and frames that windows lack from afar, in metres.
 const FRAME: f32 = 0.15;
+/// The length in metres that is too small to be seen where the windows of a storey are one band.
+const BETWEEN: f32 = 0.2 * BAY;
 /// The colour of a roof of slate, in linear light.
 const SLATE: [f32; 3] = [0.085, 0.085, 0.095];
 /// The distance by which the roof extends beyond the walls.
@@ -107,7 +109,7 @@ impl Plan {
             Walls::Flat => self.modelled(walls, Windows::Framed),
             Walls::Brick | Walls::Plaster => {
                 let [framed, panes, rows, none] = Windows::ALL.map(|windows| self.modelled(walls, windows));
-                framed.with_coarse(panes.with_coarse(rows.with_coarse(none, STOREY), 0.2 * BAY), FRAME)
+                framed.with_coarse(panes.with_coarse(rows.with_coarse(none, STOREY), BETWEEN), FRAME)
             }
         }
     }

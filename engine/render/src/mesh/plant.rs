@@ -6,6 +6,8 @@ use super::{Mesh, Semantic, SurfaceKind};
 
 /// The size of the parts of a crown that are missing from afar, relative to the width of the crown.
 pub(crate) const BOUGH: f32 = 0.08;
+/// The size of the edges that a round trunk or pole has from afar, relative to its radius.
+pub(super) const EDGE: f32 = 0.5;
 
 /// A trunk of radius 1 and height 1, whose bark has the given surface.
 pub(crate) fn trunk(surface: SurfaceKind) -> Mesh {
@@ -15,7 +17,7 @@ pub(crate) fn trunk(surface: SurfaceKind) -> Mesh {
     clay.loft(&shape(8), bark);
     let mut far = Clay::default();
     far.hose(&shape(5), Matter { surface: SurfaceKind::Plain, ..bark });
-    clay.mesh().with_coarse(far.mesh(), 0.5)
+    clay.mesh().with_coarse(far.mesh(), EDGE)
 }
 
 /// A crown in a box of 1 m each way: that of a conifer, or one of broad leaves.

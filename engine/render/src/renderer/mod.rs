@@ -212,7 +212,7 @@ impl Renderer {
                 )),
                 ..Default::default()
             });
-            pass.set_pipeline(&self.pipelines.shadow);
+            pass.set_pipeline(&self.pipelines.shadow[prepared.look as usize]);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
             self.draw(&mut pass, targets, prepared.casters.iter(), first, None);
         }

@@ -25,7 +25,8 @@ pub(super) struct Pipelines {
     pub texture_layout: wgpu::BindGroupLayout,
     /// The textures as an input of the programs that draw surfaces; made when they are first needed.
     textures: Option<wgpu::BindGroup>,
-    pub shadow: wgpu::RenderPipeline,
+    /// The programs that draw shadow maps, in the order of [`Look::ALL`].
+    pub shadow: [wgpu::RenderPipeline; 2],
     pub alone: wgpu::RenderPipeline,
     drawing: BTreeMap<(WantedImages, Weather, Look), Drawing>,
     /// The programs that draw surfaces with pictures; made when they are first needed.
@@ -101,7 +102,8 @@ impl Pipelines {
             pipeline_layout(gpu, &[&views, &sun_layout]),
             pipeline_layout(gpu, &[&views, &sun_layout, &texture_layout]),
         ];
-        let shadow = depth_only(gpu, &module(include_str!("shaders/shadow.wgsl")), &pipeline_layout(gpu, &[&views]));
+        let shadow = module(include_str!("shaders/shadow.wgsl"));
+        let shadow = Look::ALL.map(|look| depth_only(gpu, &shadow, &pipeline_layout(gpu, &[&views]), look));
         let masked = pipeline_layout(gpu, &[&views, &masks]);
         let alone = alone(gpu, &module(include_str!("shaders/alone.wgsl")), &masked);
         let modules = Modules {
@@ -255,7 +257,15 @@ fn depth(write: bool, compare: CompareFunction) -> wgpu::DepthStencilState {
     }
 }
 
-fn depth_only(gpu: &Gpu, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
+fn depth_only(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    look: Look,
+) -> wgpu::RenderPipeline {
+    // The faces that the sun shines on are enough for the shadow of a closed surface. The look `flat` draws all faces,
+    // because its images never change.
+    let cull_mode = (look == Look::Textured).then_some(wgpu::Face::Back);
     // Without a bias, surfaces at a slant to the sun shade themselves in stripes.
     let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 2.0, clamp: 0.0 };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -267,7 +277,7 @@ fn depth_only(gpu: &Gpu, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLay
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &CORNERS,
         },
-        primitive: wgpu::PrimitiveState::default(),
+        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState { bias, ..depth(true, CompareFunction::Less) }),
         multisample: wgpu::MultisampleState::default(),
         fragment: None,
