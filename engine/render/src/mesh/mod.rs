@@ -159,7 +159,7 @@ impl Mesh {
 
     /// Sets a mesh of the same shape with fewer triangles. `detail` is the size in metres, across the mesh, of the largest
     /// parts that the coarse mesh lacks. In the look [`Textured`](crate::Look::Textured), a renderer draws the coarse mesh
-    /// where these parts are smaller than one and a half pixels, and for shadows. The coarse mesh may have a coarse mesh of
+    /// where these parts are smaller than three quarters of a pixel, and for shadows. The coarse mesh may have a coarse mesh of
     /// its own.
     pub fn with_coarse(self, coarse: impl Into<Arc<Self>>, detail: f32) -> Self {
         Self { coarse: Some(Coarse { mesh: coarse.into(), detail }), ..self }

@@ -57,8 +57,9 @@ impl Prepared {
     }
 }
 
-/// The size in pixels below which parts of objects may be missing.
-const INVISIBLE: f64 = 1.5;
+/// The size in pixels below which parts of objects may be missing. With twice this size, a detector that learned from
+/// photographs found a third fewer of the far cars in `highway-traffic`.
+const INVISIBLE: f64 = 0.75;
 
 /// An instance that may be drawn.
 struct Placed<'a> {
