@@ -172,17 +172,18 @@ mod tests {
         let mut rows = 0;
         for row in include_str!("../../data/recall.csv").lines().skip(1) {
             let fields: Vec<&str> = row.split(',').collect();
-            let [name, threshold, of, from, to, cars, found, recall, low, high, precision, alarms] = fields[..] else {
+            let [name, threshold, of, from, to, cars, found, _, low, high, precision, alarms] = fields[..] else {
                 panic!("{row}")
             };
             if (from, to) != ("48", "300") {
                 continue;
             }
             let percent = |share: &str| format!("{:.0}", 100.0 * share.parse::<f64>().unwrap());
+            // The column `recall` is rounded, so its percentage would be rounded twice.
+            let recall = 100.0 * found.parse::<f64>().unwrap() / cars.parse::<f64>().unwrap();
             let threshold = threshold.parse::<f64>().unwrap();
             let line = format!(
-                "| `{name}` | {of} | {threshold:.2} | {found} of {cars} | {} ({} to {}) | {precision} | {alarms} |",
-                percent(recall),
+                "| `{name}` | {of} | {threshold:.2} | {found} of {cars} | {recall:.0} ({} to {}) | {precision} | {alarms} |",
                 percent(low),
                 percent(high)
             );
