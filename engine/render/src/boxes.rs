@@ -71,6 +71,7 @@ pub fn boxes_in_space(scene: &Scene, camera: &Camera, carrier: &Isometry3<f64>) 
         let base: Isometry3<f64> = instances[0].pose.cast();
         let to_base = base.inverse();
         let (low, high) = match instances[..] {
+            // The mesh of a single instance knows its bounds.
             [only] => bounds_of(only),
             _ => {
                 let corners = instances.iter().flat_map(|instance| corners_of(instance, &to_base));

@@ -58,7 +58,7 @@ impl Prepared {
 }
 
 /// The size in pixels below which parts of objects may be missing. With twice this size, a detector that learned from
-/// photographs found a third fewer of the far cars in `highway-traffic`.
+/// photographs found 30 vehicles instead of 46 in the study `fig8`.
 const INVISIBLE: f64 = 0.75;
 
 /// An instance that may be drawn.

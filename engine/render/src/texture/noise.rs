@@ -23,7 +23,8 @@ pub(super) fn rise(low: f32, high: f32, at: f32) -> f32 {
     part * part * (3.0 - 2.0 * part)
 }
 
-/// Returns the greatest whole number that is not greater than a number.
+/// Returns the greatest whole number that is not greater than a number within 32 bits. `f32::floor` is the call of a
+/// function on processors that lack an instruction for it.
 fn floor(at: f32) -> f32 {
     let cut = at as i32 as f32;
     if cut > at { cut - 1.0 } else { cut }
