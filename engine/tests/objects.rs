@@ -368,7 +368,10 @@ fn people_and_things_of_one_name_are_numbered() {
             s.place(Pedestrian::at(road.on_sidewalk(Side::Left, at)));
         }
         s.place(Pedestrian::child(road.on_sidewalk(Side::Left, 70.0)));
-        s.place(Mover::pedestrian(Path::straight(Vector2::new(0.0, 30.0), Vector2::new(9.0, 30.0))).speed(1.0));
+        s.place(
+            Mover::new("pedestrian", Body::adult(), Path::straight(Vector2::new(0.0, 30.0), Vector2::new(9.0, 30.0)))
+                .speed(1.0),
+        );
         s.require("some", eventually(car.speed().above(1.0)));
     });
     for name in ["pedestrian.x", "pedestrian-2.x", "child.x", "pedestrian-3.x"] {

@@ -80,6 +80,13 @@ const STUDIES: &[Study] = &[
         time: "2 min",
         run: boundary::run,
     },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "conditions",
+        about: "what hides a vehicle from detectors: pairs of conditions, the smallest change, the risk, and paired renders",
+        time: "25 min",
+        run: vision::conditions::run,
+    },
     Study {
         name: "drivers",
         about: "every driver that comes with the software in 200 Halton tests of every scenario",

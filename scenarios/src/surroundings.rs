@@ -6,13 +6,13 @@ use std::f64::consts::PI;
 
 /// Returns the weather of a scenario that had light, fog and rain from the beginning.
 pub(crate) fn weather(s: &mut Scenario) -> Environment {
-    asked(s, |parameter| parameter)
+    asked(s, Param::atmospheric)
 }
 
 /// Returns the weather of a scenario to which light, fog and rain were added later; its parameters leave the noise of
 /// its tests unchanged.
 pub(crate) fn later_weather(s: &mut Scenario) -> Environment {
-    asked(s, Param::incidental)
+    asked(s, |parameter| parameter.atmospheric().incidental())
 }
 
 fn asked(s: &mut Scenario, mark: fn(Param<f64>) -> Param<f64>) -> Environment {
@@ -22,7 +22,7 @@ fn asked(s: &mut Scenario, mark: fn(Param<f64>) -> Param<f64>) -> Environment {
     let elevation = s.nominal("sun_elevation", 0.0..=90.0, usual.sun_elevation.to_degrees());
     let azimuth = s.nominal("sun_azimuth", -180.0..=180.0, usual.sun_azimuth.to_degrees());
     let [elevation, azimuth] =
-        [elevation, azimuth].map(|degrees| Stream::from(degrees.unit("deg").incidental()) * (PI / 180.0));
+        [elevation, azimuth].map(|degrees| Stream::from(degrees.unit("deg").atmospheric().incidental()) * (PI / 180.0));
     Environment::new().light(light).fog(fog).rain(rain).sun(elevation, azimuth)
 }
 

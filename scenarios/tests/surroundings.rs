@@ -29,6 +29,26 @@ fn closed_it_is_broad_daylight_in_every_scenario() {
 }
 
 #[test]
+fn light_fog_rain_and_the_sun_leave_the_place_as_it_is_in_every_scenario() {
+    let air = [("fog", 0.3), ("light", 0.4), ("rain", 0.7), ("sun_elevation", 12.0), ("sun_azimuth", -40.0)];
+    for program in ALL {
+        let begun = |changes: &[(&str, Value)]| {
+            Run::new(program, &test(program, changes), Setup::asking_every(0.1))
+                .unwrap_or_else(|error| panic!("{error}"))
+        };
+        let places = |run: &Run| run.bodies().iter().map(|state| state.pose.position).collect::<Vec<_>>();
+        let usual = begun(&[("roadside", 1.0.into())]);
+        for change in air {
+            let run = begun(&[("roadside", 1.0.into()), (change.0, change.1.into())]);
+            assert_eq!(run.scenery(), usual.scenery(), "{} with {change:?}", program.name());
+            assert_eq!(places(&run), places(&usual), "{} with {change:?}", program.name());
+            assert_ne!(run.key(), usual.key(), "{} with {change:?}: the noise of cameras differs", program.name());
+        }
+        assert_ne!(begun(&[]).scenery(), usual.scenery(), "{}", program.name());
+    }
+}
+
+#[test]
 fn light_fog_rain_and_the_place_of_the_sun_vary_over_time_in_every_scenario() {
     let ranges = [
         ("fog", 0.0, 0.5),

@@ -46,7 +46,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     #[command(flatten)]
-    trust: trust::Options,
+    trust: trust::OfDrivers,
     /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,

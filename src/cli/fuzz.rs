@@ -65,7 +65,7 @@ enum Verb {
     Run(Box<run::Options>),
     /// Estimate the probability that a test fails, for given distributions of the parameters
     #[command(after_help = likelihood::EXAMPLES)]
-    Likelihood(likelihood::Options),
+    Likelihood(Box<likelihood::Options>),
     /// Compare strategies: how soon each finds a failure, and how well each knows where tests fail
     #[command(after_help = bench::EXAMPLES)]
     Bench(Box<bench::Options>),

@@ -4,7 +4,7 @@ use super::output::{Format, Table, digits, json, plural, value_words};
 use super::progress::bar;
 use super::subject::Subject;
 use super::usage;
-use super::{Failure, Status, Verbosity, on_interrupt, print};
+use super::{Failure, Status, Verbosity, on_interrupt, perceiver, print};
 use crate::space::{Distribution, Domain, Parameter, Record};
 use clap::Args;
 use paracosm_analysis::likelihood::{Likelihood, Method, Question, of_study};
@@ -17,6 +17,7 @@ Examples:
   paracosm-fuzz likelihood --distribution speed=normal:1.4,0.3 --distribution distance=beta:2,5
   paracosm-fuzz likelihood --open lanes --distribution lanes=weights:7,2,1 --budget 5000
   paracosm-fuzz likelihood --method subset --budget 20000 --set driver.ttc=3
+  paracosm-fuzz likelihood highway-traffic --perceiver detector.onnx --open fog --distribution fog=beta:1,8
   paracosm-fuzz likelihood --system 'python3 model.py' --space SPACE.toml        SPACE.toml has the distributions
 
 monte-carlo counts independent tests. Its interval is valid for every system.
@@ -29,6 +30,8 @@ All methods estimate. No method proves that a system does not fail.";
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
+    #[command(flatten)]
+    perceiver: perceiver::Options,
     /// The distribution of a parameter over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or
     /// for a choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform]
     #[arg(long, value_name = "NAME=DISTRIBUTION")]
@@ -100,7 +103,8 @@ impl Options {
     }
 
     fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
-        let mut study = self.subject.study(verbosity)?;
+        self.perceiver.check(&self.subject)?;
+        let mut study = self.perceiver.seen(self.subject.study(verbosity)?)?;
         for text in &self.distribution {
             let (name, distribution) = text.split_once('=').ok_or_else(|| {
                 usage(format!("--distribution {text}: expected NAME=DISTRIBUTION, such as speed=beta:2,5"))

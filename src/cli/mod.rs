@@ -20,6 +20,7 @@ mod monitor;
 mod odd;
 mod output;
 mod perceive;
+mod perceiver;
 mod progress;
 mod record;
 mod regressions;

@@ -8,7 +8,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras, standard_cameras_file};
 use paracosm_campaign::{Error, Trial, Worker};
-use paracosm_report::record::{Dataset, Kept, Projector, check_rates};
+use paracosm_report::record::{Dataset, Kept, Projector};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
@@ -67,9 +67,7 @@ impl Options {
         let kept: Kept = self.outputs.parse()?;
         // A missing adapter is reported before a long campaign, not after it.
         let mut projector = Projector::new(cameras.nominal(), kept.outputs())?;
-        let check = |study: &_| check_rates(study, cameras.nominal());
-        let conducted =
-            self.run.conduct(verbosity, |study| study.open_cameras(cameras.parameters().cloned()), check)?;
+        let conducted = self.run.conduct(verbosity, |study| Ok(study.open_cameras(&cameras)))?;
         let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
         self.record(&conducted, &dataset, &mut projector, verbosity)?;
         Ok(conducted.found)

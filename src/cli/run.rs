@@ -76,21 +76,19 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        self.conduct(verbosity, |study| study, |_| Ok(())).map(|conducted| conducted.found)
+        self.conduct(verbosity, Ok).map(|conducted| conducted.found)
     }
 
-    /// Runs the campaign and prints its summary. `prepare` may open more parameters, and `check` may refuse the study.
+    /// Runs the campaign and prints its summary. `prepare` may open more parameters.
     pub fn conduct(
         &self,
         verbosity: Verbosity,
-        prepare: impl FnOnce(StudyBuilder) -> StudyBuilder,
-        check: impl FnOnce(&Study) -> Result<(), Error>,
+        prepare: impl FnOnce(StudyBuilder) -> Result<StudyBuilder, Error>,
     ) -> Result<Conducted, Failure> {
         if self.resume {
             self.is_no_folder()?;
         }
-        let study = prepare(self.subject.study(verbosity)?).sampling(self.sampling()?).build()?;
-        check(&study)?;
+        let study = prepare(self.subject.study(verbosity)?)?.sampling(self.sampling()?).build()?;
         self.subject.note_unjudged(&study, verbosity);
         let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
         note_outlasting(&study, verbosity)?;

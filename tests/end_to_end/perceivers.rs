@@ -91,6 +91,32 @@ fn a_blind_detector_misses_every_encounter_and_a_stranger_must_give_its_command_
     let again: Value = serde_json::from_str(&again).unwrap();
     assert_eq!(again["robustness"], trials[0]["robustness"]);
     refused(&fuzz(dir, &["blame", "out", "--trust"]), &["perceiver.py", "cannot replace"]);
+    refused(&fuzz(dir, &["blame", "out"]), &["perceiver.py", "cannot replace"]);
+}
+
+#[test]
+fn a_probability_of_false_alarms_in_the_dark_follows_the_distribution_of_the_light() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    let body = "classes = ('car',)\ndef detect(self, image):\n    \
+                return [Detection('car', 0.9, 0, 0, 5, 5)] if image.mean() < 60 else []";
+    let Some(command) = perceiver(dir, body) else { return };
+    let asked = |more: &[&str]| {
+        let usual = ["likelihood", "follow-leader", "--perceiver-command", &command, "--cameras", "cameras.toml"];
+        let question = ["--open", "light", "--set", "leader_speed=15", "--budget", "12", "--format", "json"];
+        let formula = ["--spec", "always (perception.false_alarms < 1)"];
+        fuzz(dir, &[&usual[..], &question, &formula, more].concat())
+    };
+    let probability = |distribution: &str| {
+        let printed: Value =
+            serde_json::from_str(&stdout(&succeeds(asked(&["--distribution", distribution])))).unwrap();
+        printed["probability"].as_f64().unwrap()
+    };
+    let [any, bright] = ["light=uniform", "light=beta:20,1"].map(probability);
+    assert!(bright < any && any < 1.0, "{bright} in bright light, {any} in any light");
+    refused(&asked(&["--distribution", "lihgt=beta:20,1"]), &["lihgt", "light"]);
+    refused(&fuzz(dir, &["likelihood", "--cameras", "cameras.toml"]), &["--cameras", "--perceiver"]);
+    refused(&fuzz(dir, &["perceive", "follow-leader"]), &["--perceiver MODEL.onnx", "--perceiver-command"]);
 }
 
 #[test]

@@ -8,7 +8,6 @@ use crate::cameras::VariedCameras;
 use crate::{BlackBox, Error, Trust};
 use paracosm_engine::Program;
 use paracosm_engine::driver::Driver;
-#[cfg(feature = "camera")]
 use paracosm_engine::sensor::Cameras;
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_generators::Strategy;
@@ -51,6 +50,7 @@ pub struct StudyBuilder {
     fixed: Vec<(String, Value)>,
     distributions: Vec<(String, Distribution)>,
     cameras: Vec<Parameter>,
+    filmed: Vec<Cameras>,
     perceiver: Option<PerceiverWish>,
     models: Vec<(String, String)>,
     requirements: Vec<PathBuf>,
@@ -106,6 +106,7 @@ impl StudyBuilder {
             fixed: Vec::new(),
             distributions: Vec::new(),
             cameras: Vec::new(),
+            filmed: Vec::new(),
             perceiver: None,
             models: Vec::new(),
             requirements: Vec::new(),
@@ -195,9 +196,11 @@ impl StudyBuilder {
     }
 
     /// Lets the tests vary settings of the cameras that record the tests. These parameters come after all other open
-    /// parameters.
-    pub fn open_cameras(mut self, settings: impl IntoIterator<Item = Parameter>) -> Self {
-        self.cameras.extend(settings);
+    /// parameters. [`build`](Self::build) refuses a camera that is faster than the ticks of the scenario.
+    #[cfg(feature = "camera")]
+    pub fn open_cameras(mut self, cameras: &VariedCameras) -> Self {
+        self.cameras.extend(cameras.parameters().cloned());
+        self.filmed.push(cameras.nominal().clone());
         self
     }
 
@@ -234,14 +237,13 @@ impl StudyBuilder {
 
     #[cfg(feature = "camera")]
     fn perceived(
-        mut self,
+        self,
         cameras: VariedCameras,
         choose: impl Fn((Cameras, String)) -> Result<PerceiverChoice, Error> + Send + Sync + 'static,
     ) -> Self {
         let seen = (cameras.nominal().clone(), cameras.look().name().to_owned());
-        self.cameras.extend(cameras.parameters().cloned());
-        self.perceiver = Some(PerceiverWish(Arc::new(move || choose(seen.clone()))));
-        self
+        let perceiver = Some(PerceiverWish(Arc::new(move || choose(seen.clone()))));
+        Self { perceiver, ..self.open_cameras(&cameras) }
     }
 
     /// Replaces an actor in camera images by the 3D model in a glTF file, stretched to the actor's size. The ego
@@ -325,6 +327,9 @@ impl StudyBuilder {
             let (settings, timeout) = (&self.driver_settings, self.driver_timeout);
             simulation.driver = DriverChoice::new(&wish, settings, timeout, &simulation.scenario)?;
         }
+        for cameras in &self.filmed {
+            study.subject.scenario()?.check_rates(cameras)?;
+        }
         if let Some(PerceiverWish(choose)) = &self.perceiver {
             let simulation = study.subject.scenario_mut()?;
             if self.driver.is_none() {
@@ -341,14 +346,14 @@ impl StudyBuilder {
             study.subject.scenario_mut()?.vehicle.resistance.set(setting, *value)?;
         }
         self.open_and_fix(&mut study)?;
+        if !self.cameras.is_empty() {
+            study.open_cameras(&self.cameras)?;
+        }
         for (i, (name, distribution)) in self.distributions.iter().enumerate() {
             if self.distributions[..i].iter().any(|(other, _)| other == name) {
                 return Err(ParameterMisuse::DistributedTwice { name: name.clone() }.into());
             }
             study.distribute(name, distribution)?;
-        }
-        if !self.cameras.is_empty() {
-            study.open_cameras(self.cameras)?;
         }
         if let (true, Some((name, _))) = (study.space.parameters().is_empty(), self.fixed.last()) {
             return Err(ParameterMisuse::LastOpen { name: name.clone() }.into());

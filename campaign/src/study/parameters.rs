@@ -140,8 +140,8 @@ impl Study {
 
     /// Lets the tests vary settings of the cameras that record them. These parameters come after all other open
     /// parameters.
-    pub(super) fn open_cameras(&mut self, settings: Vec<Parameter>) -> Result<(), Error> {
-        self.space = Space::new(self.space.parameters().iter().cloned().chain(settings).collect())?;
+    pub(super) fn open_cameras(&mut self, settings: &[Parameter]) -> Result<(), Error> {
+        self.space = Space::new(self.space.parameters().iter().chain(settings).cloned().collect())?;
         Ok(())
     }
 

@@ -18,10 +18,11 @@ static CITY: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| grid_city(3, 3, 90.0,
 
 fn city(s: &mut Scenario) {
     s.nominal("number", 0.0..=9.0, 0.0);
+    let fog = s.nominal("fog", 0.0..=1.0, 0.0).atmospheric().incidental();
     let streets = s.place(CITY.clone());
     let way = streets.way(("street 0,0 east", 1, 20.0), ("street 1,1 south", 1, 40.0));
     s.place(AutonomousVehicle::along(way).speed(8.0));
-    s.place(Environment::new());
+    s.place(Environment::new().fog(fog));
 }
 
 fn highway(s: &mut Scenario) {
@@ -43,7 +44,11 @@ fn run(world: fn(&mut Scenario), number: f64) -> Run {
     if number > 0.0 {
         test.set("number", number);
     }
-    Run::new(&program, &test, Setup::asking_every(0.1)).expect("a sound world")
+    run_of(&program, &test)
+}
+
+fn run_of(program: &Program, test: &Values) -> Run {
+    Run::new(program, test, Setup::asking_every(0.1)).expect("a sound world")
 }
 
 fn dressed(run: &Run, look: Look) -> Stage {
@@ -80,6 +85,19 @@ fn a_town_has_houses_trees_and_parked_cars_and_a_highway_has_guard_rails_and_no_
         assert!(count(&rural, class) > 4, "{class:?}: {}", count(&rural, class));
     }
     assert_eq!(count(&rural, Semantic::Building) + count(&rural, Semantic::Car), 0);
+}
+
+#[test]
+fn fog_leaves_the_scenery_as_it_is_and_another_value_does_not() {
+    let program = Program::new("world", "a world", city);
+    let clear = program.declare().expect("a sound program").nominal();
+    let things = |name: &str, value: f64| {
+        let mut test = clear.clone();
+        test.set(name, value);
+        added(&run_of(&program, &test)).1.iter().map(place).collect::<Vec<_>>()
+    };
+    assert_eq!(things("fog", 0.5), things("fog", 0.0));
+    assert_ne!(things("number", 3.0), things("number", 0.0));
 }
 
 #[test]

@@ -78,20 +78,9 @@ impl Mover {
         Self::new("bicycle", Body::bicycle(), path)
     }
 
-    /// Makes a person on foot called `pedestrian`.
-    pub fn pedestrian(path: Path) -> Self {
-        Self::new("pedestrian", Body::adult(), path)
-    }
-
     /// Sets the name by which traces and requirements refer to the object.
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
-        self
-    }
-
-    /// Sets the body of the object, instead of the usual body.
-    pub fn body(mut self, body: Body) -> Self {
-        self.body = body;
         self
     }
 

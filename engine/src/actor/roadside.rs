@@ -125,7 +125,7 @@ impl Place for Roadside {
         let Some(network) = network.filter(|_| sound && self.fullness > 0.0) else { return };
         let mut room = Room::beside(&network, scenario);
         for (number, edge) in edges(&network).enumerate() {
-            let mut chance = Chance::of(scenario.key.get(), "roadside", number as u64);
+            let mut chance = Chance::of(scenario.keys.scenery.get(), "roadside", number as u64);
             if chance.happens(self.fullness) {
                 let (name, body, at) = thing(&edge, &mut chance);
                 if room.takes(at.position, body.outline.reach()) {

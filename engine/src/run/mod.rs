@@ -86,6 +86,8 @@ pub struct Run {
     trace: Trace,
     observation: Observation,
     sensing: Sensing,
+    /// The key of the scenery.
+    scenery: u64,
     /// The outcome of a run that cannot begin.
     unable: Option<Outcome>,
 }
@@ -122,7 +124,8 @@ impl Run {
             }
             requirements.push(stated.requirement);
         }
-        let (ticks, key) = (ticks(scenario.duration, dt), scenario.key.get());
+        let ticks = ticks(scenario.duration, dt);
+        let (key, scenery) = (scenario.keys.test.get(), scenario.keys.scenery.get());
         let beginning = scenario.beginning();
         let mut scene = Scene::new(scenario, &graph, setup.vehicle);
         let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
@@ -149,6 +152,7 @@ impl Run {
             trace,
             observation: Observation::default(),
             sensing: Sensing::in_test(key),
+            scenery,
             unable: overlap.or(upset),
             scene,
         })
@@ -236,6 +240,11 @@ impl Run {
     /// Returns the key of the test, which follows from the values of the test.
     pub fn key(&self) -> u64 {
         self.sensing.test()
+    }
+
+    /// Returns the key of the scenery in pictures: the key of the same test with nominal light, fog, rain and sun.
+    pub fn scenery(&self) -> u64 {
+        self.scenery
     }
 
     /// Returns the weather at the present tick.

@@ -26,7 +26,7 @@ use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Slo
 use crate::test::{Declared, Test};
 use crate::weather::WeatherPart;
 use paracosm_space::{Domain, Parameter, Shape, Value};
-use param::Read;
+use param::{Keys, Read};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -45,8 +45,7 @@ pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
 pub struct Scenario {
     /// The test's values of parameters, by name; empty if the program is only asked for its parameters.
     given: Vec<(String, param::Given)>,
-    /// A hash of the test, as far as the program asks for its parameters: [`Test::key`]. 0 without a test.
-    pub(crate) key: Rc<Cell<u64>>,
+    pub(crate) keys: Rc<Keys>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
     pub(crate) flaws: Flaws,
     /// The networks that were placed; `None` for a network that cannot be built.
@@ -105,9 +104,10 @@ impl Scenario {
             let signal = test.and_then(|test| test.signal(name));
             (name.to_owned(), param::Given { value: Some(value.clone()), signal })
         };
+        let key = test.map_or(0, Test::key);
         Self {
             given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
-            key: Rc::new(Cell::new(test.map_or(0, Test::key))),
+            keys: Rc::new(Keys { test: Cell::new(key), scenery: Cell::new(key) }),
             parameters: Rc::default(),
             flaws: Rc::default(),
             networks: Vec::new(),

@@ -21,10 +21,19 @@ pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
     index: usize,
     flaws: Flaws,
-    /// The key of the test ([`Test::key`](crate::Test::key)).
-    key: Rc<Cell<u64>>,
+    keys: Rc<Keys>,
+    atmospheric: bool,
     given: Given,
     read: Read<T>,
+}
+
+/// Hashes of the test, as far as the program asks for its parameters: [`Test::key`](crate::Test::key). 0 without a test.
+#[derive(Debug, Default)]
+pub(crate) struct Keys {
+    /// The key of the test.
+    pub test: Cell<u64>,
+    /// The key of the same test with the nominal air.
+    pub scenery: Cell<u64>,
 }
 
 /// The value and the shape that a test gives a parameter.
@@ -66,10 +75,10 @@ impl<T: Into<Value> + Clone + 'static> Read<T> {
 impl<T: Clone> Param<T> {
     /// Makes the parameter that was declared last.
     pub(super) fn new(scenario: &Scenario, given: Given, read: Read<T>) -> Self {
-        let Scenario { parameters, flaws, key, .. } = scenario;
-        let (declared, flaws, key) = (parameters.clone(), flaws.clone(), key.clone());
+        let Scenario { parameters, flaws, keys, .. } = scenario;
+        let (declared, flaws, keys) = (parameters.clone(), flaws.clone(), keys.clone());
         let index = declared.borrow().len() - 1;
-        let parameter = Self { declared, index, flaws, key, given, read };
+        let parameter = Self { declared, index, flaws, keys, atmospheric: false, given, read };
         for value in parameter.given.value.iter().flat_map(Value::scalars) {
             if (parameter.read.with)(value).is_none() {
                 parameter.flaw(WorldFlaw::OtherType { parameter: parameter.name(), value: value.clone() });
@@ -109,11 +118,26 @@ impl<T: Clone> Param<T> {
     /// Declares that a test with the nominal value is the same as a test without the parameter. Both have the same key,
     /// and so the same camera noise, which otherwise differs. It is for parameters added later.
     pub fn incidental(self) -> Self {
-        let value = self.given_or_nominal();
-        if self.given.value.is_some() && value == self.declared.borrow()[self.index].nominal() {
-            self.key.set(self.key.get().wrapping_sub(entry(&self.name(), &value)));
+        let (value, nominal) = (self.given_or_nominal(), self.declared.borrow()[self.index].nominal());
+        let seen = if self.atmospheric { &nominal } else { &value };
+        for (key, value) in [(&self.keys.test, &value), (&self.keys.scenery, seen)] {
+            if self.given.value.is_some() && *value == nominal {
+                key.set(key.get().wrapping_sub(entry(&self.name(), value)));
+            }
         }
         self
+    }
+
+    /// Declares that the parameter changes the air alone: light, fog, rain or the sun. The scenery of pictures is the same
+    /// at all its values. Call it before [`incidental`](Self::incidental).
+    pub fn atmospheric(self) -> Self {
+        if let Some(value) = &self.given.value {
+            let nominal = self.declared.borrow()[self.index].nominal();
+            let [value, nominal] = [value, &nominal].map(|value| entry(&self.name(), value));
+            let scenery = &self.keys.scenery;
+            scenery.set(scenery.get().wrapping_sub(value).wrapping_add(nominal));
+        }
+        Self { atmospheric: true, ..self }
     }
 
     /// Returns the value that this test gives the parameter. If the test lets the parameter vary over time, the world

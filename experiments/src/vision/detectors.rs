@@ -8,13 +8,14 @@ use indicatif::ProgressBar;
 use paracosm::campaign::gallery::Shown;
 use paracosm::campaign::perception::RoadUser;
 use paracosm::perception::{
-    Areas, Criterion, Detection, Detector, Extent, Matching, Object, Perceiver, Percept, Picture, Task, match_boxes,
-    suppress,
+    Areas, Criterion, Detection, Detector, Extent, Matching, Object, Perceiver, PerceiverError, Percept, Picture, Task,
+    match_boxes, suppress,
 };
 use paracosm_neural::vision::learn::Goal;
 use paracosm_neural::vision::{Description, Vision};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The width and the height of images in pixels, and of the input of our networks: half of them.
 pub const RESOLUTION: [u32; 2] = [640, 384];
@@ -72,6 +73,27 @@ pub struct Named {
     pub name: &'static str,
     perceiver: Box<dyn Perceiver>,
     detector: Detector,
+    make: Arc<dyn Fn() -> Box<dyn Perceiver> + Send + Sync>,
+}
+
+/// A detector with another threshold than its own.
+struct Frozen {
+    perceiver: Box<dyn Perceiver>,
+    task: Task,
+}
+
+impl Perceiver for Frozen {
+    fn task(&self) -> &Task {
+        &self.task
+    }
+
+    fn scale(&self, width: u32, height: u32) -> f64 {
+        self.perceiver.scale(width, height)
+    }
+
+    fn perceive(&mut self, pictures: &[Picture<'_>]) -> Result<Vec<Percept>, PerceiverError> {
+        self.perceiver.perceive(pictures)
+    }
 }
 
 /// The boxes of a detector in an image that mean vehicles, sorted by score, after the non-maximum suppression.
@@ -100,7 +122,7 @@ pub fn all() -> Result<(Vec<Named>, Vec<&'static str>), Failure> {
     for SingleShot { name, contents, .. } in SINGLE_SHOTS {
         all.push(Named::network(name, contents, &Goal::Vehicles.description(INPUT))?);
     }
-    all.push(Named::of(HOG, Box::new(Hog::read(HOG_WINDOWS)?))?);
+    all.push(Named::of(HOG, Hog::read(HOG_WINDOWS)?)?);
     Ok((all, absent))
 }
 
@@ -119,14 +141,21 @@ pub fn easy(bar: &ProgressBar) -> Result<Vec<Shown>, Failure> {
 impl Named {
     /// Reads a network from an ONNX file and its description.
     fn network(name: &'static str, contents: &[u8], description: &str) -> Result<Self, Failure> {
-        Self::of(name, Box::new(Vision::read(contents, Description::parse(description)?)?))
+        Self::of(name, Vision::read(contents, Description::parse(description)?)?)
     }
 
-    fn of(name: &'static str, perceiver: Box<dyn Perceiver>) -> Result<Self, Failure> {
+    fn of(name: &'static str, perceiver: impl Perceiver + Clone + Sync + 'static) -> Result<Self, Failure> {
         let Task::Detection(detector) = perceiver.task().clone() else {
             return Err(format!("{name} is no detector").into());
         };
-        Ok(Self { name, perceiver, detector })
+        let make: Arc<dyn Fn() -> Box<dyn Perceiver> + Send + Sync> = Arc::new(move || Box::new(perceiver.clone()));
+        Ok(Self { name, perceiver: make(), detector, make })
+    }
+
+    /// Returns a function that makes the detector with another threshold, for campaigns.
+    pub fn frozen(&self, threshold: f64) -> impl Fn() -> Box<dyn Perceiver> + Send + Sync + Clone + use<> {
+        let (make, task) = (self.make.clone(), Task::Detection(Detector { threshold, ..self.detector.clone() }));
+        move || Box::new(Frozen { perceiver: make(), task: task.clone() })
     }
 
     /// Returns the factor that makes pixels of the detector's input from pixels of images, by the height.

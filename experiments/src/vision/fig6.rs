@@ -122,7 +122,7 @@ fn samples() -> Result<Vec<u8>, Failure> {
         networks.push(Vision::read(course[0], description()?)?);
     }
     let cameras = cameras(RESOLUTION, (SAMPLES[0], SAMPLES[SAMPLES.len() - 1]))?;
-    let study = scene()?.open_cameras(cameras.parameters().cloned()).driver("planner").build()?;
+    let study = scene()?.open_cameras(&cameras).driver("planner").build()?;
     let mut gallery = Gallery::new(&study, cameras, Look::Textured)?;
     let mut rows = Vec::new();
     for length in SAMPLES {

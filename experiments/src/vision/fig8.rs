@@ -45,7 +45,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         for (travelled, shown) in &drive {
             let (vehicles, found) = detector.see(shown)?;
             if *travelled >= SAMPLE && samples.len() == charts.len() {
-                samples.push(marked(shown, &vehicles, &found, threshold));
+                samples.push(sheet::answered(shown, &vehicles, &found, threshold));
             }
             counts.push(counted(*travelled, &vehicles, &found, threshold));
         }
@@ -79,23 +79,6 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     }
     write(&out.join("fig8.csv"), table.join("\n") + "\n")?;
     print(&text)
-}
-
-/// Returns the image of the drive with all vehicles and the boxes of a detector: found, missed and false. Vehicles that
-/// need not be found have no box.
-fn marked(shown: &Shown, vehicles: &Vehicles, found: &Found, threshold: f64) -> RgbImage {
-    let mut image = sheet::pixels(&shown.picture());
-    let matching = vehicles.matched(found, threshold);
-    for place in vehicles.counting() {
-        let colour = if matching.detected[place].is_some() { sheet::RIGHT } else { sheet::MISSED };
-        sheet::frame(&mut image, &vehicles.objects[place].rect, colour);
-    }
-    for (place, object) in matching.detections.iter().zip(&matching.objects) {
-        if object.is_none() {
-            sheet::frame(&mut image, &found[*place].rect, sheet::FALSE);
-        }
-    }
-    image
 }
 
 /// Returns the images of the drive, one every 10 m, with the distance that the car had travelled.

@@ -1,5 +1,6 @@
 //! The networks that see of Figures 5 to 8: how they are taught, and the studies that put them on trial.
 
+pub mod conditions;
 mod detectors;
 pub mod fig6;
 pub mod fig8;
@@ -51,9 +52,16 @@ fn cameras(resolution: [u32; 2], focal_mm: (f64, f64)) -> Result<VariedCameras, 
     if focal_mm.0 == focal_mm.1 {
         return Ok(still(resolution, focal_mm.0, 1.0));
     }
-    let cameras = still(resolution, 0.5 * (focal_mm.0 + focal_mm.1), 1.0).nominal().clone();
-    let domain = Domain::Interval { lo: focal_mm.0, hi: focal_mm.1 };
-    let lens = Parameter { unit: Some("mm".to_owned()), ..Parameter::new(LENS, domain) };
+    let (lo, hi) = focal_mm;
+    varied(resolution, Domain::Interval { lo, hi }, 0.5 * (lo + hi), 1.0)
+}
+
+/// Returns a camera on top of the car whose focal length in millimetres varies, with its usual value, and this number of
+/// images a second.
+fn varied(resolution: [u32; 2], focal_mm: Domain, usual: f64, rate: f64) -> Result<VariedCameras, Failure> {
+    let cameras = still(resolution, usual, rate).nominal().clone();
+    let (unit, default) = (Some("mm".to_owned()), Some(usual.into()));
+    let lens = Parameter { unit, default, ..Parameter::new(LENS, focal_mm) };
     Ok(VariedCameras::of_space(cameras, &Space::new(vec![lens])?).in_look(Look::Textured))
 }
 
@@ -100,7 +108,7 @@ fn lessons<T>(
         if let Some((parameter, value)) = fixed {
             study = study.fix(parameter, *value);
         }
-        let study = study.open_cameras(cameras.parameters().cloned()).build()?;
+        let study = study.open_cameras(cameras).build()?;
         made.extend(halton(&study, cameras, (tests, LESSONS), bar, |shown| of(place, &shown))?.into_iter().flatten());
     }
     Ok(made)

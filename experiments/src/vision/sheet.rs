@@ -1,19 +1,21 @@
 //! Sheets of images: what perceivers see and what they answer, in rows and columns.
 
 use super::Failure;
+use super::detectors::{Found, Vehicles};
 use image::imageops::{self, FilterType};
 use image::{ImageFormat, Rgb, RgbImage};
 use imageproc::drawing::draw_hollow_rect_mut;
 use imageproc::rect::Rect as Frame;
+use paracosm::campaign::gallery::Shown;
 use paracosm::perception::{Mask, Picture, Rect};
 use std::io::Cursor;
 
 /// The colour of something right: found road, or a found vehicle.
-pub const RIGHT: Rgb<u8> = Rgb([40, 200, 80]);
+const RIGHT: Rgb<u8> = Rgb([40, 200, 80]);
 /// The colour of something that was missed.
-pub const MISSED: Rgb<u8> = Rgb([230, 40, 40]);
+const MISSED: Rgb<u8> = Rgb([230, 40, 40]);
 /// The colour of a false alarm.
-pub const FALSE: Rgb<u8> = Rgb([255, 190, 0]);
+const FALSE: Rgb<u8> = Rgb([255, 190, 0]);
 /// The space between images in pixels.
 const SPACE: u32 = 6;
 /// The thickness of the sides of boxes in pixels.
@@ -42,8 +44,30 @@ pub fn mark(image: &mut RgbImage, answer: &Mask, truth: &Mask) {
     }
 }
 
+/// Returns an image with all vehicles and the boxes of a detector: found, missed and false. Vehicles that need not be found
+/// have no box.
+pub fn answered(shown: &Shown, vehicles: &Vehicles, found: &Found, threshold: f64) -> RgbImage {
+    let mut image = pixels(&shown.picture());
+    let matching = vehicles.matched(found, threshold);
+    for place in vehicles.counting() {
+        let colour = if matching.detected[place].is_some() { RIGHT } else { MISSED };
+        frame(&mut image, &vehicles.objects[place].rect, colour);
+    }
+    for (place, object) in matching.detections.iter().zip(&matching.objects) {
+        if object.is_none() {
+            frame(&mut image, &found[*place].rect, FALSE);
+        }
+    }
+    image
+}
+
+/// Returns the image in half of its size.
+pub fn halved(image: &RgbImage) -> RgbImage {
+    imageops::resize(image, image.width() / 2, image.height() / 2, FilterType::Triangle)
+}
+
 /// Draws a box.
-pub fn frame(image: &mut RgbImage, rect: &Rect, colour: Rgb<u8>) {
+fn frame(image: &mut RgbImage, rect: &Rect, colour: Rgb<u8>) {
     for more in 0..THICK {
         let [left, top] = [rect.left, rect.top].map(|at| at.round() as i32 - more);
         let [width, height] = [rect.width, rect.height].map(|side| (side.round() as i32 + 2 * more).max(1) as u32);

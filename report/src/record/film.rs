@@ -2,7 +2,7 @@
 
 use paracosm_campaign::reasons::ModelFlaw;
 use paracosm_campaign::study::Appearances;
-use paracosm_campaign::{Error, Reason, Study, Trial, Worker};
+use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::{Cameras, Chance, Moment, Sample, SensorError, Shutters};
 use paracosm_engine::{Control, Run};
 use paracosm_oracles::Verdict;
@@ -107,18 +107,6 @@ pub enum FilmFlaw {
     /// The settings of a camera are not valid.
     #[error("camera {0}")]
     Camera(SensorError),
-    /// A camera takes more images a second than the simulation has ticks.
-    #[error("camera `{camera}`: `rate` is {rate} Hz, expected at most {} Hz: a tick of `{scenario}` takes {dt} s", 1.0 / dt)]
-    Rate {
-        /// The name of the camera that is too fast.
-        camera: String,
-        /// The number of images that the camera takes in a second.
-        rate: f64,
-        /// The name of the scenario.
-        scenario: String,
-        /// The duration of a tick of the scenario, in seconds.
-        dt: f64,
-    },
 }
 
 impl Reason for FilmFlaw {}
@@ -130,7 +118,7 @@ impl Film {
     /// Returns an error if the study has no scenario, the test ended as invalid or in an error, or the run differs from
     /// the run that was logged.
     pub fn of(worker: &mut Worker, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
-        check_rates(worker.study(), cameras)?;
+        worker.study().subject().scenario()?.check_rates(cameras)?;
         if !trial.covers() {
             return Err(FilmFlaw::Nothing { index: trial.index, verdict: trial.verdict }.into());
         }
@@ -176,22 +164,6 @@ impl Film {
                     state.body.colour = [0; 3].map(|_: u8| chance.between(0.0, 256.0) as u8);
                 }
             }
-        }
-    }
-}
-
-/// Checks that no camera takes more images a second than the study's scenario has ticks.
-///
-/// # Errors
-/// Returns an error if a camera is too fast, or if the study has no scenario.
-pub fn check_rates(study: &Study, cameras: &Cameras) -> Result<(), Error> {
-    let simulation = study.subject().scenario()?;
-    let dt = simulation.dt();
-    match cameras.all.iter().find(|(_, camera)| camera.rate * dt > 1.0 + WHISKER) {
-        None => Ok(()),
-        Some((name, camera)) => {
-            let (camera, rate, scenario) = (name.clone(), camera.rate, simulation.scenario().to_owned());
-            Err(FilmFlaw::Rate { camera, rate, scenario, dt }.into())
         }
     }
 }

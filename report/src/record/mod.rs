@@ -19,6 +19,6 @@ mod video;
 
 pub use clip::Clip;
 pub use dataset::{Dataset, Kept, Recorded};
-pub use film::{Film, Shot, check_rates};
+pub use film::{Film, Shot};
 pub use paracosm_render::Rendering;
 pub use projector::{Developed, Inside, Projector};

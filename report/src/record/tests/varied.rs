@@ -54,7 +54,7 @@ fn varied_settings_are_parameters_of_tests_whose_worlds_know_nothing_of_them() {
     let cameras = varied();
     let study = || of("pedestrian-crossing");
     let (plain, before) = tests_of(study(), 3);
-    let (opened, trials) = tests_of(study().open_cameras(cameras.parameters().cloned()), 3);
+    let (opened, trials) = tests_of(study().open_cameras(&cameras), 3);
     let names: Vec<_> = opened.space().parameters().iter().map(|parameter| parameter.name.as_str()).collect();
     let settings = ["exposure", "focal_mm", "up", "pitch"].map(|name| format!("camera.front.{name}"));
     assert_eq!(names[..2], ["speed", "distance"]);
@@ -73,7 +73,7 @@ fn varied_settings_are_parameters_of_tests_whose_worlds_know_nothing_of_them() {
     }
     assert_ne!(trials[0].test.get(&settings[1]), trials[1].test.get(&settings[1]));
     // Closed, there is nothing new.
-    let (_, closed) = tests_of(study().open_cameras(VariedCameras::from(standard_cameras()).parameters().cloned()), 3);
+    let (_, closed) = tests_of(study().open_cameras(&VariedCameras::from(standard_cameras())), 3);
     assert_eq!(closed, before);
 }
 
@@ -83,7 +83,7 @@ fn each_test_is_recorded_with_the_settings_that_it_gives_and_says_which_they_are
         return;
     }
     let cameras = varied();
-    let (study, trials) = tests_of(of("pedestrian-crossing").open_cameras(cameras.parameters().cloned()), 3);
+    let (study, trials) = tests_of(of("pedestrian-crossing").open_cameras(&cameras), 3);
     let dir = tempfile::tempdir().expect("a folder");
     let dataset = Dataset::open(dir.path(), cameras.clone(), Kept::ALL, None).expect("a new data set");
     let mut projector = Projector::new(cameras.nominal(), Kept::ALL.outputs()).expect("there is an adapter");

@@ -71,7 +71,7 @@ impl Scenery {
         let is_town = roads().all(|lane| lane.number.abs() <= IN_TOWN);
         lights::put(&mut site, network);
         for (number, strip) in network.strips().iter().enumerate() {
-            let mut chance = Chance::of(run.key(), "scenery", number as u64);
+            let mut chance = Chance::of(run.scenery(), "scenery", number as u64);
             match strip.surface {
                 Surface::Sidewalk if is_town => street::put(&mut site, strip, &mut chance),
                 Surface::Sidewalk => verge::put(&mut site, &strip.curve, strip.right, &mut chance),
