@@ -59,7 +59,9 @@ impl Options {
             }
             (None, Some(command)) => Ok(study.perceiver_command(command, self.perceiver_timeout, cameras()?)),
             (None, None) if self.cameras.is_some() => Err(usage(
-                "--cameras: expected a perceiver that sees the images: add --perceiver MODEL.onnx".to_owned(),
+                "--cameras: there is no perceiver that sees the images: add --perceiver MODEL.onnx or --perceiver-command \
+                 COMMAND"
+                    .to_owned(),
             )),
             (None, None) => Ok(study),
         }

@@ -129,7 +129,7 @@ impl<T: Clone> Param<T> {
     }
 
     /// Declares that the parameter changes the air alone: light, fog, rain or the sun. The scenery of pictures is the same
-    /// at all its values. Call it before [`incidental`](Self::incidental).
+    /// at all its values. Call it once, after `default` and before `incidental`.
     pub fn atmospheric(self) -> Self {
         if let Some(value) = &self.given.value {
             let nominal = self.declared.borrow()[self.index].nominal();
