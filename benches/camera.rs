@@ -6,7 +6,8 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm::engine::{Run, Setup, driver};
-use paracosm::render::{Camera, Look, Renderer, Scene, Stages, View, WantedImages};
+use paracosm::render::{Camera, Look, Renderer, Scene, Stage, Stages, View, WantedImages};
+use std::sync::Arc;
 
 const BATCH: usize = 64;
 
@@ -53,6 +54,18 @@ fn looks(bencher: Bencher, (scenario, look): (&str, Look)) {
     batches(bencher, moments(scenario, look), &camera(200, 66), wanted);
 }
 
+/// The same images in the look `textured` without the scenery that this look adds: the same things as in the look `flat`.
+#[divan::bench(sample_count = 20, args = ["pedestrian-crossing", "highway-traffic"])]
+fn looks_without_scenery(bencher: Bencher, scenario: &str) {
+    let wanted = WantedImages { rgb: true, shadows: true, ..WantedImages::default() };
+    batches(
+        bencher,
+        moments_on(scenario, |run| Arc::new(Stage::in_look(run.network(), Look::Textured))),
+        &camera(200, 66),
+        wanted,
+    );
+}
+
 /// Images of 640 x 480 pixels: RGB with shadows.
 #[divan::bench(sample_count = 5)]
 fn rgb_shadows(bencher: Bencher) {
@@ -70,10 +83,14 @@ fn crossing() -> Vec<(Scene, Isometry3<f64>)> {
 
 /// Returns the scenes in front of a camera behind the windscreen, with the poses of the car, three times a second.
 fn moments(scenario: &str, look: Look) -> Vec<(Scene, Isometry3<f64>)> {
+    moments_on(scenario, |run| Stages::in_look(look).of_run(run))
+}
+
+fn moments_on(scenario: &str, stage: impl Fn(&Run) -> Arc<Stage>) -> Vec<(Scene, Isometry3<f64>)> {
     let program = paracosm::scenarios::find(scenario).expect("it is in the catalogue");
     let test = program.declare().expect("it is sound").nominal();
     let mut run = Run::new(program, &test, Setup::asking_every(0.1)).expect("its nominal test is sound");
-    let stage = Stages::in_look(look).of_run(&run);
+    let stage = stage(&run);
     let mut driver = driver::find("aeb").and_then(|driver| driver.build(&[])).expect("it is in the catalogue");
     let mut moments = Vec::new();
     run.watch(driver.as_mut(), |run| {
