@@ -5,7 +5,6 @@ use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
 };
 use crate::coverage::Measure;
-use crate::oracles::Verdict;
 use crate::report::{FailureMap, Junit, TrialTable, plot::MapFiles};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -247,13 +246,8 @@ impl<'a> Runner<'a> {
         let campaign = self.campaign()?.resume(log.trials().to_vec());
         let mut next = log.trials().len();
         LocatedReport::of(log, limit, |test| {
-            let mut verdict = Verdict::Error;
-            campaign.run_tests(std::slice::from_ref(test), next, |trial| {
-                verdict = trial.verdict;
-                Ok(())
-            })?;
             next += 1;
-            Ok(verdict)
+            Ok(campaign.run_test(test, next - 1)?.verdict)
         })
     }
 }

@@ -208,6 +208,19 @@ impl<'a> Campaign<'a> {
         Ok(Log::new(study, Learned::new(), extension, trials))
     }
 
+    /// Runs a test that the strategy did not propose. Its trial gets this index.
+    ///
+    /// # Errors
+    /// The campaign was stopped, or a system gave no result.
+    pub fn run_test(&self, test: &Values, index: usize) -> Result<Trial, Error> {
+        let mut ran = None;
+        self.run_tests(std::slice::from_ref(test), index, |trial| {
+            ran = Some(trial.clone());
+            Ok(())
+        })?;
+        Ok(ran.expect("a test that is run is shown"))
+    }
+
     /// Runs the given tests instead of the tests that the strategy proposes. The first test gets the index `first`.
     ///
     /// # Errors

@@ -83,8 +83,8 @@ const STUDIES: &[Study] = &[
     #[cfg(feature = "neural")]
     Study {
         name: "conditions",
-        about: "what hides a vehicle from detectors: pairs of conditions, the smallest change, the risk, and paired renders",
-        time: "25 min",
+        about: "what hides a vehicle from detectors: pairs of conditions, a small change, the risk, and paired renders",
+        time: "30 min",
         run: vision::conditions::run,
     },
     Study {

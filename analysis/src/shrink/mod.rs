@@ -114,14 +114,7 @@ impl Shrunk {
             return Err(ShrinkFlaw::NoFailure { index: trial.index, verdict: trial.verdict }.into());
         }
         let campaign = Campaign::new(study)?.jobs(NonZeroUsize::MIN);
-        let run = |test: &Values| {
-            let mut ran = None;
-            campaign.run_tests(std::slice::from_ref(test), trial.index, |trial| {
-                ran = Some(trial.clone());
-                Ok(())
-            })?;
-            Ok::<_, Error>(ran.expect("a test that is run is shown"))
-        };
+        let run = |test: &Values| campaign.run_test(test, trial.index);
         let mode = mode(trial);
         let same_mode = |trial: &Trial| self::mode(trial) == mode;
         let fails = |trial: &Trial| {

@@ -1,4 +1,4 @@
-//! The conditions that hide a car from detectors: pairs of light, fog, rain, sun, lens, traffic and colour; the smallest
+//! The conditions that hide a car from detectors: pairs of light, fog, rain, sun, lens, traffic and colour; a small
 //! change that hides a car; the probability to miss a car; and renders of the same tests in fog, in the dark and through
 //! other lenses.
 

@@ -3,7 +3,6 @@
 use super::world::{COLOURS, TRAFFIC};
 use super::{FOCAL_MM, Failure, Findings, Named, RATE, columns, fields, numbers, study, words};
 use paracosm::analysis::{Conclusion, LocatedReport};
-use paracosm::oracles::Verdict;
 use paracosm::{Campaign, Sampling, Trial};
 
 /// The most further tests that search for guilty values.
@@ -25,13 +24,8 @@ pub fn of(detector: &Named, threshold: f64) -> Result<Findings, Failure> {
     let campaign = Campaign::new(&study)?;
     let mut index = log.trials().len();
     let located = LocatedReport::of(&log, FURTHER, |test| {
-        let mut verdict = Verdict::Error;
-        campaign.run_tests(std::slice::from_ref(test), index, |trial| {
-            verdict = trial.verdict;
-            Ok(())
-        })?;
         index += 1;
-        Ok(verdict)
+        Ok(campaign.run_test(test, index - 1)?.verdict)
     })?;
     let name = detector.name;
     let row = |trial: &Trial| {
