@@ -1,0 +1,9 @@
+//! Roads and scenarios of others: files of ASAM OpenDRIVE, and later OpenSCENARIO XML.
+//!
+//! A file is checked, element by element, against the table of its standard. Elements that are not supported end the reading
+//! with their names and places; elements without an effect are listed as notes.
+
+pub mod opendrive;
+mod xml;
+
+pub use xml::{Flaw, Malformed, NoEffect, ReadError, Support};

@@ -1,0 +1,84 @@
+//! The elements of ASAM OpenDRIVE 1.4 to 1.8, and how each is supported.
+
+use crate::xml::{Row, Schema, no_effect, read, refused};
+
+const FLAT: &str = "the world is flat";
+const RAILWAY: &str = "there are no railways";
+const NOT_DRAWN: &str = "objects and signals of files are not part of the world yet";
+const SURFACE: &str = "surfaces have no properties besides their look";
+const LEGAL: &str = "no driver is told the rules of a country";
+const USERS: &str = "it is data for other programs";
+const GROUPS: &str = "signals do not change, and junctions are not grouped";
+
+pub(super) const ROWS: &[Row] = &[
+    no_effect("*", "userData", USERS),
+    no_effect("*", "dataQuality", "the quality of measurements changes nothing"),
+    refused("*", "include", "put the content of the other file in its place"),
+    read("OpenDRIVE", "header", "revMajor revMinor name version date north south east west vendor"),
+    no_effect("header", "geoReference", "positions are those of the file, in metres"),
+    no_effect("header", "offset", "positions are those of the file, in metres"),
+    no_effect("header", "license", USERS),
+    no_effect("header", "defaultRegulations", LEGAL),
+    read("OpenDRIVE", "road", "name length id junction rule"),
+    read("road|lane", "link", ""),
+    read("link", "predecessor|successor", "elementType elementId contactPoint id elementS elementDir"),
+    no_effect("link", "neighbor", "the lanes beside each other follow from the lanes of a road"),
+    read("road", "type", "s type country"),
+    read("type", "speed", "max unit"),
+    read("road", "planView", ""),
+    read("planView", "geometry", "s x y hdg length"),
+    read("geometry", "line", ""),
+    read("geometry", "spiral", "curvStart curvEnd"),
+    read("geometry", "arc", "curvature"),
+    read("geometry", "poly3", "a b c d"),
+    read("geometry", "paramPoly3", "aU bU cU dU aV bV cV dV pRange"),
+    read("road", "elevationProfile|lateralProfile", ""),
+    read("elevationProfile", "elevation", "s a b c d"),
+    read("lateralProfile", "superelevation", "s a b c d"),
+    no_effect("lateralProfile", "crossfall", FLAT),
+    no_effect("lateralProfile", "shape", FLAT),
+    no_effect("lateralProfile", "crossSectionSurface", FLAT),
+    read("road", "lanes", ""),
+    read("lanes", "laneOffset", "s a b c d"),
+    read("lanes", "laneSection", "s singleSide"),
+    read("laneSection", "left|center|right", ""),
+    read("left|right", "lane", "id type level advisory direction dynamicLaneDirection dynamicLaneType roadWorks"),
+    read("center", "lane", "id type level"),
+    read("lane", "width|border", "sOffset a b c d"),
+    read("lane", "roadMark", "sOffset type weight color material width laneChange height"),
+    no_effect("roadMark", "type", "road marks have the usual lines of their type"),
+    no_effect("roadMark", "sway", "road marks are straight"),
+    no_effect("roadMark", "explicit", "road marks have the usual lines of their type"),
+    no_effect("lane", "material", SURFACE),
+    no_effect("lane", "visibility", "sight follows from the world"),
+    read("lane", "speed", "sOffset max unit"),
+    no_effect("lane", "access", LEGAL),
+    no_effect("lane", "height", FLAT),
+    no_effect("lane", "rule", LEGAL),
+    no_effect("road", "objects", NOT_DRAWN),
+    no_effect("road", "signals", NOT_DRAWN),
+    no_effect("road|junction", "surface", SURFACE),
+    no_effect("road", "railroad", RAILWAY),
+    no_effect("OpenDRIVE", "controller", GROUPS),
+    read("OpenDRIVE", "junction", "name id type mainRoad orientation sStart sEnd"),
+    read("junction", "connection", "id incomingRoad connectingRoad linkedRoad contactPoint connectionMaster type"),
+    read("connection", "laneLink", "from to overlapZone"),
+    refused("connection", "predecessor", "it belongs to virtual junctions; use a common junction"),
+    refused("connection", "successor", "it belongs to virtual junctions; use a common junction"),
+    read("junction", "priority", "high low"),
+    no_effect("junction", "controller", GROUPS),
+    no_effect("junction", "boundary", "the ground of a junction is that of its lanes"),
+    no_effect("junction", "planView", FLAT),
+    no_effect("junction", "elevationGrid", FLAT),
+    no_effect("junction", "crossPath", "people walk where their scenario says"),
+    no_effect("junction", "roadSection", "people walk where their scenario says"),
+    no_effect("junction", "objects", NOT_DRAWN),
+    no_effect("OpenDRIVE", "junctionGroup", GROUPS),
+    no_effect("OpenDRIVE", "station", RAILWAY),
+    no_effect("OpenDRIVE", "vmsGroup", NOT_DRAWN),
+];
+
+/// Returns the table of all elements of OpenDRIVE.
+pub(super) fn schema() -> Schema {
+    Schema::new(ROWS)
+}

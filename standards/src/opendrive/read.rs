@@ -1,0 +1,269 @@
+//! Reads the roads of a file that was checked against the table of elements.
+
+use super::cubics::{Cubic, Cubics};
+use super::links::{self, Names};
+use super::map::Map;
+use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
+use super::road::{
+    Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
+};
+use crate::xml::{Element, ReadError};
+use nalgebra::Vector2;
+use paracosm_engine::Pose;
+
+/// The oldest and the newest minor version that are supported; the major version is 1.
+pub(super) const OLDEST: u32 = 4;
+const NEWEST: u32 = 8;
+
+/// The tolerance in metres for places at the ends of a road.
+const CLOSE: f64 = 1e-3;
+
+/// Reads the roads and junctions of a file, and the minor version of the file.
+pub(super) fn map(root: Element<'_, '_>) -> Result<(Map, u32), ReadError> {
+    let minor = version(root.child("header")?)?;
+    let names = Names::of(root)?;
+    let roads = root.all("road").map(|element| road(element, &names)).collect::<Result<Vec<_>, _>>()?;
+    if roads.is_empty() {
+        return Err(root.lacks("road"));
+    }
+    let junctions = root.all("junction").map(|element| links::junction(element, &names)).collect::<Result<_, _>>()?;
+    let mut map = Map { roads, junctions, notes: Vec::new() };
+    map.notes = links::lost(root, &map)?;
+    Ok((map, minor))
+}
+
+fn version(header: Element<'_, '_>) -> Result<u32, ReadError> {
+    if header.required("revMajor")? != "1" {
+        return Err(header.unexpected("revMajor", "1"));
+    }
+    let minor = header.required("revMinor")?.parse().ok().filter(|minor| *minor <= NEWEST);
+    minor.ok_or_else(|| header.unexpected("revMinor", format!("{OLDEST} to {NEWEST}")))
+}
+
+fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> {
+    let length = positive(element, "length")?;
+    let lanes = element.child("lanes")?;
+    let profile = |name, child| element.first(name).map_or(Ok(Cubics::default()), |profile| cubics(profile, child, "s", 0.0));
+    let traffic = match element.text("rule") {
+        None => Traffic::RightHand,
+        Some(_) => element.one_of("rule", &[("RHT", Traffic::RightHand), ("LHT", Traffic::LeftHand)])?,
+    };
+    let (predecessor, successor) = links::of_road(element, names)?;
+    Ok(Road {
+        id: element.required("id")?.to_owned(),
+        name: element.text("name").unwrap_or_default().to_owned(),
+        length,
+        junction: names.junction_of(element)?,
+        traffic,
+        predecessor,
+        successor,
+        line: plan_view(element.child("planView")?)?,
+        offset: cubics(lanes, "laneOffset", "s", 0.0)?,
+        elevation: profile("elevationProfile", "elevation")?,
+        superelevation: profile("lateralProfile", "superelevation")?,
+        sections: sections(lanes, length)?,
+        limits: road_limits(element)?,
+    })
+}
+
+/// Returns the number in an attribute, which must be positive.
+fn positive(element: Element<'_, '_>, attribute: &'static str) -> Result<f64, ReadError> {
+    let number = element.number(attribute)?;
+    if number > 0.0 { Ok(number) } else { Err(element.unexpected(attribute, "a positive number")) }
+}
+
+/// Returns the place in an attribute, which must not lie before the place `before`.
+fn place(element: Element<'_, '_>, attribute: &'static str, before: &mut f64) -> Result<f64, ReadError> {
+    let s = element.length(attribute)?;
+    if s < *before {
+        return Err(element.unexpected(attribute, format!("at least {before}, the value of the element before")));
+    }
+    *before = s;
+    Ok(s)
+}
+
+/// Reads the polynomials in the children of an element. `from` is the place at which the places in `attribute` begin.
+fn cubics(
+    element: Element<'_, '_>,
+    child: &'static str,
+    attribute: &'static str,
+    from: f64,
+) -> Result<Cubics, ReadError> {
+    let mut before = 0.0;
+    let cubic = |of: Element<'_, '_>| {
+        let s = from + place(of, attribute, &mut before)?;
+        Ok(Cubic { s, coefficients: numbers(of, ["a", "b", "c", "d"])? })
+    };
+    element.all(child).map(cubic).collect::<Result<_, _>>().map(Cubics::new)
+}
+
+fn numbers<const N: usize>(element: Element<'_, '_>, attributes: [&'static str; N]) -> Result<[f64; N], ReadError> {
+    let mut numbers = [0.0; N];
+    for (number, attribute) in numbers.iter_mut().zip(attributes) {
+        *number = element.number(attribute)?;
+    }
+    Ok(numbers)
+}
+
+fn plan_view(element: Element<'_, '_>) -> Result<PlanView, ReadError> {
+    let mut before = 0.0;
+    let geometry = |of: Element<'_, '_>| {
+        let s = place(of, "s", &mut before)?;
+        let [x, y, heading] = numbers(of, ["x", "y", "hdg"])?;
+        let length = of.length("length")?;
+        let start = Pose { position: Vector2::new(x, y), heading };
+        Ok(Geometry { s, length, start, shape: shape(of, length)? })
+    };
+    let pieces: Vec<_> = element.all("geometry").map(geometry).collect::<Result<_, _>>()?;
+    if pieces.is_empty() { Err(element.lacks("geometry")) } else { Ok(PlanView::new(pieces)) }
+}
+
+fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
+    for element in geometry.elements() {
+        return Ok(match element.name() {
+            "line" => Shape::Line,
+            "arc" => Shape::Arc { curvature: element.number("curvature")? },
+            "spiral" => {
+                Shape::Spiral(Spiral::new(element.number("curvStart")?, element.number("curvEnd")?, length))
+            }
+            "poly3" => Shape::Polynomials(Polynomials::graph(numbers(element, ["a", "b", "c", "d"])?, length)),
+            "paramPoly3" => {
+                let end = match element.text("pRange") {
+                    None => 1.0,
+                    Some(_) => element.one_of("pRange", &[("normalized", 1.0), ("arcLength", length)])?,
+                };
+                let u = numbers(element, ["aU", "bU", "cU", "dU"])?;
+                let v = numbers(element, ["aV", "bV", "cV", "dV"])?;
+                Shape::Polynomials(Polynomials::new(u, v, [end, length]))
+            }
+            _ => continue,
+        });
+    }
+    Err(geometry.lacks("line, arc, spiral, poly3 or paramPoly3"))
+}
+
+fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadError> {
+    let mut before = 0.0;
+    let mut sections: Vec<Section> = Vec::new();
+    for element in lanes.all("laneSection") {
+        let s = place(element, "s", &mut before)?;
+        if s > length + CLOSE || (sections.is_empty() && s > CLOSE) {
+            let expected = if sections.is_empty() { "0 for the first section".to_owned() } else { format!("at most {length}") };
+            return Err(element.unexpected("s", expected));
+        }
+        if let Some(last) = sections.last_mut() {
+            last.end = s;
+        }
+        sections.push(section(element, s, length)?);
+    }
+    if sections.is_empty() { Err(lanes.lacks("laneSection")) } else { Ok(sections) }
+}
+
+fn section(element: Element<'_, '_>, s: f64, end: f64) -> Result<Section, ReadError> {
+    let middle = element.child("center")?.child("lane")?;
+    if middle.whole("id")? != 0 {
+        return Err(middle.unexpected("id", "0 in <center>"));
+    }
+    let mut lanes = vec![lane(middle, 0, s)?];
+    let side = |name| element.first(name).into_iter().flat_map(|side| side.all("lane"));
+    let sorted = |name, sign: i32| -> Result<Vec<_>, ReadError> {
+        let mut found: Vec<_> = side(name).map(|of| Ok((of.whole("id")?, of))).collect::<Result<_, _>>()?;
+        // Files may list the lanes of a side in any order.
+        found.sort_by_key(|(number, _)| i64::from(*number) * i64::from(sign));
+        for ((number, of), expected) in found.iter().zip(1..) {
+            if *number != sign * expected {
+                let expected = format!("{} in <{name}>: the numbers count from the middle", sign * expected);
+                return Err(of.unexpected("id", expected));
+            }
+        }
+        Ok(found)
+    };
+    for (number, of) in sorted("left", 1)? {
+        lanes.insert(0, lane(of, number, s)?);
+    }
+    for (number, of) in sorted("right", -1)? {
+        lanes.push(lane(of, number, s)?);
+    }
+    Ok(Section { s, end, lanes })
+}
+
+fn lane(element: Element<'_, '_>, number: i32, from: f64) -> Result<Lane, ReadError> {
+    let kind = match element.text("type") {
+        None if number == 0 => LaneType::None,
+        _ => element.one_of("type", LANE_TYPES)?,
+    };
+    let direction = match element.text("direction") {
+        None => Direction::Standard,
+        Some(_) => element.one_of(
+            "direction",
+            &[("standard", Direction::Standard), ("reversed", Direction::Reversed), ("both", Direction::Both)],
+        )?,
+    };
+    let (width, border) = (cubics(element, "width", "sOffset", from)?, cubics(element, "border", "sOffset", from)?);
+    let extent = match (width.pieces(), border.pieces()) {
+        ([], []) if number != 0 => return Err(element.lacks("width or border")),
+        ([], [_, ..]) => Extent::Border(border),
+        _ => Extent::Width(width),
+    };
+    let link = element.first("link");
+    let linked = |name| link.into_iter().flat_map(move |link| link.all(name)).map(|to| to.whole("id"));
+    Ok(Lane {
+        number,
+        kind,
+        direction,
+        extent,
+        predecessors: linked("predecessor").collect::<Result<_, _>>()?,
+        successors: linked("successor").collect::<Result<_, _>>()?,
+        marks: marks(element, from)?,
+        limits: lane_limits(element, from)?,
+    })
+}
+
+fn marks(lane: Element<'_, '_>, from: f64) -> Result<Vec<RoadMark>, ReadError> {
+    let mut before = 0.0;
+    let mark = |element: Element<'_, '_>| {
+        let s = from + place(element, "sOffset", &mut before)?;
+        let change = match element.text("laneChange") {
+            None => LaneChange::Both,
+            Some(_) => element.one_of(
+                "laneChange",
+                &[
+                    ("increase", LaneChange::Increase),
+                    ("decrease", LaneChange::Decrease),
+                    ("both", LaneChange::Both),
+                    ("none", LaneChange::None),
+                ],
+            )?,
+        };
+        let width = element.text("width").map(|_| element.length("width")).transpose()?;
+        Ok(RoadMark { s, kind: element.one_of("type", MARK_TYPES)?, width, change })
+    };
+    lane.all("roadMark").map(mark).collect()
+}
+
+fn road_limits(road: Element<'_, '_>) -> Result<Vec<(f64, Option<f64>)>, ReadError> {
+    let mut before = 0.0;
+    let limit = |element: Element<'_, '_>| {
+        let s = place(element, "s", &mut before)?;
+        Ok((s, element.first("speed").map(limit).transpose()?.flatten()))
+    };
+    road.all("type").map(limit).collect()
+}
+
+fn lane_limits(lane: Element<'_, '_>, from: f64) -> Result<Vec<(f64, Option<f64>)>, ReadError> {
+    let mut before = 0.0;
+    let limit = |element: Element<'_, '_>| Ok((from + place(element, "sOffset", &mut before)?, limit(element)?));
+    lane.all("speed").map(limit).collect()
+}
+
+/// Returns a speed limit in m/s; `None` if there is no limit.
+fn limit(speed: Element<'_, '_>) -> Result<Option<f64>, ReadError> {
+    if ["no limit", "undefined"].contains(&speed.required("max")?) {
+        return Ok(None);
+    }
+    let unit = match speed.text("unit") {
+        None => 1.0,
+        Some(_) => speed.one_of("unit", &[("m/s", 1.0), ("km/h", 1.0 / 3.6), ("mph", 0.44704)])?,
+    };
+    Ok(Some(speed.length("max")? * unit))
+}

@@ -1,0 +1,81 @@
+//! An XML file as a text with lines.
+
+use super::element::Element;
+use super::error::{Flaw, Malformed, ReadError};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// The greatest size of a file in bytes.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// The text of an XML file.
+#[derive(Debug)]
+pub(crate) struct Document {
+    file: PathBuf,
+    text: String,
+    /// The positions in `text` at which lines begin.
+    lines: Vec<usize>,
+}
+
+impl Document {
+    /// Reads a file.
+    pub fn open(file: &Path) -> Result<Self, ReadError> {
+        let fails = |flaw| ReadError { file: file.to_owned(), line: None, flaw };
+        let mut bytes = Vec::new();
+        let opened = File::open(file).map_err(|error| fails(Flaw::Unreadable(error)))?;
+        opened.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| fails(Flaw::Unreadable(error)))?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let bytes = std::fs::metadata(file).map_or(bytes.len() as u64, |metadata| metadata.len());
+            return Err(fails(Flaw::TooLarge { bytes, limit: MOST_BYTES }));
+        }
+        let text = String::from_utf8(bytes);
+        let text = text.map_err(|error| fails(Flaw::NotUtf8 { at: error.utf8_error().valid_up_to() }))?;
+        Ok(Self::of(file, text))
+    }
+
+    /// Takes a text. `file` is the name for messages.
+    pub fn of(file: &Path, mut text: String) -> Self {
+        if text.starts_with('\u{feff}') {
+            text.remove(0);
+        }
+        let lines = [0].into_iter().chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        Self { file: file.to_owned(), text, lines }
+    }
+
+    /// Returns the tree of the elements of the text.
+    pub fn tree(&self) -> Result<roxmltree::Document<'_>, ReadError> {
+        roxmltree::Document::parse(&self.text).map_err(|error| {
+            let line = Some(error.pos().row);
+            let flaw = match error {
+                roxmltree::Error::DtdDetected => Flaw::DocumentType,
+                error => Flaw::Malformed(Malformed(error)),
+            };
+            ReadError { file: self.file.clone(), line, flaw }
+        })
+    }
+
+    /// Returns the outermost element of a tree of this text, if the element has the expected name.
+    pub fn root<'a, 'i>(
+        &'a self,
+        tree: &'a roxmltree::Document<'i>,
+        expected: &'static str,
+    ) -> Result<Element<'a, 'i>, ReadError> {
+        let root = Element::new(self, tree.root_element());
+        if root.name() == expected {
+            Ok(root)
+        } else {
+            Err(root.error(Flaw::Root { found: root.name().to_owned(), expected }))
+        }
+    }
+
+    /// Returns the number of the line with a position in the text, from 1.
+    pub fn line(&self, at: usize) -> u32 {
+        self.lines.partition_point(|start| *start <= at) as u32
+    }
+
+    /// Returns the path of the file.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+}

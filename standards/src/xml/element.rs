@@ -1,0 +1,137 @@
+//! An element of an XML file, and the values of its attributes.
+
+use super::document::Document;
+use super::error::{Flaw, ReadError};
+use paracosm_space::nearest;
+use roxmltree::Node;
+
+/// An element with its place in a file.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element<'a, 'i> {
+    document: &'a Document,
+    node: Node<'a, 'i>,
+}
+
+impl<'a, 'i> Element<'a, 'i> {
+    pub fn new(document: &'a Document, node: Node<'a, 'i>) -> Self {
+        Self { document, node }
+    }
+
+    /// Returns the name of the element without its namespace.
+    pub fn name(&self) -> &'a str {
+        self.node.tag_name().name()
+    }
+
+    /// Returns the number of the line at which the element begins, from 1.
+    pub fn line(&self) -> u32 {
+        self.document.line(self.node.range().start)
+    }
+
+    /// Makes an error at the place of the element.
+    pub fn error(&self, flaw: Flaw) -> ReadError {
+        ReadError { file: self.document.file().to_owned(), line: Some(self.line()), flaw }
+    }
+
+    /// Returns all elements directly within this one, in the order of the file.
+    pub fn elements(self) -> impl Iterator<Item = Self> {
+        self.node.children().filter(Node::is_element).map(move |node| Self { node, ..self })
+    }
+
+    /// Returns the elements with a name directly within this one, in the order of the file.
+    pub fn all(self, name: &'static str) -> impl Iterator<Item = Self> {
+        self.elements().filter(move |element| element.name() == name)
+    }
+
+    /// Returns the first element with a name directly within this one.
+    pub fn first(self, name: &'static str) -> Option<Self> {
+        self.all(name).next()
+    }
+
+    /// Returns the first element with a name directly within this one, which must exist.
+    pub fn child(self, name: &'static str) -> Result<Self, ReadError> {
+        self.first(name).ok_or_else(|| self.lacks(name))
+    }
+
+    /// Makes the error that this element lacks a child.
+    pub fn lacks(self, child: &'static str) -> ReadError {
+        self.error(Flaw::MissingElement { element: self.name().to_owned(), child })
+    }
+
+    /// Returns the names of all attributes without namespaces; declarations of namespaces are no attributes.
+    pub fn attributes(self) -> impl Iterator<Item = &'a str> {
+        self.node.attributes().filter(|attribute| attribute.namespace().is_none()).map(|attribute| attribute.name())
+    }
+
+    /// Returns the value of an attribute; `None` if the attribute is absent or empty.
+    pub fn text(self, attribute: &str) -> Option<&'a str> {
+        self.node.attribute(attribute).map(str::trim).filter(|text| !text.is_empty())
+    }
+
+    /// Returns the value of an attribute, which must exist.
+    pub fn required(self, attribute: &'static str) -> Result<&'a str, ReadError> {
+        let missing = || self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute });
+        self.text(attribute).ok_or_else(missing)
+    }
+
+    /// Makes the error that the value of an attribute is not allowed.
+    pub fn unexpected(self, attribute: &str, expected: impl Into<String>) -> ReadError {
+        self.unexpected_name(attribute, expected, [])
+    }
+
+    /// Makes the error that the value of an attribute is not one of the given names.
+    pub fn unexpected_name<'n>(
+        self,
+        attribute: &str,
+        expected: impl Into<String>,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> ReadError {
+        let found = self.text(attribute).unwrap_or_default().to_owned();
+        let nearest = nearest(&found, names).map(str::to_owned);
+        let (element, attribute, expected) = (self.name().to_owned(), attribute.to_owned(), expected.into());
+        self.error(Flaw::Value { element, attribute, found, expected, nearest })
+    }
+
+    /// Makes the error that an attribute names an element that does not exist. `names` are the existing names.
+    pub fn dangling<'n>(
+        self,
+        attribute: &'static str,
+        kind: &'static str,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> ReadError {
+        let found = self.text(attribute).unwrap_or_default().to_owned();
+        let nearest = nearest(&found, names).map(str::to_owned);
+        self.error(Flaw::Dangling { element: self.name().to_owned(), attribute, found, kind, nearest })
+    }
+
+    /// Returns the number in an attribute, which must exist and be finite.
+    pub fn number(self, attribute: &'static str) -> Result<f64, ReadError> {
+        let text = self.required(attribute)?;
+        let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+        number.ok_or_else(|| self.unexpected(attribute, "a finite number"))
+    }
+
+    /// Returns the number in an attribute, or a default if the attribute is absent.
+    pub fn number_or(self, attribute: &'static str, default: f64) -> Result<f64, ReadError> {
+        if self.text(attribute).is_some() { self.number(attribute) } else { Ok(default) }
+    }
+
+    /// Returns the number in an attribute, which must exist and must not be negative.
+    pub fn length(self, attribute: &'static str) -> Result<f64, ReadError> {
+        let number = self.number(attribute)?;
+        if number >= 0.0 { Ok(number) } else { Err(self.unexpected(attribute, "a number that is not negative")) }
+    }
+
+    /// Returns the whole number in an attribute, which must exist.
+    pub fn whole(self, attribute: &'static str) -> Result<i32, ReadError> {
+        self.required(attribute)?.parse().map_err(|_| self.unexpected(attribute, "a whole number"))
+    }
+
+    /// Returns the value in an attribute that has one of the given names.
+    pub fn one_of<T: Copy>(self, attribute: &'static str, names: &[(&'static str, T)]) -> Result<T, ReadError> {
+        let text = self.required(attribute)?;
+        names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value).ok_or_else(|| {
+            let all: Vec<_> = names.iter().map(|(name, _)| *name).collect();
+            self.unexpected_name(attribute, format!("one of {}", all.join(", ")), all.iter().copied())
+        })
+    }
+}

@@ -1,0 +1,135 @@
+//! The reasons why a file of a standard cannot be used: each with its place in the file.
+
+use paracosm_space::did_you_mean;
+use std::io;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// An error in a file of a standard, with its place.
+#[derive(Debug, Error)]
+#[error("{}{}: {flaw}", file.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
+pub struct ReadError {
+    /// The path of the file.
+    pub file: PathBuf,
+    /// The number of the line, from 1; `None` if the error concerns the whole file.
+    pub line: Option<u32>,
+    /// The error itself.
+    #[source]
+    pub flaw: Flaw,
+}
+
+/// The description of an error in a file of a standard. The names of elements and attributes are those of the file.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Flaw {
+    /// The file cannot be read.
+    #[error("the file cannot be read: {0}")]
+    Unreadable(#[source] io::Error),
+    /// The file is larger than the limit.
+    #[error("the file has {bytes} bytes, at most {limit} are allowed")]
+    TooLarge {
+        /// The size of the file in bytes.
+        bytes: u64,
+        /// The greatest allowed size in bytes.
+        limit: u64,
+    },
+    /// The file is not encoded in UTF-8.
+    #[error("the byte at position {at} is not part of a UTF-8 text; save the file in the encoding UTF-8")]
+    NotUtf8 {
+        /// The position of the first wrong byte, from 0.
+        at: usize,
+    },
+    /// The file has a document type declaration, whose entities could expand without limit.
+    #[error("the file declares a document type (`<!DOCTYPE`), whose entities could expand without limit; remove the declaration")]
+    DocumentType,
+    /// The text is not well-formed XML.
+    #[error("the file is not well-formed XML: {0}")]
+    Malformed(#[source] Malformed),
+    /// The outermost element has an unexpected name.
+    #[error("the outermost element is <{found}>, expected <{expected}>")]
+    Root {
+        /// The name of the outermost element.
+        found: String,
+        /// The expected name.
+        expected: &'static str,
+    },
+    /// An element is not part of the standard.
+    #[error("<{parent}> has an element <{element}>, which the standard does not have{}", did_you_mean(nearest))]
+    UnknownElement {
+        /// The name of the unknown element.
+        element: String,
+        /// The name of the element that contains it.
+        parent: String,
+        /// The most similar name of an element that `parent` can contain; `None` if no name is similar.
+        nearest: Option<&'static str>,
+    },
+    /// An element of the standard is not supported.
+    #[error("<{element}> is not supported: {reason}")]
+    Refused {
+        /// The name of the element.
+        element: String,
+        /// The reason, and the nearest supported element if there is one.
+        reason: &'static str,
+    },
+    /// An element lacks a required attribute.
+    #[error("<{element}> has no attribute `{attribute}`, which the standard requires")]
+    MissingAttribute {
+        /// The name of the element.
+        element: String,
+        /// The name of the missing attribute.
+        attribute: &'static str,
+    },
+    /// An element lacks a required child.
+    #[error("<{element}> contains no <{child}>, expected at least one")]
+    MissingElement {
+        /// The name of the element.
+        element: String,
+        /// The name of the missing child; several names with `or` between them if one of them is required.
+        child: &'static str,
+    },
+    /// The value of an attribute is not allowed.
+    #[error("`{attribute}=\"{found}\"` of <{element}> is not allowed, expected {expected}{}", did_you_mean(nearest))]
+    Value {
+        /// The name of the element.
+        element: String,
+        /// The name of the attribute.
+        attribute: String,
+        /// The value of the attribute.
+        found: String,
+        /// The allowed values, in words.
+        expected: String,
+        /// The most similar allowed value; `None` if no value is similar.
+        nearest: Option<String>,
+    },
+    /// Two elements have the same identifier.
+    #[error("`{attribute}=\"{found}\"` of <{element}> is taken: the element in line {first} has the same value")]
+    Taken {
+        /// The name of the second element.
+        element: String,
+        /// The name of the attribute.
+        attribute: &'static str,
+        /// The value of the attribute.
+        found: String,
+        /// The line of the first element.
+        first: u32,
+    },
+    /// An attribute names an element that does not exist.
+    #[error("`{attribute}=\"{found}\"` of <{element}> names a {kind} that the file does not have{}", did_you_mean(nearest))]
+    Dangling {
+        /// The name of the element with the reference.
+        element: String,
+        /// The name of the attribute.
+        attribute: &'static str,
+        /// The value of the attribute.
+        found: String,
+        /// The kind of the missing element, for example `road`.
+        kind: &'static str,
+        /// The most similar name of an element of this kind; `None` if no name is similar.
+        nearest: Option<String>,
+    },
+}
+
+/// The description of a place where a text is not well-formed XML.
+#[derive(Debug, Error)]
+#[error(transparent)]
+pub struct Malformed(pub(super) roxmltree::Error);

@@ -1,0 +1,13 @@
+//! Reading of XML files: elements with their places, values with their limits, and a check of every element against the
+//! table of a standard, so that nothing is ignored silently.
+
+mod document;
+mod element;
+mod error;
+mod schema;
+
+pub(crate) use document::Document;
+pub(crate) use element::Element;
+pub use error::{Flaw, Malformed, ReadError};
+pub(crate) use schema::{Row, Schema, no_effect, read, refused};
+pub use schema::{NoEffect, Support};

@@ -1,0 +1,138 @@
+//! The table of a standard: every element that the standard has, with the way in which it is supported.
+//!
+//! Files are checked against the table before they are read. So an element is read, or has no effect and is reported, or ends
+//! the program; and the pages of what is supported are written from the same table.
+
+use super::element::Element;
+use super::error::{Flaw, ReadError};
+use paracosm_space::nearest;
+use std::collections::BTreeMap;
+
+/// The way in which an element of a standard is supported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Support {
+    /// The element is read.
+    Read,
+    /// The element and all that it contains have no effect, for the given reason. A note reports it.
+    NoEffect(&'static str),
+    /// A file with the element is refused, for the given reason.
+    Refused(&'static str),
+}
+
+/// Elements of a standard with the same attributes and the same support.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Row {
+    /// The elements that can contain these elements, with `|` between them. `*` stands for all elements.
+    pub parents: &'static str,
+    /// The names of the elements, with `|` between them.
+    pub names: &'static str,
+    /// The names of the attributes of the element, with spaces between them.
+    pub attributes: &'static str,
+    pub support: Support,
+}
+
+/// Describes an element that is read.
+pub(crate) const fn read(parents: &'static str, names: &'static str, attributes: &'static str) -> Row {
+    Row { parents, names, attributes, support: Support::Read }
+}
+
+/// Describes an element that has no effect.
+pub(crate) const fn no_effect(parents: &'static str, names: &'static str, reason: &'static str) -> Row {
+    Row { parents, names, attributes: "", support: Support::NoEffect(reason) }
+}
+
+/// Describes an element that is refused.
+pub(crate) const fn refused(parents: &'static str, names: &'static str, reason: &'static str) -> Row {
+    Row { parents, names, attributes: "", support: Support::Refused(reason) }
+}
+
+/// The elements of a standard by their parents.
+#[derive(Debug)]
+pub(crate) struct Schema {
+    children: BTreeMap<&'static str, BTreeMap<&'static str, &'static Row>>,
+}
+
+/// The part of a file that has no effect.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NoEffect {
+    /// The name of the element, or of the attribute as `element.attribute`.
+    pub name: String,
+    /// The reason.
+    pub reason: &'static str,
+    /// The number of times that the file has it.
+    pub count: usize,
+    /// The line of the first, from 1.
+    pub line: u32,
+}
+
+/// The element that stands for all parents.
+const ANYWHERE: &str = "*";
+const NOT_IN_STANDARD: &str = "the standard does not have this attribute";
+
+impl Schema {
+    pub fn new(rows: &'static [Row]) -> Self {
+        let mut children: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
+        for row in rows {
+            for parent in row.parents.split('|') {
+                for name in row.names.split('|') {
+                    children.entry(parent).or_default().insert(name, row);
+                }
+            }
+        }
+        Self { children }
+    }
+
+    /// Checks an element and all that it contains. Returns the parts that have no effect.
+    pub fn check(&self, root: Element<'_, '_>) -> Result<Vec<NoEffect>, ReadError> {
+        let mut found = BTreeMap::new();
+        // A stack of our own: a file may nest elements deeply.
+        let mut open = vec![root];
+        while let Some(parent) = open.pop() {
+            for element in parent.elements() {
+                let row = self.row(parent, element)?;
+                match row.support {
+                    Support::Read => {
+                        check_attributes(row, element, &mut found);
+                        open.push(element);
+                    }
+                    Support::NoEffect(reason) => note(&mut found, element.name().to_owned(), reason, element),
+                    Support::Refused(reason) => {
+                        return Err(element.error(Flaw::Refused { element: element.name().to_owned(), reason }));
+                    }
+                }
+            }
+        }
+        let mut found: Vec<_> = found.into_values().collect();
+        found.sort_by_key(|note| note.line);
+        Ok(found)
+    }
+
+    fn row(&self, parent: Element<'_, '_>, element: Element<'_, '_>) -> Result<&'static Row, ReadError> {
+        let of = |name: &str| self.children.get(name);
+        let found = [parent.name(), ANYWHERE].into_iter().find_map(|name| of(name)?.get(element.name()).copied());
+        found.ok_or_else(|| {
+            let names = of(parent.name()).into_iter().flat_map(|rows| rows.keys().copied());
+            element.error(Flaw::UnknownElement {
+                element: element.name().to_owned(),
+                parent: parent.name().to_owned(),
+                nearest: nearest(element.name(), names),
+            })
+        })
+    }
+}
+
+fn check_attributes(row: &Row, element: Element<'_, '_>, found: &mut BTreeMap<String, NoEffect>) {
+    for attribute in element.attributes() {
+        if !row.attributes.split(' ').any(|known| known == attribute) {
+            note(found, format!("{}.{attribute}", element.name()), NOT_IN_STANDARD, element);
+        }
+    }
+}
+
+fn note(found: &mut BTreeMap<String, NoEffect>, name: String, reason: &'static str, element: Element<'_, '_>) {
+    let line = element.line();
+    let key = name.clone();
+    let note = found.entry(key).or_insert(NoEffect { name, reason, count: 0, line });
+    note.count += 1;
+    note.line = note.line.min(line);
+}
