@@ -40,6 +40,7 @@ pub use paracosm_report as report;
 pub use paracosm_rpc as rpc;
 pub use paracosm_scenarios as scenarios;
 pub use paracosm_space as space;
+pub use paracosm_standards as standards;
 
 /// Returns the catalogue of all scenarios that come with the software.
 pub fn catalogue() -> Catalogue {

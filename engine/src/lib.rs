@@ -33,14 +33,13 @@ mod chance;
 mod contact;
 pub mod driver;
 mod flaw;
-mod geometry;
 pub mod kinematic;
+mod line;
 mod monitor;
 pub mod object;
 mod observation;
 mod outcome;
 mod program;
-pub mod road;
 mod run;
 mod scenario;
 pub mod sensor;
@@ -55,17 +54,17 @@ mod world;
 pub use actor::{Actor, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Roadside, Walk, Walker};
 pub use contact::{Contact, ContactMotion, Face};
 pub use flaw::{ObjectFlaw, WorldFlaw};
-pub use geometry::{Line, Pose, Side};
+pub use line::Line;
 pub use monitor::Monitor;
 pub use observation::{Ahead, Briefing, Control, Navigation, Observation, Other, Way};
 pub use outcome::{Breakdown, Ending, Invalid, Judgement, Measurements, Outcome, Violation};
+pub use paracosm_road::{self as road, Pose, RoadSegment, Side};
 pub use paracosm_space::Shape;
 pub use program::{Declaration, Program, ProgramError};
-pub use road::RoadSegment;
 pub use run::{Run, Setup, Step, simulate, watch};
 pub use scenario::{
-    AutonomousVehicle, Car, Conditions, DEFAULT_DT, Environment, ObjectDraft, Param, Paved, Place, RequirementDraft,
-    Road, Scenario, Streets, Temporal, always, eventually, never,
+    AutonomousVehicle, Car, Conditions, DEFAULT_DT, Environment, ObjectDraft, Param, Place, RequirementDraft, Road,
+    Scenario, Streets, Temporal, always, eventually, never,
 };
 pub use stream::{Forward, Stream};
 pub use test::{Declared, Test};

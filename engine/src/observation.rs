@@ -1,10 +1,10 @@
 //! The data that pass between a run and the system under test.
 
-use crate::geometry::Pose;
 use crate::object::{Class, Outline};
 use crate::road::{Path, RoadNetwork};
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use std::sync::Arc;
 
 /// The facts that a driver gets before a run begins.

@@ -1,9 +1,9 @@
 //! The errors of a world during its simulation.
 
-use crate::geometry::Pose;
 use crate::object::InputError;
 use crate::vehicle::VehicleState;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use thiserror::Error;
 
 /// The reason why the simulation of a world cannot go on.

@@ -2,7 +2,7 @@
 
 use super::{
     Failure, Status, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, perceive, record,
-    replay, run, shrink, trace,
+    replay, roads, run, shrink, trace,
 };
 use clap::{Parser, Subcommand};
 
@@ -22,6 +22,7 @@ Examples:
   paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       evaluate formulas on a recorded trace
   paracosm-fuzz record pedestrian-crossing --budget 20 --out images      labelled camera images of tests
   paracosm-fuzz perceive highway-traffic --perceiver detector.onnx        a perception network on trial
+  paracosm-fuzz roads town.xodr --draw town.svg      the roads of a file (ASAM OpenDRIVE)
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
 Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input or a failed run.";
@@ -108,6 +109,9 @@ enum Verb {
     /// Run a campaign with a perception network on trial, which sees the images of a camera
     #[command(after_help = perceive::examples())]
     Perceive(Box<perceive::Options>),
+    /// Show what was read from a file of roads (ASAM OpenDRIVE), and draw it
+    #[command(after_help = roads::EXAMPLES)]
+    Roads(roads::Options),
     /// Show the graphics adapter of this machine, and how fast it draws
     #[command(after_help = "Example:\n  paracosm-fuzz doctor")]
     Doctor(doctor::Options),
@@ -130,6 +134,7 @@ impl Command {
             Some(Verb::Monitor(options)) => options.execute(self.verbosity),
             Some(Verb::Record(options)) => options.execute(self.verbosity),
             Some(Verb::Perceive(options)) => options.execute(self.verbosity),
+            Some(Verb::Roads(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
         }
     }

@@ -26,6 +26,7 @@ mod record;
 mod regressions;
 mod replay;
 mod report;
+mod roads;
 mod run;
 mod sampling;
 mod shrink;

@@ -40,6 +40,7 @@ mod python;
 mod races;
 mod reference_drivers;
 mod requirements;
+mod roads;
 mod signals;
 mod spec;
 mod strength;

@@ -6,11 +6,12 @@ use crate::expect_none;
 use crate::workspace::{Crate, Kind, Use, crates};
 
 /// The house, bottom to top; ARCHITECTURE.md draws it.
-const FLOORS: [(&str, u8); 17] = [
+const FLOORS: [(&str, u8); 18] = [
     ("paracosm-space", 0),
     ("paracosm-oracles", 0),
     ("paracosm-coverage", 1),
     ("paracosm-perception", 1),
+    ("paracosm-road", 1),
     ("paracosm-generators", 2),
     ("paracosm-engine", 2),
     ("paracosm-render", 3),

@@ -1,8 +1,8 @@
 //! Things that stand beside the road or on it and never move.
 
-use crate::geometry::Pose;
 use crate::object::{Body, Class, Geometric};
 use crate::scenario::{Place, Scenario};
+use paracosm_road::Pose;
 
 /// An object that stands still, such as a house, a tree, a sign, or a parked car. It is not placed yet.
 #[derive(Debug, Clone)]

@@ -1,12 +1,12 @@
 //! Environment cars: [`Traffic`] as an object of a scenario, which reacts to other objects and can be controlled.
 
 use crate::flaw::{Flaws, WorldFlaw};
-use crate::geometry::{Pose, Side};
 use crate::object::{Class, Geometric, Input, InputError, Output, Outputs, Tick, Wiring};
 use crate::scenario::{Place, Scenario, Streets};
 use crate::stream::{Datum, Stream};
 use crate::traffic::{Obstacle, Traffic, TrafficCar};
 use nalgebra::Vector2;
+use paracosm_road::{Pose, Side};
 use std::cell::RefCell;
 use std::rc::Rc;
 

@@ -4,12 +4,12 @@
 //! [`traffic`](crate::traffic).
 
 use crate::flaw::ObjectFlaw;
-use crate::geometry::Pose;
 use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
 use crate::road::Path;
 use crate::scenario::{Place, Scenario};
 use crate::stream::Stream;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 
 /// An object that moves along a path. It is not placed yet, and stands still until its [speed](Mover::speed) is set.
 #[derive(Debug, Clone)]
@@ -219,7 +219,7 @@ impl Geometric for Moving {
         // It faces in its direction of motion, even off the path. A motion that is only sideways does not turn it.
         let (ahead, aside) = (self.at - before.0, offset - before.1);
         if ahead > 0.0 {
-            self.pose.heading = crate::geometry::wrapped(self.pose.heading + libm::atan2(aside, ahead));
+            self.pose.heading = paracosm_road::wrapped(self.pose.heading + libm::atan2(aside, ahead));
         }
         self.speed = (self.pose.position - before.2).norm() / tick.dt();
         Ok(())

@@ -1,12 +1,12 @@
 //! People on foot: they walk straight to a target, at the speed of their input.
 
 use crate::flaw::ObjectFlaw;
-use crate::geometry::Pose;
 use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
 use crate::road::Path;
 use crate::scenario::{Place, Scenario};
 use crate::stream::{Datum, Stream};
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use std::cell::Cell;
 use std::rc::Rc;
 

@@ -7,14 +7,14 @@
 
 use super::Fixture;
 use crate::flaw::WorldFlaw;
-use crate::geometry::Pose;
-use crate::geometry::wrapped;
 use crate::object::{Behaviour, Body, Class, Colour, ObjectSetup};
 use crate::road::{Bounds, RoadNetwork, Strip, Surface};
 use crate::scenario::EgoSetup;
 use crate::scenario::{Place, Scenario};
 use crate::sensor::Chance;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
+use paracosm_road::wrapped;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The distance in metres from one place to the next.

@@ -7,11 +7,11 @@
 //! present position and velocity.
 
 use crate::chance::gaussian;
-use crate::geometry::Pose;
 use crate::object::crosses;
 use crate::observation::{Observation, Other};
 use crate::sensor::hides;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;

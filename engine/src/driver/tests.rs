@@ -1,9 +1,9 @@
 use super::*;
-use crate::geometry::Pose;
 use crate::object::{Class, Outline};
 use crate::observation::Other;
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 
 const SPEED: f64 = 15.0;
 

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::{Geometric, Physical};
-use crate::geometry::Pose;
+use paracosm_road::Pose;
 use std::fmt;
 
 /// The behaviour of an object.

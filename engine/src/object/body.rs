@@ -1,7 +1,7 @@
 //! The appearance of objects to others: their outline on the ground, height, class and colour.
 
-use crate::geometry::Pose;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use std::fmt;
 
 /// The class of a body, as sensors, drivers and pictures see it.

@@ -1,8 +1,8 @@
 //! The distance of two bodies, seen from above: distances between rectangles and discs in 64 bits.
 
 use super::body::Outline;
-use crate::geometry::{Frame, Pose};
 use nalgebra::Vector2;
+use paracosm_road::{Frame, Pose};
 
 /// An outline in the ground plane, with its axes, which are computed once.
 struct Footprint<'a> {

@@ -73,9 +73,9 @@ pub(crate) use behaviour::{Behaviour, ObjectSetup};
 pub(crate) use footprint::{crosses, gap};
 pub(crate) use wiring::Wiring;
 
-use crate::geometry::Pose;
 use crate::road::Path;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use thiserror::Error;
 
 /// The reason why an object cannot use the value of an input.

@@ -14,7 +14,6 @@ mod sensing;
 
 pub use driving::{simulate, watch};
 
-use crate::geometry::wrapped;
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Breakdown, Ending, Judgement, Outcome, Violation};
@@ -27,6 +26,7 @@ use crate::upset::Upset;
 use crate::vehicle::VehicleSetup;
 use crate::weather::Weather;
 use paracosm_oracles::{Requirement, Semantics, Trace, Truth};
+use paracosm_road::wrapped;
 use scene::Scene;
 use sensing::Sensing;
 use std::collections::VecDeque;

@@ -1,6 +1,5 @@
 //! The scene of a run: everything in a world, as it moves from tick to tick.
 
-use crate::geometry::Pose;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
 use crate::outcome::Invalid;
 use crate::road::{Path, RoadNetwork};
@@ -12,6 +11,7 @@ use crate::vehicle::{GRAVITY, VehicleSetup};
 use crate::weather::{Weather, WeatherPart};
 use crate::world::{Touching, World, overlapping};
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use std::sync::Arc;
 
 /// The least missing braking distance in metres that counts for a contact.

@@ -2,9 +2,9 @@
 
 use super::Scenario;
 use crate::flaw::{ObjectFlaw, WorldFlaw};
-use crate::geometry::Pose;
 use crate::object::{Behaviour, Body, Geometric, Input, ObjectSetup, Output, Physical};
 use crate::stream::{Datum, Stream};
+use paracosm_road::Pose;
 
 /// An object of a scenario, under construction. [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or
 /// [`ObjectDraft::physical`] make it part of the world.

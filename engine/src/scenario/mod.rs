@@ -17,7 +17,7 @@ pub(crate) use ego::{Ego, EgoSetup};
 pub use environment::{Conditions, Environment};
 pub use param::Param;
 pub use requirement::{RequirementDraft, Temporal, always, eventually, never};
-pub use road::{Paved, Road, Streets};
+pub use road::{Road, Streets};
 
 use crate::flaw::{Flaws, WorldFlaw};
 use crate::object::{ObjectSetup, Wiring};

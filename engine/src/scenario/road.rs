@@ -2,18 +2,12 @@
 
 use super::{Place, Scenario};
 use crate::flaw::Flaws;
-use crate::geometry::{Line, Pose, Side};
-use crate::road::{self, Composite, Path, RoadError, RoadNetwork, RoadSegment};
+use crate::line::Line;
+use crate::road::{self, Composite, Path, Paved, RoadError, RoadNetwork, RoadSegment};
 use crate::stream::Stream;
 use nalgebra::Vector2;
+use paracosm_road::{Pose, Side};
 use std::sync::Arc;
-
-/// A road with its own friction, not placed yet.
-#[derive(Debug, Clone)]
-pub struct Paved {
-    road: RoadSegment,
-    friction: Stream<f64>,
-}
 
 /// A placed road, which gives the places of its lanes and sidewalks.
 #[derive(Debug, Clone)]
@@ -32,14 +26,6 @@ pub struct Streets {
     flaws: Flaws,
 }
 
-impl RoadSegment {
-    /// Sets the friction coefficient between tyre and road, like
-    /// [`Environment::friction`](super::Environment::friction) for a world with one road.
-    pub fn friction(self, friction: impl Into<Stream<f64>>) -> Paved {
-        Paved { road: self, friction: friction.into() }
-    }
-}
-
 impl Place for RoadSegment {
     type Handle = Road;
 
@@ -50,11 +36,11 @@ impl Place for RoadSegment {
     }
 }
 
-impl Place for Paved {
+impl<F: Into<Stream<f64>>> Place for Paved<F> {
     type Handle = Road;
 
     fn place(self, scenario: &mut Scenario) -> Road {
-        scenario.say_friction(self.friction);
+        scenario.say_friction(self.friction.into());
         scenario.place(self.road)
     }
 }

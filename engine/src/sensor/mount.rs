@@ -1,9 +1,9 @@
 //! The mounting of a sensor on the car.
 
 use super::error::{Checks, SensorError};
-use crate::geometry::Pose;
 use crate::vehicle::VehicleState;
 use nalgebra::{Vector2, Vector3};
+use paracosm_road::Pose;
 
 /// The position and the heading of an upright sensor on a car.
 #[derive(Debug, Clone, Copy, PartialEq)]

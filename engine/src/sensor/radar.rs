@@ -10,9 +10,9 @@ use super::Descriptor;
 use super::error::{Checks, SensorError};
 use super::sight::hidden;
 use super::{Chance, Mount, Sensor, SensorView};
-use crate::geometry::wrapped;
 use crate::object::{BodyState, Class, Outline};
 use nalgebra::Vector2;
+use paracosm_road::wrapped;
 use std::f64::consts::{FRAC_PI_3, LN_2, TAU};
 
 /// The description of radars in lists of sensors.

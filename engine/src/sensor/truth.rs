@@ -4,9 +4,9 @@ use super::Descriptor;
 use super::error::{Checks, SensorError};
 use super::sight::hidden;
 use super::{Chance, Mount, Sensor, SensorView};
-use crate::geometry::wrapped;
 use crate::object::{Class, gap};
 use nalgebra::{Vector2, Vector3};
+use paracosm_road::wrapped;
 
 /// The description of the ground truth sensor in lists of sensors.
 pub(super) const DESCRIPTOR: Descriptor = Descriptor {

@@ -2,7 +2,7 @@
 
 use super::Stream;
 use super::node::{Binary, NodeKind, Unary};
-use crate::geometry::Line;
+use crate::line::Line;
 use nalgebra::Vector2;
 use paracosm_oracles::Comparison;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};

@@ -3,7 +3,7 @@
 use super::datum::{Datum, DatumSample};
 use super::node::{Binary, Equation, Node, NodeKind, Source};
 use super::order::{GraphFlaw, order};
-use crate::geometry::Line;
+use crate::line::Line;
 use nalgebra::Vector2;
 use paracosm_oracles::Comparison;
 use paracosm_space::Shape;

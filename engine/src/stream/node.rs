@@ -1,7 +1,7 @@
 //! The nodes of streams, with the computation of each node and the nodes that it reads.
 
 use super::datum::DatumSample;
-use crate::geometry::Line;
+use crate::line::Line;
 use nalgebra::Vector2;
 use paracosm_oracles::Comparison;
 use paracosm_space::Shape;

@@ -8,8 +8,8 @@ use super::idm::safe_speed;
 use super::map::Map;
 use super::occupancy::{Body, Who};
 use super::state::{Car, Change, WALKING};
-use crate::geometry::Side;
 use crate::road::{LaneId, LaneKind, RoutePosition};
+use paracosm_road::Side;
 
 /// The duration in seconds of a lane change that pays, and of one that the route asks for.
 const DURATION: f64 = 4.0;

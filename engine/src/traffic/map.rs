@@ -104,7 +104,7 @@ impl Map {
             let from_wide = lane.predecessors.iter().any(|before| wide(network.lane(*before)));
             lanes.push(Facts {
                 length: lane.length(),
-                speed: (LATERAL / lane.curve.curvature().abs()).sqrt(),
+                speed: (LATERAL / lane.curve.greatest_curvature()).sqrt(),
                 line: if at_its_beginning { -BEFORE_LINE } else { zone - BEFORE_ZONE },
                 rivals,
                 forks: forks.into(),

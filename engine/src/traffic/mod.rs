@@ -42,7 +42,6 @@ pub use error::TrafficError;
 pub use idm::Idm;
 pub use obstacle::Obstacle;
 
-use crate::geometry::{Pose, Side};
 use crate::road::{LaneId, RoadNetwork};
 use ahead::{Ahead, View};
 use junction::Asker;
@@ -50,6 +49,7 @@ use lists::Lists;
 use map::Map;
 use obstacle::Near;
 use occupancy::{Body, Occupancy, Who};
+use paracosm_road::{Pose, Side};
 use state::{Car, Claim};
 use std::sync::Arc;
 

@@ -7,9 +7,9 @@
 
 use super::map::Map;
 use super::occupancy::{Body, Who};
-use crate::geometry::{Frame, Pose};
-use crate::road::{Bounds, Crossing, Curve, LaneId, RoadNetwork};
+use crate::road::{Bounds, Centreline, Crossing, LaneId, RoadNetwork};
 use nalgebra::Vector2;
+use paracosm_road::{Frame, Pose};
 
 /// A body for which traffic cars stop, such as the ego vehicle, a pedestrian, or an object that stands in the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +72,7 @@ struct Foot {
 }
 
 impl Foot {
-    fn of(point: Vector2<f64>, curve: &Curve) -> Self {
+    fn of(point: Vector2<f64>, curve: &Centreline) -> Self {
         let s = curve.nearest(point);
         let frame = curve.frame(s);
         Self { s, frame, local: frame.to_local(point) }

@@ -4,9 +4,9 @@ use super::car::{Itinerary, TrafficCar};
 use super::idm::{Idm, hardest_braking};
 use super::map::{LATERAL, Map};
 use super::path::LanesAhead;
-use crate::geometry::wrapped;
-use crate::geometry::{Pose, Side};
 use crate::road::LaneId;
+use paracosm_road::wrapped;
+use paracosm_road::{Pose, Side};
 
 /// The speed in m/s up to which a lane change takes the same distance. Above, it takes its given duration.
 pub(super) const WALKING: f64 = 5.0;

@@ -42,8 +42,8 @@ pub use parameters::{Drive, Vehicle};
 pub use setup::{Resistance, VehicleSetting, VehicleSettingFlaw, VehicleSetup};
 pub use single_track::SingleTrack;
 
-use crate::geometry::Pose;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;

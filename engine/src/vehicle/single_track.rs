@@ -13,8 +13,8 @@
 
 use super::tyre::Tyre;
 use super::{Drive, Dynamics, Motion, Pedals, Resistance, Vehicle, VehicleState, Wheel};
-use crate::geometry::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
+use paracosm_road::Pose;
 
 /// The longest piece of a step in a bend, in seconds.
 const PIECE: f64 = 0.002;

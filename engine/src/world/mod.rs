@@ -8,9 +8,9 @@
 mod physical;
 
 use crate::contact::Face;
-use crate::geometry::Pose;
 use crate::object::{Body, BodyState, Outline, gap};
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use parry3d::query::{ShapeCastOptions, cast_shapes};
 use physical::Physics;
 use rapier3d::prelude::{

@@ -1,10 +1,10 @@
 //! Bodies that the physics moves: their programs and collisions push them, gravity and friction hold them.
 
 use super::{Solid, isometry};
-use crate::geometry::Pose;
 use crate::object::BodyState;
 use crate::vehicle::GRAVITY;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use rapier3d::prelude::{CoefficientCombineRule, ColliderBuilder, ColliderHandle, PhysicsWorld, SharedShape};
 
 /// The bodies that rapier integrates.

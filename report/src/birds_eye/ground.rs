@@ -86,7 +86,7 @@ pub(super) fn lanes(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
         let corners = [(0.9, 0.0), (-0.5, 0.55), (-0.5, -0.55)];
         arrow(&mut head, view, &lane.curve.at(0.5 * lane.length()), corners);
         let colour = lane_colour(lane);
-        [view.curve(&lane.curve, 0.0).stroke(colour, 0.25 * view.scale), head.fill(colour)]
+        [view.line(&lane.curve).stroke(colour, 0.25 * view.scale), head.fill(colour)]
     });
     marks.collect()
 }

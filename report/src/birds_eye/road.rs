@@ -54,6 +54,11 @@ impl<'a> RoadPicture<'a> {
 
     /// Returns the picture as the text of an SVG file.
     pub fn svg(&self) -> String {
+        self.drawing().svg()
+    }
+
+    /// Returns the picture.
+    pub fn drawing(&self) -> Drawing {
         let strips = self.network.strips();
         let sides = strips.iter().map(|strip| strip.sides(FAITHFUL));
         let bounds = Bounds::around(sides.flat_map(|(right, left)| right.into_iter().chain(left)));
@@ -74,7 +79,7 @@ impl<'a> RoadPicture<'a> {
             marks.extend(body(&view, of, pose, *colour, 1.0));
         }
         scale_bar(&mut marks, [MARGIN, height - 0.5 * (MARGIN + FOOT)], scale);
-        Drawing { width, height, marks }.svg()
+        Drawing { width, height, marks }
     }
 }
 
@@ -99,7 +104,9 @@ fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
             }
             next => {
                 let end = if next.is_some() { here.length() } else { route.end };
-                view.along(&mut contour, here, 0.0, [from * here.length(), end]);
+                for piece in here.pieces(from * here.length(), end) {
+                    view.along(&mut contour, &piece, 0.0, [0.0, piece.length()]);
+                }
                 from = 0.0;
             }
         }

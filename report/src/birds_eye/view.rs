@@ -2,7 +2,7 @@
 
 use super::drawing::{Contour, PathSegment, Pixel};
 use nalgebra::Vector2;
-use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Surface};
+use paracosm_engine::road::{Bounds, Centreline, Curve, RoadNetwork, Surface};
 use std::f64::consts::FRAC_PI_4;
 
 /// A part of the ground, from above.
@@ -77,6 +77,13 @@ impl View {
     pub fn curve(&self, curve: &Curve, offset: f64) -> Contour {
         let mut contour = Contour { segments: vec![PathSegment::Move(self.at(curve.beside(0.0, offset)))] };
         self.along(&mut contour, curve, offset, [0.0, curve.length()]);
+        contour
+    }
+
+    /// Returns the path of the middle line of a lane.
+    pub fn line(&self, line: &Centreline) -> Contour {
+        let mut contour = Contour { segments: vec![PathSegment::Move(self.at(line.point(0.0)))] };
+        line.curves().for_each(|curve| self.along(&mut contour, curve, 0.0, [0.0, curve.length()]));
         contour
     }
 

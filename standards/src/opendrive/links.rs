@@ -57,10 +57,7 @@ fn indices<'a>(root: Element<'a, '_>, name: &'static str) -> Result<BTreeMap<&'a
 }
 
 /// Returns the links at the beginning and at the end of a road.
-pub(super) fn of_road(
-    road: Element<'_, '_>,
-    names: &Names<'_>,
-) -> Result<(Option<Link>, Option<Link>), ReadError> {
+pub(super) fn of_road(road: Element<'_, '_>, names: &Names<'_>) -> Result<(Option<Link>, Option<Link>), ReadError> {
     let end = |name| {
         let link = road.first("link").and_then(|link| link.first(name));
         link.map(|element| self::link(element, names)).transpose()
@@ -83,10 +80,16 @@ fn link(element: Element<'_, '_>, names: &Names<'_>) -> Result<Link, ReadError> 
 pub(super) fn junction(element: Element<'_, '_>, names: &Names<'_>) -> Result<Junction, ReadError> {
     let kind = match element.text("type") {
         None => JunctionKind::Common,
-        Some("virtual") => return Err(element.unexpected("type", "default, direct or crossing; virtual junctions are not supported")),
+        Some("virtual") => {
+            return Err(element.unexpected("type", "default, direct or crossing; virtual junctions are not supported"));
+        }
         Some(_) => element.one_of(
             "type",
-            &[("default", JunctionKind::Common), ("direct", JunctionKind::Direct), ("crossing", JunctionKind::Crossing)],
+            &[
+                ("default", JunctionKind::Common),
+                ("direct", JunctionKind::Direct),
+                ("crossing", JunctionKind::Crossing),
+            ],
         )?,
     };
     let connection = |of: Element<'_, '_>| {

@@ -21,23 +21,26 @@
 //! # Ok::<(), paracosm_standards::ReadError>(())
 //! ```
 
+mod arcs;
 mod cubics;
 mod elements;
+mod file;
 mod junction;
 mod links;
 mod map;
+mod network;
 mod note;
+mod paving;
 mod plan_view;
 mod read;
 mod road;
 mod table;
 
 pub use cubics::{Cubic, Cubics};
+pub use elements::{Supported, elements};
 pub use junction::{Connection, Junction, JunctionKind};
 pub use map::Map;
 pub use note::Note;
 pub use plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
-pub use road::{
-    Direction, End, Extent, Lane, LaneChange, LaneType, Link, MarkType, Road, RoadMark, Section, Traffic,
-};
+pub use road::{Direction, End, Extent, Lane, LaneChange, LaneType, Link, MarkType, Road, RoadMark, Section, Traffic};
 pub use table::{Border, borders};

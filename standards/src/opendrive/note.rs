@@ -47,7 +47,10 @@ impl fmt::Display for Note {
                 write!(f, "line {line}: `{name}`{times} has no effect: {reason}")
             }
             Self::Old { minor } => {
-                write!(f, "the file has version 1.{minor}, older than the supported versions; it is read as version 1.4")
+                write!(
+                    f,
+                    "the file has version 1.{minor}, older than the supported versions; it is read as version 1.4"
+                )
             }
             Self::Flat { height, roll } => {
                 write!(f, "the world is flat: heights up to {height:.2} m")?;

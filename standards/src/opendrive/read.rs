@@ -43,7 +43,8 @@ fn version(header: Element<'_, '_>) -> Result<u32, ReadError> {
 fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> {
     let length = positive(element, "length")?;
     let lanes = element.child("lanes")?;
-    let profile = |name, child| element.first(name).map_or(Ok(Cubics::default()), |profile| cubics(profile, child, "s", 0.0));
+    let profile =
+        |name, child| element.first(name).map_or(Ok(Cubics::default()), |profile| cubics(profile, child, "s", 0.0));
     let traffic = match element.text("rule") {
         None => Traffic::RightHand,
         Some(_) => element.one_of("rule", &[("RHT", Traffic::RightHand), ("LHT", Traffic::LeftHand)])?,
@@ -123,9 +124,7 @@ fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
         return Ok(match element.name() {
             "line" => Shape::Line,
             "arc" => Shape::Arc { curvature: element.number("curvature")? },
-            "spiral" => {
-                Shape::Spiral(Spiral::new(element.number("curvStart")?, element.number("curvEnd")?, length))
-            }
+            "spiral" => Shape::Spiral(Spiral::new(element.number("curvStart")?, element.number("curvEnd")?, length)),
             "poly3" => Shape::Polynomials(Polynomials::graph(numbers(element, ["a", "b", "c", "d"])?, length)),
             "paramPoly3" => {
                 let end = match element.text("pRange") {
@@ -148,7 +147,8 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
     for element in lanes.all("laneSection") {
         let s = place(element, "s", &mut before)?;
         if s > length + CLOSE || (sections.is_empty() && s > CLOSE) {
-            let expected = if sections.is_empty() { "0 for the first section".to_owned() } else { format!("at most {length}") };
+            let expected =
+                if sections.is_empty() { "0 for the first section".to_owned() } else { format!("at most {length}") };
             return Err(element.unexpected("s", expected));
         }
         if let Some(last) = sections.last_mut() {

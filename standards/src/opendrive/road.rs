@@ -1,9 +1,8 @@
 //! A road of a file: its reference line, its cross-section of lanes, and its links.
 
 use super::cubics::Cubics;
-use super::plan_view::PlanView;
+use super::plan_view::{PlanView, wrapped};
 use nalgebra::Vector2;
-use paracosm_engine::Pose;
 
 /// A road.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,6 +105,15 @@ pub enum Extent {
     Border(Cubics),
 }
 
+impl Extent {
+    /// Returns the function of the place along the road.
+    pub(super) fn cubics(&self) -> &Cubics {
+        match self {
+            Self::Width(cubics) | Self::Border(cubics) => cubics,
+        }
+    }
+}
+
 /// The direction of the traffic on a lane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
@@ -152,27 +160,71 @@ impl Road {
     /// Returns the distance of the outer border of a lane from the reference line, in metres to the left. The border of
     /// lane 0 is its line. `None` if the section has no such lane.
     pub fn border(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
+        self.sum(section, lane, |cubics| cubics.at(s))
+    }
+
+    /// Returns the heading of the outer border of a lane in the direction of the road, in radians in (-π, π]. `None` if the
+    /// section has no such lane.
+    pub fn border_heading(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
+        Some(self.heading_beside(s, self.border(section, lane, s)?, self.slope(section, lane, s)?))
+    }
+
+    /// Returns the heading of the middle of a lane in the direction of the road, in radians in (-π, π]. `None` if the section
+    /// has no such lane.
+    pub fn lane_heading(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
+        let slopes = [self.slope(section, lane, s)?, self.slope(section, lane - lane.signum(), s)?];
+        Some(self.heading_beside(s, self.middle(section, lane, s), 0.5 * (slopes[0] + slopes[1])))
+    }
+
+    /// Returns the heading of a line `t` metres to the left of the reference line whose distance grows by `slope`.
+    fn heading_beside(&self, s: f64, t: f64, slope: f64) -> f64 {
+        wrapped(self.line.at(s).heading + libm::atan2(slope, 1.0 - self.line.curvature(s) * t))
+    }
+
+    /// Returns the derivative of [`Road::border`].
+    fn slope(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
+        self.sum(section, lane, |cubics| cubics.slope(s))
+    }
+
+    /// Returns the width of a lane in metres; 0 if the section has no such lane.
+    pub fn width(&self, section: usize, lane: i32, s: f64) -> f64 {
+        let [outer, inner] = self.borders_of(section, lane, s);
+        (outer - inner).abs()
+    }
+
+    /// Returns the distance of the middle of a lane from the reference line, in metres to the left.
+    pub fn middle(&self, section: usize, lane: i32, s: f64) -> f64 {
+        let [outer, inner] = self.borders_of(section, lane, s);
+        0.5 * (outer + inner)
+    }
+
+    fn borders_of(&self, section: usize, lane: i32, s: f64) -> [f64; 2] {
+        [lane, lane - lane.signum()].map(|number| self.border(section, number, s).unwrap_or_default())
+    }
+
+    /// Returns the sum of the offset of the road and of the widths up to the outer border of a lane, or of the derivatives of
+    /// both.
+    fn sum(&self, section: usize, lane: i32, of: impl Fn(&Cubics) -> f64) -> Option<f64> {
         let section = self.sections.get(section)?;
-        let outermost = section.index(lane)?;
-        let middle = section.index(0)?;
+        let (outermost, middle) = (section.index(lane)?, section.index(0)?);
         let inside: &mut dyn Iterator<Item = usize> =
             if outermost <= middle { &mut (outermost..middle).rev() } else { &mut (middle + 1..=outermost) };
         let mut border = 0.0;
         for index in inside {
             let lane = &section.lanes[index];
             border = match &lane.extent {
-                Extent::Width(width) => border + f64::from(lane.number.signum()) * width.at(s),
-                Extent::Border(border) => border.at(s),
+                Extent::Width(width) => border + f64::from(lane.number.signum()) * of(width),
+                Extent::Border(border) => of(border),
             };
         }
-        Some(self.offset.at(s) + border)
+        Some(of(&self.offset) + border)
     }
 
     /// Returns the point `t` metres to the left of the reference line, `s` metres along the road. The world is flat: the
     /// elevation and the superelevation of the road do not move the point.
     pub fn point(&self, s: f64, t: f64) -> Vector2<f64> {
-        let Pose { position, .. } = self.line.at(s);
-        position + self.line.at(s).left() * t
+        let here = self.line.at(s);
+        here.position + here.left() * t
     }
 
     /// Returns the height that the file gives to a point, in metres.

@@ -1,7 +1,6 @@
 //! The borders of all lanes as a table of points.
 
 use super::map::Map;
-use super::plan_view::wrapped;
 
 /// A point on the outer border of a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +17,7 @@ pub struct Border<'a> {
     pub s: f64,
     /// The coordinates of the point, in metres.
     pub at: [f64; 3],
-    /// The heading of the reference line at the place, in radians.
+    /// The heading of the border in the direction of the road, in radians in (-π, π].
     pub heading: f64,
 }
 
@@ -26,9 +25,10 @@ pub struct Border<'a> {
 /// end. The border of lane 0 is the reference line with its offset.
 pub fn borders(map: &Map, step: f64) -> impl Iterator<Item = Border<'_>> {
     let lanes = map.roads.iter().flat_map(|road| {
-        road.sections.iter().enumerate().flat_map(move |(index, section)| {
-            section.lanes.iter().map(move |lane| (road, index, section, lane))
-        })
+        road.sections
+            .iter()
+            .enumerate()
+            .flat_map(move |(index, section)| section.lanes.iter().map(move |lane| (road, index, section, lane)))
     });
     lanes.flat_map(move |(road, index, section, lane)| {
         let length = section.end - section.s;
@@ -44,7 +44,7 @@ pub fn borders(map: &Map, step: f64) -> impl Iterator<Item = Border<'_>> {
                 kind: lane.kind.name(),
                 s,
                 at: [point.x, point.y, road.height(s, t)],
-                heading: wrapped(road.line.at(s).heading),
+                heading: road.border_heading(index, lane.number, s).unwrap_or_default(),
             }
         })
     })

@@ -1,22 +1,18 @@
-//! An XML file as a text with lines.
+//! An XML file, and the tree of its elements.
 
 use super::element::Element;
 use super::error::{Flaw, Malformed, ReadError};
+use super::source::Source;
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The greatest size of a file in bytes.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// The text of an XML file.
+/// An XML file.
 #[derive(Debug)]
-pub(crate) struct Document {
-    file: PathBuf,
-    text: String,
-    /// The positions in `text` at which lines begin.
-    lines: Vec<usize>,
-}
+pub(crate) struct Document(Source);
 
 impl Document {
     /// Reads a file.
@@ -35,23 +31,19 @@ impl Document {
     }
 
     /// Takes a text. `file` is the name for messages.
-    pub fn of(file: &Path, mut text: String) -> Self {
-        if text.starts_with('\u{feff}') {
-            text.remove(0);
-        }
-        let lines = [0].into_iter().chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        Self { file: file.to_owned(), text, lines }
+    pub fn of(file: &Path, text: String) -> Self {
+        Self(Source::new(file, text))
     }
 
     /// Returns the tree of the elements of the text.
     pub fn tree(&self) -> Result<roxmltree::Document<'_>, ReadError> {
-        roxmltree::Document::parse(&self.text).map_err(|error| {
+        roxmltree::Document::parse(self.0.text()).map_err(|error| {
             let line = Some(error.pos().row);
             let flaw = match error {
                 roxmltree::Error::DtdDetected => Flaw::DocumentType,
                 error => Flaw::Malformed(Malformed(error)),
             };
-            ReadError { file: self.file.clone(), line, flaw }
+            ReadError { file: self.0.file().to_owned(), line, flaw }
         })
     }
 
@@ -61,21 +53,11 @@ impl Document {
         tree: &'a roxmltree::Document<'i>,
         expected: &'static str,
     ) -> Result<Element<'a, 'i>, ReadError> {
-        let root = Element::new(self, tree.root_element());
+        let root = Element::new(&self.0, tree.root_element());
         if root.name() == expected {
             Ok(root)
         } else {
             Err(root.error(Flaw::Root { found: root.name().to_owned(), expected }))
         }
-    }
-
-    /// Returns the number of the line with a position in the text, from 1.
-    pub fn line(&self, at: usize) -> u32 {
-        self.lines.partition_point(|start| *start <= at) as u32
-    }
-
-    /// Returns the path of the file.
-    pub fn file(&self) -> &Path {
-        &self.file
     }
 }

@@ -1,20 +1,20 @@
 //! An element of an XML file, and the values of its attributes.
 
-use super::document::Document;
 use super::error::{Flaw, ReadError};
+use super::source::Source;
 use paracosm_space::nearest;
 use roxmltree::Node;
 
 /// An element with its place in a file.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Element<'a, 'i> {
-    document: &'a Document,
+    source: &'a Source,
     node: Node<'a, 'i>,
 }
 
 impl<'a, 'i> Element<'a, 'i> {
-    pub fn new(document: &'a Document, node: Node<'a, 'i>) -> Self {
-        Self { document, node }
+    pub(super) fn new(source: &'a Source, node: Node<'a, 'i>) -> Self {
+        Self { source, node }
     }
 
     /// Returns the name of the element without its namespace.
@@ -24,12 +24,12 @@ impl<'a, 'i> Element<'a, 'i> {
 
     /// Returns the number of the line at which the element begins, from 1.
     pub fn line(&self) -> u32 {
-        self.document.line(self.node.range().start)
+        self.source.line(self.node.range().start)
     }
 
     /// Makes an error at the place of the element.
     pub fn error(&self, flaw: Flaw) -> ReadError {
-        ReadError { file: self.document.file().to_owned(), line: Some(self.line()), flaw }
+        ReadError { file: self.source.file().to_owned(), line: Some(self.line()), flaw }
     }
 
     /// Returns all elements directly within this one, in the order of the file.
@@ -55,6 +55,12 @@ impl<'a, 'i> Element<'a, 'i> {
     /// Makes the error that this element lacks a child.
     pub fn lacks(self, child: &'static str) -> ReadError {
         self.error(Flaw::MissingElement { element: self.name().to_owned(), child })
+    }
+
+    /// Returns `true` if the element has no attributes, no elements within and no text.
+    pub fn is_empty(self) -> bool {
+        let says = |node: Node<'_, '_>| node.is_element() || node.text().is_some_and(|text| !text.trim().is_empty());
+        self.attributes().next().is_none() && !self.node.children().any(|node| !node.is_comment() && says(node))
     }
 
     /// Returns the names of all attributes without namespaces; declarations of namespaces are no attributes.
@@ -108,11 +114,6 @@ impl<'a, 'i> Element<'a, 'i> {
         let text = self.required(attribute)?;
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
         number.ok_or_else(|| self.unexpected(attribute, "a finite number"))
-    }
-
-    /// Returns the number in an attribute, or a default if the attribute is absent.
-    pub fn number_or(self, attribute: &'static str, default: f64) -> Result<f64, ReadError> {
-        if self.text(attribute).is_some() { self.number(attribute) } else { Ok(default) }
     }
 
     /// Returns the number in an attribute, which must exist and must not be negative.

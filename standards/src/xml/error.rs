@@ -40,7 +40,9 @@ pub enum Flaw {
         at: usize,
     },
     /// The file has a document type declaration, whose entities could expand without limit.
-    #[error("the file declares a document type (`<!DOCTYPE`), whose entities could expand without limit; remove the declaration")]
+    #[error(
+        "the file declares a document type (`<!DOCTYPE`), whose entities could expand without limit; remove the declaration"
+    )]
     DocumentType,
     /// The text is not well-formed XML.
     #[error("the file is not well-formed XML: {0}")]
@@ -114,7 +116,10 @@ pub enum Flaw {
         first: u32,
     },
     /// An attribute names an element that does not exist.
-    #[error("`{attribute}=\"{found}\"` of <{element}> names a {kind} that the file does not have{}", did_you_mean(nearest))]
+    #[error(
+        "`{attribute}=\"{found}\"` of <{element}> names a {kind} that the file does not have{}",
+        did_you_mean(nearest)
+    )]
     Dangling {
         /// The name of the element with the reference.
         element: String,

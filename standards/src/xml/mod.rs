@@ -5,9 +5,10 @@ mod document;
 mod element;
 mod error;
 mod schema;
+mod source;
 
 pub(crate) use document::Document;
 pub(crate) use element::Element;
 pub use error::{Flaw, Malformed, ReadError};
-pub(crate) use schema::{Row, Schema, no_effect, read, refused};
 pub use schema::{NoEffect, Support};
+pub(crate) use schema::{Row, Schema, no_effect, read, refused};

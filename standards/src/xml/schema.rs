@@ -95,6 +95,7 @@ impl Schema {
                         check_attributes(row, element, &mut found);
                         open.push(element);
                     }
+                    Support::NoEffect(_) if element.is_empty() => (),
                     Support::NoEffect(reason) => note(&mut found, element.name().to_owned(), reason, element),
                     Support::Refused(reason) => {
                         return Err(element.error(Flaw::Refused { element: element.name().to_owned(), reason }));

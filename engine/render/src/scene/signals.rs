@@ -7,7 +7,7 @@ use super::cells::Cells;
 use crate::mesh::lamps::Lit;
 use crate::scene::figure::lot;
 use paracosm_engine::object::{BodyState, Class};
-use paracosm_engine::road::{Curve, Lane, LaneId, LaneKind, RoadNetwork};
+use paracosm_engine::road::{Centreline, Lane, LaneId, LaneKind, RoadNetwork};
 use paracosm_engine::sensor::Moment;
 
 /// The deceleration in m/s² from which brake lamps shine. UN R13-H (5.2.22) allows them from 0.7 m/s² on, and asks for
@@ -40,7 +40,7 @@ pub(super) struct Signals {
 /// The part of a lane that signals need.
 #[derive(Debug)]
 struct OfLane {
-    curve: Curve,
+    curve: Centreline,
     width: f64,
     /// The turn that the lane makes, and the turn at its end if it leads nowhere else.
     turn: Turn,
@@ -72,13 +72,13 @@ impl Signals {
             let mut turns: Vec<Turn> = lane.successors.iter().map(turn).collect();
             turns.dedup();
             let next = if let [only] = turns[..] { only } else { Turn::None };
-            OfLane { curve: lane.curve, width: lane.width, turn: Turn::of(lane), next }
+            OfLane { curve: lane.curve.clone(), width: lane.width, turn: Turn::of(lane), next }
         };
         let lanes: Vec<OfLane> = network.lanes().iter().map(of_lane).collect();
         let mut cells = Cells::default();
         for (index, lane) in lanes.iter().enumerate() {
             let half = 0.5 * lane.width + BESIDE;
-            cells.add_strip(index, &lane.curve, -half, half);
+            lane.curve.curves().for_each(|curve| cells.add_strip(index, curve, -half, half));
         }
         Self { lanes, cells }
     }

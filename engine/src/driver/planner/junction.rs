@@ -17,9 +17,9 @@
 
 use super::super::Settings;
 use super::passage::{Conflict, Passage, passages};
-use crate::geometry::Pose;
 use crate::observation::{Briefing, Navigation, Observation, Other};
 use crate::traffic::Idm;
+use paracosm_road::Pose;
 
 /// The metres before a conflict where the car stops.
 const BEFORE: f64 = 1.0;

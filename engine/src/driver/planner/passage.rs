@@ -1,8 +1,8 @@
 //! The passages on the way of the car: the stretches on which it is in conflict with other lanes, from the map.
 
-use crate::geometry::Pose;
 use crate::observation::Navigation;
 use crate::road::{LaneId, RoadNetwork};
+use paracosm_road::Pose;
 
 /// The metres for which lanes are followed back from a conflict: some 6 s at 50 km/h.
 const LOOKS_BACK: f64 = 90.0;

@@ -1,11 +1,11 @@
 use super::*;
 use crate::driver::find;
-use crate::geometry::Pose;
 use crate::kinematic::{BrakingModel, CutIn, CutOut, DT, LeaderBrakes, Situation, Unbraked};
 use crate::object::{Class, Outline};
 use crate::observation::{Briefing, Observation, Other};
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use proptest::prelude::*;
 
 mod cc;

@@ -5,8 +5,7 @@ mod right_of_way;
 
 use super::{Place, Scenario};
 use crate::flaw::ObjectFlaw;
-use crate::geometry::wrapped;
-use crate::geometry::{Line, Pose};
+use crate::line::Line;
 use crate::object::{Body, BodyState, Class, Output, Outputs};
 use crate::observation::{Ahead, Briefing, Control, Navigation, Way};
 use crate::road::{LaneId, Path, RoadNetwork};
@@ -14,6 +13,8 @@ use crate::stream::Stream;
 use crate::upset::Upset;
 use crate::vehicle::{Dynamics, Pedals, Vehicle, VehicleSetup};
 use nalgebra::Vector2;
+use paracosm_road::Pose;
+use paracosm_road::wrapped;
 use quantity::{Asked, Quantity};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -326,7 +327,7 @@ impl Ego {
         let half = 0.5 * self.car.vehicle.length;
         let known = self.car.way.lanes(self.at - half, self.at + half);
         let pose = self.pose();
-        let nearest = if known.len() == 0 { network.project_along(&pose) } else { None };
+        let nearest = if !self.car.way.is_on_lanes() { network.project_along(&pose) } else { None };
         let lanes = known.chain(nearest.map(|seen| seen.lane));
         lanes.map(move |lane| (lane, network.project_onto(lane, pose.position).s))
     }

@@ -154,8 +154,8 @@ fn lane_margin(car: &BodyState, network: &RoadNetwork) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Pose;
     use crate::object::{Body, gap};
+    use paracosm_road::Pose;
     use proptest::prelude::*;
 
     fn car(x: f64, y: f64, heading: f64, velocity: [f64; 2]) -> BodyState {

@@ -6,9 +6,9 @@
 //! any tree.
 
 use super::unit;
-use crate::geometry::Pose;
 use crate::object::{BodyState, Outline};
 use nalgebra::{Vector2, Vector3};
+use paracosm_road::Pose;
 use std::f64::consts::{PI, TAU};
 
 /// The number of columns by which the interval of a body is widened on either side, against rounding.

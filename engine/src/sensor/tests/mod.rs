@@ -8,12 +8,12 @@ mod rig;
 mod truth;
 
 use super::{Air, SensorError, SensorView};
-use crate::geometry::Pose;
 use crate::object::{Body, BodyState, Class};
 use crate::road::{RoadNetwork, RoadSegment};
 use crate::vehicle::VehicleState;
 use crate::weather::Weather;
 use nalgebra::Vector2;
+use paracosm_road::Pose;
 use proptest::prelude::*;
 use std::sync::Arc;
 

@@ -18,10 +18,10 @@
 mod corner;
 
 use super::{Drive, Dynamics, GRAVITY, Pedals, Resistance, Vehicle, VehicleState, Wheel};
-use crate::geometry::Pose;
-use crate::geometry::wrapped;
 use corner::{Chassis, Corner, Step, Torque};
 use nalgebra::Vector2;
+use paracosm_road::Pose;
+use paracosm_road::wrapped;
 use rapier3d::dynamics::{MassProperties, RigidBody};
 use rapier3d::math::Vector;
 use rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};

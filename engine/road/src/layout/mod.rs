@@ -13,7 +13,7 @@ use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
-pub(super) use conflicts::ConflictPlan;
+pub(super) use conflicts::{CLOSE, ConflictPlan, span};
 pub(super) use segment::ZEBRA;
 
 /// The largest number of lanes of both directions together.

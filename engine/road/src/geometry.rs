@@ -1,4 +1,4 @@
-//! Poses and directions in the ground plane, and lines across a road.
+//! Poses and directions in the ground plane.
 
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
@@ -31,7 +31,7 @@ impl Pose {
     }
 
     /// Returns the axes of the pose, to turn many points without computing the sine of the heading for each.
-    pub(crate) fn frame(&self) -> Frame {
+    pub fn frame(&self) -> Frame {
         Frame { origin: self.position, ahead: self.forward() }
     }
 
@@ -46,7 +46,7 @@ impl Pose {
     }
 
     /// Returns a direction that is given as seen from this pose as a direction of the plane.
-    pub(crate) fn turn_to_plane(&self, local: Vector2<f64>) -> Vector2<f64> {
+    pub fn turn_to_plane(&self, local: Vector2<f64>) -> Vector2<f64> {
         let forward = self.forward();
         forward * local.x + Vector2::new(-forward.y, forward.x) * local.y
     }
@@ -57,7 +57,7 @@ impl Pose {
     }
 
     /// Returns the pose in the plane of an object whose pose as seen from this pose is `local`.
-    pub(crate) fn then(&self, local: &Pose) -> Pose {
+    pub fn then(&self, local: &Pose) -> Pose {
         let (sin, cos) = libm::sincos(self.heading);
         let (x, y) = (local.position.x, local.position.y);
         let position = self.position + Vector2::new(cos * x - sin * y, sin * x + cos * y);
@@ -67,7 +67,7 @@ impl Pose {
 
 /// The axes of a pose: its position, and the unit vector in the direction of its heading.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Frame {
+pub struct Frame {
     origin: Vector2<f64>,
     ahead: Vector2<f64>,
 }
@@ -94,21 +94,6 @@ impl Frame {
     }
 }
 
-/// A line across a road, with the direction of the traffic that crosses it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Line {
-    pub(crate) name: String,
-    pub(crate) point: Vector2<f64>,
-    pub(crate) direction: Vector2<f64>,
-}
-
-impl Line {
-    /// Returns the distance in metres from a position to the line ahead; negative if the line lies behind the position.
-    pub fn ahead_of(&self, position: Vector2<f64>) -> f64 {
-        (self.point - position).dot(&self.direction)
-    }
-}
-
 /// A side of a road, seen in the direction of the road.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
@@ -119,7 +104,7 @@ pub enum Side {
 }
 
 /// Returns the angle in (-π, π] that points in the same direction.
-pub(crate) fn wrapped(angle: f64) -> f64 {
+pub fn wrapped(angle: f64) -> f64 {
     // Nearly all angles are in the range already; the formula below would return them unchanged.
     if -PI < angle && angle <= PI {
         return angle;

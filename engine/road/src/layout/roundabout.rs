@@ -8,10 +8,10 @@
 
 use super::conflicts::find_conflicts;
 use super::{KERB, LINE, LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
-use crate::road::curve::Curve;
-use crate::road::element::{Profile, Ring};
-use crate::road::lane::LaneKind;
-use crate::road::strip::{Strip, Surface};
+use crate::curve::Curve;
+use crate::element::{Profile, Ring};
+use crate::lane::LaneKind;
+use crate::strip::{Strip, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::RangeInclusive;
 
@@ -62,7 +62,7 @@ pub(super) fn problem(ring: &Ring, profile: &Profile) -> Option<String> {
 
 impl Ring {
     /// Returns the distance from the middle of the roundabout to its points.
-    pub(in crate::road) fn reach(&self, profile: &Profile) -> f64 {
+    pub(crate) fn reach(&self, profile: &Profile) -> f64 {
         measures(self, profile).centre.0
     }
 }

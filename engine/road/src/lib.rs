@@ -7,7 +7,7 @@
 //! paper. Its example:
 //!
 //! ```
-//! use paracosm_engine::road::{RoadSegment, TIntersection};
+//! use paracosm_road::{RoadSegment, TIntersection};
 //!
 //! let east = RoadSegment::new(50.0).lanes(4).named("east");
 //! let south = RoadSegment::new(50.0).lanes(4).named("south");
@@ -25,7 +25,7 @@
 //! assert!((here.s - 10.0).abs() < 1e-9 && here.offset.abs() < 1e-9);
 //! let route = net.route(here.place(), there.place(), 20.0).expect("it turns left at the intersection");
 //! assert_eq!(route.lanes.len(), 3);
-//! # Ok::<(), paracosm_engine::road::RoadError>(())
+//! # Ok::<(), paracosm_road::RoadError>(())
 //! ```
 //!
 //! Traffic keeps to the right. Positions are in metres, x to the east, y to the north. Headings are in radians,
@@ -33,11 +33,13 @@
 //! circular arcs ([`Curve`]) in 64 bits.
 
 mod bounds;
+mod centreline;
 mod city;
 mod composite;
 mod curve;
 mod element;
 mod error;
+mod geometry;
 mod lane;
 mod layout;
 mod network;
@@ -46,16 +48,22 @@ mod path;
 mod projection;
 mod route;
 mod strip;
+mod survey;
 
 pub use bounds::Bounds;
+pub use centreline::Centreline;
 pub use city::grid_city;
 pub use composite::Composite;
 pub use curve::Curve;
-pub use element::{Cross, CrossIntersection, Element, Ring, RoadSegment, Roundabout, Segment, TIntersection, Tee};
+pub use element::{
+    Cross, CrossIntersection, Element, Paved, Ring, RoadSegment, Roundabout, Segment, TIntersection, Tee,
+};
 pub use error::RoadError;
+pub use geometry::{Frame, Pose, Side, wrapped};
 pub use lane::{Lane, LaneConflict, LaneId, LaneKind};
 pub use network::{Crossing, RoadNetwork};
 pub use path::Path;
 pub use projection::LanePosition;
 pub use route::{Route, RoutePosition};
 pub use strip::{Strip, Surface};
+pub use survey::{Survey, SurveyedLane, SurveyedRoad};

@@ -1,11 +1,11 @@
 //! Road networks as programs build them: what is connected to what, what is refused, and the way over the lanes.
 
 use nalgebra::Vector2;
-use paracosm_engine::road::{
+use paracosm_road::{
     Composite, CrossIntersection, LaneKind, RoadError, RoadNetwork, RoadSegment, Roundabout, RoutePosition, Strip,
     Surface, TIntersection, grid_city,
 };
-use paracosm_engine::{Pose, Side};
+use paracosm_road::{Pose, Side};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn refusal(composite: Composite) -> String {

@@ -1,43 +1,58 @@
 //! A finished road network: lanes with their neighbours and their surroundings, built once and shared.
 
 use super::bounds::{Bounds, Tree};
+use super::centreline::Centreline;
 use super::composite::Composite;
 use super::curve::Curve;
-use super::element::{Element, ElementShape, Profile};
+use super::element::{Element, ElementShape, Profile, Segment};
 use super::error::RoadError;
 use super::lane::{Lane, LaneConflict, LaneId, LaneKind};
-use super::layout::{ConflictPlan, LanePlan, Layout, Plan, ZEBRA};
+use super::layout::{ConflictPlan, Layout, Mouth, Plan, ZEBRA};
 use super::overlap;
 use super::strip::Strip;
 use crate::geometry::wrapped;
 use crate::geometry::{Pose, Side};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
 use std::sync::Arc;
 
-/// A network of connected roads, made by [`Composite::build`] and constant afterwards. Traffic keeps to the right.
+/// A network of connected roads, constant once it is built. It is made of elements ([`Composite::build`]) or of the lanes of a
+/// file ([`Survey::build`](super::Survey::build)).
 #[derive(Debug)]
 pub struct RoadNetwork {
-    elements: Vec<Placed>,
+    pub(super) elements: Vec<Placed>,
     /// The index of the element with each name. Names are only looked up, so that their order does not matter.
     names: HashMap<String, usize>,
     lanes: Vec<Lane>,
     crossings: Vec<Crossing>,
+    /// The visible surfaces; each strip comes after the strips that it covers.
+    strips: Vec<Strip>,
     pub(super) tree: Tree,
     bounds: Bounds,
 }
 
 /// An element at its place.
 #[derive(Debug)]
-struct Placed {
-    name: String,
-    plan: Plan,
-    pose: Pose,
-    layout: Arc<Layout>,
+pub(super) struct Placed {
+    pub name: String,
     /// The names of the element's points.
-    points: Vec<&'static str>,
-    /// The index of the element's first lane.
-    first: usize,
+    pub points: Vec<&'static str>,
+    /// The indices of the element's lanes.
+    pub lanes: Range<usize>,
+    /// The points at which each lane enters and leaves the element.
+    pub mouths: Vec<[Option<Mouth>; 2]>,
+    /// The course of the road; `None` for an intersection.
+    pub course: Option<Course>,
+}
+
+/// The course of a road.
+#[derive(Debug)]
+pub(super) enum Course {
+    /// A road with the same cross-section everywhere.
+    Even { centre: Curve, profile: Profile },
+    /// A road whose lanes begin, end and change their widths. Each lane has its beginning and its end along the road.
+    Surveyed { centre: Centreline, spans: Vec<[f64; 2]> },
 }
 
 /// A zebra crossing over a road.
@@ -83,6 +98,8 @@ impl RoadNetwork {
         overlap::check(composite, &layouts)?;
         let mut elements = Vec::with_capacity(layouts.len());
         let mut lanes = Vec::new();
+        let mut crossings = Vec::new();
+        let mut strips = Vec::new();
         for (part, layout) in composite.parts.iter().zip(layouts) {
             let first = lanes.len();
             lanes.extend(layout.lanes.iter().map(|plan| {
@@ -97,7 +114,7 @@ impl RoadNetwork {
                     element: elements.len(),
                     kind: plan.kind,
                     number: plan.number,
-                    curve: plan.curve.moved(&part.pose),
+                    curve: plan.curve.moved(&part.pose).into(),
                     width: part.plan.profile.lane_width,
                     left: plan.left.as_ref().map(id),
                     right: plan.right.as_ref().map(id),
@@ -106,15 +123,38 @@ impl RoadNetwork {
                     conflicts: plan.conflicts.iter().map(conflict).collect(),
                 }
             }));
-            let points = part.plan.ports().iter().map(|port| port.name).collect();
-            let (name, plan, pose) = (part.name.clone(), part.plan.clone(), part.pose);
-            elements.push(Placed { name, plan, pose, layout, points, first });
+            strips.extend(layout.strips.iter().map(|strip| strip.moved(&part.pose)));
+            let profile = part.plan.profile;
+            let course = if let ElementShape::Segment(road) = &part.plan.shape {
+                let centre = road.centre_line().moved(&part.pose);
+                crossings.extend(crossings_of(road, [elements.len(), first], &centre, &layout, &profile));
+                Some(Course::Even { centre, profile })
+            } else {
+                None
+            };
+            elements.push(Placed {
+                name: part.name.clone(),
+                points: part.plan.ports().iter().map(|port| port.name).collect(),
+                lanes: first..lanes.len(),
+                mouths: layout.lanes.iter().map(|plan| [plan.from, plan.to]).collect(),
+                course,
+            });
         }
         for &[a, b] in &composite.links {
             for (from, to) in [(a, b), (b, a)] {
                 link(&mut lanes, &elements[from.part], from.port, &elements[to.part], to.port);
             }
         }
+        Ok(Self::of(elements, lanes, crossings, strips))
+    }
+
+    /// Makes the network of lanes that know their successors.
+    pub(super) fn of(
+        elements: Vec<Placed>,
+        mut lanes: Vec<Lane>,
+        crossings: Vec<Crossing>,
+        mut strips: Vec<Strip>,
+    ) -> Self {
         for index in 0..lanes.len() {
             for successor in lanes[index].successors.clone() {
                 lanes[successor.index()].predecessors.push(LaneId::new(index));
@@ -123,8 +163,8 @@ impl RoadNetwork {
         let boxes: Vec<Bounds> = lanes.iter().map(|lane| lane.curve.bounds()).collect();
         let bounds = boxes.iter().fold(Bounds::empty(), |all, next| all.union(next));
         let names = elements.iter().enumerate().map(|(index, placed)| (placed.name.clone(), index)).collect();
-        let crossings = elements.iter().enumerate().flat_map(|(index, placed)| placed.crossings(index)).collect();
-        Ok(Self { elements, names, lanes, crossings, tree: Tree::new(&boxes), bounds })
+        strips.sort_by_key(|strip| strip.surface);
+        Self { elements, names, lanes, crossings, strips, tree: Tree::new(&boxes), bounds }
     }
 
     /// Returns the names of all road elements of the network.
@@ -150,22 +190,34 @@ impl RoadNetwork {
         &self.lanes[id.index()]
     }
 
-    /// Returns the identifier of the lane with a given number on a road. The numbers are 1, 2, ... to the right of the
-    /// centre line, and -1, -2, ... for the opposite direction.
+    /// Returns the identifier of the lane with a given number on a road; the first one along the road, if lanes with the number
+    /// follow one another. The numbers are 1, 2, ... to the right of the centre line, and -1, -2, ... for the opposite
+    /// direction.
     ///
     /// # Errors
     /// The network has no such element, or the element has no such lane.
     pub fn lane_of(&self, element: &str, number: i32) -> Result<LaneId, RoadError> {
         let placed = self.find(element)?;
-        let wanted = |lane: &LaneId| self.lane(*lane).kind == LaneKind::Road && self.lane(*lane).number == number;
-        placed.lanes().find(wanted).ok_or_else(|| {
-            let n = placed.plan.profile.each_way();
-            let has = match placed.plan.shape {
-                ElementShape::Segment(_) => format!("1 to {n} and -1 to -{n}"),
-                _ => format!("only lanes from one of its points to another: {}", placed.points.join(", ")),
-            };
-            RoadError::UnknownLane { element: element.to_owned(), lane: number, between: None, has }
-        })
+        let has_roads_only = matches!(placed.course, Some(Course::Surveyed { .. }));
+        let is_road = |lane: &LaneId| has_roads_only || self.lane(*lane).kind == LaneKind::Road;
+        let wanted = |lane: &LaneId| is_road(lane) && self.lane(*lane).number == number;
+        placed.ids().find(wanted).ok_or_else(|| self.no_lane(placed, number))
+    }
+
+    /// Makes the error that an element has no lane with a number.
+    fn no_lane(&self, placed: &Placed, number: i32) -> RoadError {
+        let has = match &placed.course {
+            Some(Course::Even { profile, .. }) => {
+                let n = profile.each_way();
+                format!("1 to {n} and -1 to -{n}")
+            }
+            Some(Course::Surveyed { .. }) => {
+                let numbers: BTreeSet<i32> = placed.ids().map(|lane| self.lane(lane).number).collect();
+                numbers.iter().map(i32::to_string).collect::<Vec<_>>().join(", ")
+            }
+            None => format!("only lanes from one of its points to another: {}", placed.points.join(", ")),
+        };
+        RoadError::UnknownLane { element: placed.name.clone(), lane: number, between: None, has }
     }
 
     /// Returns the identifier of the lane from one point of an element to another point of the element, over an
@@ -176,31 +228,40 @@ impl RoadNetwork {
     pub fn lane_between(&self, element: &str, from: &str, to: &str, number: i32) -> Result<LaneId, RoadError> {
         let placed = self.find(element)?;
         let (from, to) = (placed.port(from)?, placed.port(to)?);
-        let leads = |plan: &&LanePlan| {
-            plan.from.is_some_and(|mouth| mouth.port == from) && plan.to.is_some_and(|mouth| mouth.port == to)
+        let leads = |lane: &LaneId| {
+            let [enters, leaves] = placed.mouths[lane.index() - placed.lanes.start];
+            enters.is_some_and(|mouth| mouth.port == from) && leaves.is_some_and(|mouth| mouth.port == to)
         };
-        let index = placed.layout.lanes.iter().position(|plan| leads(&plan) && plan.number.abs() == number);
-        let index = index.ok_or_else(|| {
-            let numbers = placed.layout.lanes.iter().filter(leads).map(|plan| plan.number.abs().to_string());
-            let numbers: Vec<String> = numbers.collect();
+        let number_of = |lane: &LaneId| self.lane(*lane).number.abs();
+        placed.ids().find(|lane| leads(lane) && number_of(lane) == number).ok_or_else(|| {
+            let numbers: Vec<String> = placed.ids().filter(leads).map(|lane| number_of(&lane).to_string()).collect();
             RoadError::UnknownLane {
                 element: element.to_owned(),
                 lane: number,
                 between: Some((placed.points[from].to_owned(), placed.points[to].to_owned())),
                 has: if numbers.is_empty() { "none".to_owned() } else { numbers.join(", ") },
             }
-        })?;
-        Ok(LaneId::new(placed.first + index))
+        })
     }
 
     /// Returns the pose on the middle of a lane, `at` metres along the road, in the direction of the lane's traffic.
     ///
     /// # Errors
-    /// The network has no such element, the element has no such lane, or the road is shorter than `at`.
+    /// The network has no such element, the element has no such lane there, or the road is shorter than `at`.
     pub fn on_lane(&self, element: &str, lane: i32, at: f64) -> Result<Pose, RoadError> {
         self.lane_of(element, lane)?;
-        let (centre, profile) = self.road(element, at)?;
-        Ok(lane_pose(&centre, profile, lane, at))
+        let placed = self.find(element)?;
+        match placed.course_at(at)? {
+            Course::Even { centre, profile } => Ok(lane_pose(centre, profile, lane, at)),
+            Course::Surveyed { spans, .. } => {
+                let mut lanes = placed.ids().zip(spans).filter(|(id, _)| self.lane(*id).number == lane);
+                let (id, [from, to]) = lanes
+                    .find(|(_, [from, to])| from.min(*to) <= at && at <= from.max(*to))
+                    .ok_or_else(|| self.no_lane(placed, lane))?;
+                let line = &self.lane(id).curve;
+                Ok(line.at((at - from) / (to - from) * line.length()))
+            }
+        }
     }
 
     /// Returns the pose on the centre line of a road, `at` metres along the road, in the road's direction.
@@ -208,7 +269,10 @@ impl RoadNetwork {
     /// # Errors
     /// The network has no such road, or the road is shorter than `at`.
     pub fn on_centre_line(&self, road: &str, at: f64) -> Result<Pose, RoadError> {
-        Ok(self.road(road, at)?.0.at(at))
+        Ok(match self.find(road)?.course_at(at)? {
+            Course::Even { centre, .. } => centre.at(at),
+            Course::Surveyed { centre, .. } => centre.at(at),
+        })
     }
 
     /// Returns the pose on the middle of a sidewalk, `at` metres along the road, that faces the road.
@@ -216,8 +280,13 @@ impl RoadNetwork {
     /// # Errors
     /// The network has no such road, or the road is shorter than `at`.
     pub fn on_sidewalk(&self, element: &str, side: Side, at: f64) -> Result<Pose, RoadError> {
-        let (centre, profile) = self.road(element, at)?;
-        Ok(sidewalk_pose(&centre, profile, side, at))
+        match self.find(element)?.course_at(at)? {
+            Course::Even { centre, profile } => Ok(sidewalk_pose(centre, profile, side, at)),
+            Course::Surveyed { .. } => Err(RoadError::Element {
+                element: element.to_owned(),
+                problem: "is a road of a file, expected a road with sidewalks on both sides".to_owned(),
+            }),
+        }
     }
 
     /// Returns all zebra crossings of the network.
@@ -232,34 +301,17 @@ impl RoadNetwork {
 
     /// Returns the visible surfaces of the network as strips; each strip comes after the strips that it covers.
     pub fn strips(&self) -> Vec<Strip> {
-        let of =
-            |placed: &Placed| placed.layout.strips.iter().map(|strip| strip.moved(&placed.pose)).collect::<Vec<_>>();
-        let mut strips: Vec<Strip> = self.elements.iter().flat_map(of).collect();
-        strips.sort_by_key(|strip| strip.surface);
-        strips
+        self.strips.clone()
     }
 
     fn find(&self, name: &str) -> Result<&Placed, RoadError> {
         let index = self.names.get(name).ok_or_else(|| RoadError::unknown_element(name, self.elements()))?;
         Ok(&self.elements[*index])
     }
-
-    /// Returns the centre line and the cross-section of a road, if the place `at` metres along it exists.
-    fn road(&self, element: &str, at: f64) -> Result<(Curve, &Profile), RoadError> {
-        let placed = self.find(element)?;
-        let centre = placed.centre_line().ok_or_else(|| RoadError::Element {
-            element: element.to_owned(),
-            problem: "is an intersection or a roundabout, expected a road".to_owned(),
-        })?;
-        if !(0.0..=centre.length()).contains(&at) {
-            return Err(RoadError::Beyond { element: element.to_owned(), at, length: centre.length() });
-        }
-        Ok((centre, &placed.plan.profile))
-    }
 }
 
 /// Returns the middle of a lane `at` metres along a road, facing the direction of the lane's traffic.
-pub(crate) fn lane_pose(centre: &Curve, profile: &Profile, lane: i32, at: f64) -> Pose {
+fn lane_pose(centre: &Curve, profile: &Profile, lane: i32, at: f64) -> Pose {
     let offset = profile.lane_offset(lane.abs());
     if lane > 0 {
         Pose { position: centre.beside(at, -offset), heading: centre.heading(at) }
@@ -269,7 +321,7 @@ pub(crate) fn lane_pose(centre: &Curve, profile: &Profile, lane: i32, at: f64) -
 }
 
 /// Returns the middle of a sidewalk `at` metres along a road, facing the road.
-pub(crate) fn sidewalk_pose(centre: &Curve, profile: &Profile, side: Side, at: f64) -> Pose {
+fn sidewalk_pose(centre: &Curve, profile: &Profile, side: Side, at: f64) -> Pose {
     let (offset, turn) = match side {
         Side::Left => (profile.sidewalk_offset(), -FRAC_PI_2),
         Side::Right => (-profile.sidewalk_offset(), FRAC_PI_2),
@@ -295,21 +347,21 @@ fn layouts(composite: &Composite) -> Vec<Arc<Layout>> {
 
 /// Makes the lanes that begin at a port of `to` successors of the lanes that end at the connected port of `from`.
 fn link(lanes: &mut [Lane], from: &Placed, from_port: usize, to: &Placed, to_port: usize) {
-    for (i, ending) in from.layout.lanes.iter().enumerate() {
-        for (j, beginning) in to.layout.lanes.iter().enumerate() {
-            if let (Some(out), Some(into)) = (ending.to, beginning.from)
+    for (ending, [_, out]) in from.ids().zip(&from.mouths) {
+        for (beginning, [into, _]) in to.ids().zip(&to.mouths) {
+            if let (Some(out), Some(into)) = (out, into)
                 && (out.port, into.port) == (from_port, to_port)
                 && out.number == into.number
             {
-                lanes[from.first + i].successors.push(LaneId::new(to.first + j));
+                lanes[ending.index()].successors.push(beginning);
             }
         }
     }
 }
 
 impl Placed {
-    fn lanes(&self) -> impl Iterator<Item = LaneId> {
-        (self.first..self.first + self.layout.lanes.len()).map(LaneId::new)
+    fn ids(&self) -> impl Iterator<Item = LaneId> + use<> {
+        self.lanes.clone().map(LaneId::new)
     }
 
     fn port(&self, name: &str) -> Result<usize, RoadError> {
@@ -317,31 +369,43 @@ impl Placed {
         port.ok_or_else(|| RoadError::unknown_point(&self.name, name, self.points.clone()))
     }
 
-    /// Returns the centre line if the element is a road.
-    fn centre_line(&self) -> Option<Curve> {
-        match &self.plan.shape {
-            ElementShape::Segment(road) => Some(road.centre_line().moved(&self.pose)),
-            _ => None,
+    /// Returns the course of a road, if the place `at` metres along it exists.
+    fn course_at(&self, at: f64) -> Result<&Course, RoadError> {
+        let course = self.course.as_ref().ok_or_else(|| RoadError::Element {
+            element: self.name.clone(),
+            problem: "is an intersection or a roundabout, expected a road".to_owned(),
+        })?;
+        let length = match course {
+            Course::Even { centre, .. } => centre.length(),
+            Course::Surveyed { centre, .. } => centre.length(),
+        };
+        if (0.0..=length).contains(&at) {
+            Ok(course)
+        } else {
+            Err(RoadError::Beyond { element: self.name.clone(), at, length })
         }
     }
+}
 
-    fn crossings(&self, element: usize) -> Vec<Crossing> {
-        let (ElementShape::Segment(road), Some(centre)) = (&self.plan.shape, self.centre_line()) else {
-            return Vec::new();
-        };
-        let profile = &self.plan.profile;
-        let half = profile.half_width();
-        let crossing = |at: f64| {
-            let start = Pose { position: centre.beside(at, -half), heading: wrapped(centre.heading(at) + FRAC_PI_2) };
-            // The lanes of an arc are longer or shorter than the road in proportion to their radii.
-            let share = at / centre.length();
-            let n = profile.each_way() as usize;
-            let forward = (0..n).rev().map(|i| (i, share));
-            let lanes = forward.chain((n..2 * n).map(|i| (i, 1.0 - share)));
-            let lanes = lanes.map(|(i, share)| (i, share * self.layout.lanes[i].curve.length()));
-            let lanes = lanes.map(|(i, s)| (LaneId::new(self.first + i), s)).collect();
-            Crossing { element, path: Curve::new(start, 0.0, 2.0 * half), width: ZEBRA, lanes }
-        };
-        road.zebras().into_iter().map(crossing).collect()
-    }
+/// Returns the zebra crossings of a road, by the indices of the road and of its first lane.
+fn crossings_of(
+    road: &Segment,
+    [element, first]: [usize; 2],
+    centre: &Curve,
+    layout: &Layout,
+    profile: &Profile,
+) -> Vec<Crossing> {
+    let half = profile.half_width();
+    let crossing = |at: f64| {
+        let start = Pose { position: centre.beside(at, -half), heading: wrapped(centre.heading(at) + FRAC_PI_2) };
+        // The lanes of an arc are longer or shorter than the road in proportion to their radii.
+        let share = at / centre.length();
+        let n = profile.each_way() as usize;
+        let forward = (0..n).rev().map(|i| (i, share));
+        let lanes = forward.chain((n..2 * n).map(|i| (i, 1.0 - share)));
+        let lanes = lanes.map(|(i, share)| (i, share * layout.lanes[i].curve.length()));
+        let lanes = lanes.map(|(i, s)| (LaneId::new(first + i), s)).collect();
+        Crossing { element, path: Curve::new(start, 0.0, 2.0 * half), width: ZEBRA, lanes }
+    };
+    road.zebras().into_iter().map(crossing).collect()
 }

@@ -125,6 +125,22 @@ impl From<Ring> for ElementShape {
 /// A straight or curved road from the point `one` to the point `two`. Its lanes 1, 2, ... lead in this direction.
 pub type RoadSegment = Element<Segment>;
 
+/// A road with its own friction, for programs that place roads in worlds.
+#[derive(Debug, Clone)]
+pub struct Paved<F> {
+    /// The road.
+    pub road: RoadSegment,
+    /// The friction coefficient between tyre and road, as the world understands it.
+    pub friction: F,
+}
+
+impl RoadSegment {
+    /// Sets the friction coefficient between tyre and road, like the friction of an environment for a world with one road.
+    pub fn friction<F>(self, friction: F) -> Paved<F> {
+        Paved { road: self, friction }
+    }
+}
+
 /// An intersection where a road ends at another road. The arms lead east (`one`), south (`two`) and west (`three`).
 pub type TIntersection = Element<Tee>;
 

@@ -69,7 +69,7 @@ impl Curve {
     }
 
     /// Returns the axes of [`Curve::at`], to the last bit; on a straight line it takes no sine.
-    pub(crate) fn frame(&self, s: f64) -> Frame {
+    pub fn frame(&self, s: f64) -> Frame {
         Frame::new(self.point(s), self.forward(s))
     }
 
@@ -109,7 +109,7 @@ impl Curve {
 
     /// Returns `true` only if all points of the curve are more than `metres` metres away from a point. The test needs no
     /// square root and no sine: no point of the curve is farther from the start than the length.
-    pub(crate) fn is_beyond(&self, point: Vector2<f64>, metres: f64) -> bool {
+    pub fn is_beyond(&self, point: Vector2<f64>, metres: f64) -> bool {
         // The margin is far above all rounding.
         let reach = self.length + metres + 1e-6;
         (point - self.start.position).norm_squared() > reach * reach

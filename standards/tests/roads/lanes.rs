@@ -1,19 +1,10 @@
 //! The borders of lanes are where another program finds them, in roads of others.
 
+use crate::others::files_of_others;
 use paracosm_standards::opendrive::Map;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-/// The files of others, which are not part of the repository.
-fn files() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/standards");
-    let is_there = folder.join("lanes").is_dir();
-    if !is_there {
-        eprintln!("skipped: {} with the roads of others is absent", folder.display());
-    }
-    is_there.then_some(folder)
-}
+use std::path::Path;
 
 /// The points of each border, by road, section and lane.
 type Borders = BTreeMap<(String, usize, i32), Vec<[f64; 4]>>;
@@ -35,27 +26,31 @@ fn expected(file: &Path) -> Borders {
     borders
 }
 
-/// The greatest distance of a border from the expected points, and the place.
-fn farthest(map: &Map, borders: &Borders) -> (f64, String) {
+/// The greatest distance of a border from the expected points with its place, and the greatest sine of the angle between the
+/// headings. Headings in the tables are those of the middles of lanes.
+fn farthest(map: &Map, borders: &Borders) -> ((f64, String), f64) {
     let mut worst = (0.0, String::new());
+    let mut turn: f64 = 0.0;
     for ((id, section, lane), points) in borders {
         let road = &map.roads[map.road(id).unwrap_or_else(|| panic!("road {id}"))];
         let of = &road.sections[*section];
-        for (i, [x, y, ..]) in points.iter().enumerate() {
+        for (i, [x, y, _, heading]) in points.iter().enumerate() {
             let s = of.s + (of.end - of.s) * i as f64 / (points.len() - 1) as f64;
             let point = road.point(s, road.border(*section, *lane, s).expect("the lane"));
             let distance = (point.x - x).hypot(point.y - y);
+            let turned = (road.lane_heading(*section, *lane, s).expect("the lane") - heading).sin().abs();
+            turn = turn.max(turned);
             if distance > worst.0 {
                 worst = (distance, format!("road {id}, section {section}, lane {lane}, s = {s}"));
             }
         }
     }
-    worst
+    (worst, turn)
 }
 
 #[test]
 fn borders_of_lanes_are_where_esmini_finds_them() {
-    let Some(folder) = files() else { return };
+    let Some(folder) = files_of_others() else { return };
     let mut wrong = Vec::new();
     for entry in fs::read_dir(folder.join("lanes")).expect("the folder is readable") {
         let table = entry.expect("an entry").path();
@@ -68,9 +63,9 @@ fn borders_of_lanes_are_where_esmini_finds_them() {
                 continue;
             }
         };
-        let (distance, place) = farthest(&map, &expected(&table));
-        println!("{distance:.6} m in {name}: {place}");
-        if distance > 0.001 {
+        let ((distance, place), turn) = farthest(&map, &expected(&table));
+        println!("{distance:.6} m and {turn:.6} rad in {name}: {place}");
+        if distance > 0.001 || turn > 0.01 {
             wrong.push(format!("{distance:.4} m in {name}: {place}"));
         }
     }

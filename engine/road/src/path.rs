@@ -59,32 +59,46 @@ impl Path {
         Self { pieces, lanes: None, length, ends }
     }
 
+    /// Makes the path along the given curves of lanes.
+    fn of_lanes(pieces: impl IntoIterator<Item = (Curve, LaneId)>) -> Self {
+        let (curves, lanes): (Vec<_>, Vec<_>) = pieces.into_iter().unzip();
+        Self::new(curves).on(lanes)
+    }
+
     /// Sets the lane of each piece.
     fn on(self, lanes: impl IntoIterator<Item = LaneId>) -> Self {
         Self { lanes: Some(lanes.into_iter().collect()), ..self }
     }
 
     /// Returns the length in metres of the first piece whose length is no number from 0 on or whose end is not finite.
-    pub(crate) fn wrong_piece(&self) -> Option<f64> {
+    pub fn wrong_piece(&self) -> Option<f64> {
         let broken = |(_, curve): &&(f64, Curve)| !(curve.length() >= 0.0 && curve.end().is_finite());
         self.pieces.iter().find(broken).map(|(_, curve)| curve.length())
     }
 
-    /// Returns the lanes between two distances along the path, in order; nothing if the path was not made from lanes.
-    pub(crate) fn lanes(&self, from: f64, to: f64) -> impl ExactSizeIterator<Item = LaneId> + use<> {
-        let range = match &self.lanes {
-            Some(_) => self.index(from)..self.index(to) + 1,
-            None => 0..0,
-        };
-        let lanes = self.lanes.clone();
-        range.map(move |index| lanes.as_ref().expect("it is of lanes")[index])
+    /// Returns `true` if the path was made from lanes.
+    pub fn is_on_lanes(&self) -> bool {
+        self.lanes.is_some()
     }
 
-    /// Returns the lanes of the path in order, each with the place where its piece begins, in metres along the path;
+    /// Returns the lanes between two distances along the path, in order; nothing if the path was not made from lanes.
+    pub fn lanes(&self, from: f64, to: f64) -> impl Iterator<Item = LaneId> + use<> {
+        let first = self.index(from);
+        let range = if self.is_on_lanes() { first..self.index(to) + 1 } else { 0..0 };
+        let lanes = self.lanes.clone();
+        range.filter_map(move |index| {
+            let lanes = lanes.as_ref()?;
+            // A lane can have several pieces.
+            (index == first || lanes[index - 1] != lanes[index]).then(|| lanes[index])
+        })
+    }
+
+    /// Returns the lanes of the path in order, each with the place where the path meets the lane, in metres along the path;
     /// nothing if the path was not made from lanes.
-    pub(crate) fn lane_pieces(&self) -> impl Iterator<Item = (f64, LaneId)> {
-        let lanes = self.lanes.iter().flat_map(|lanes| lanes.iter().copied());
-        self.pieces.iter().map(|(from, _)| *from).zip(lanes)
+    pub fn lane_pieces(&self) -> impl Iterator<Item = (f64, LaneId)> {
+        let lanes: &[LaneId] = self.lanes.as_deref().unwrap_or_default();
+        let is_first = |index: &usize| *index == 0 || lanes[index - 1] != lanes[*index];
+        (0..lanes.len()).filter(move |index| is_first(index)).map(|index| (self.pieces[index].0, lanes[index]))
     }
 
     /// Makes the straight path from one place to another place. If both places are equal, the path faces along x.
@@ -144,7 +158,7 @@ impl Path {
 
     /// Returns the points and the curvatures of the path at the given distances along the path, which ascend. They are
     /// the positions of [`Path::at`] and the curvatures of [`Path::curvature`], at a lower cost.
-    pub(crate) fn points<const N: usize>(&self, places: [f64; N]) -> [(Vector2<f64>, f64); N] {
+    pub fn points<const N: usize>(&self, places: [f64; N]) -> [(Vector2<f64>, f64); N] {
         let mut piece = self.index(places[0]);
         places.map(|s| {
             if s > self.length {
@@ -228,20 +242,20 @@ impl RoadNetwork {
     /// # Panics
     /// `lanes` is empty, or a lane belongs to another network, which has more lanes.
     pub fn path(&self, lanes: &[LaneId]) -> Path {
-        Path::new(lanes.iter().map(|lane| self.lane(*lane).curve)).on(lanes.iter().copied())
+        Path::of_lanes(lanes.iter().flat_map(|lane| self.lane(*lane).curve.curves().map(|curve| (*curve, *lane))))
     }
 
     /// Returns the path along a route, from the start to the end of the route. `None` if the route changes lanes: a
     /// lane change takes time, and the driver decides how long.
     pub fn path_along(&self, route: &Route) -> Option<Path> {
         let last = route.lanes.len() - 1;
-        let piece = |(i, lane): (usize, &LaneId)| {
-            let curve = self.lane(*lane).curve;
+        let pieces = |(i, lane): (usize, &LaneId)| {
+            let lane = *lane;
+            let line = &self.lane(lane).curve;
             let from = if i == 0 { route.start } else { 0.0 };
-            let to = if i == last { route.end } else { curve.length() };
-            curve.piece(from, to)
+            let to = if i == last { route.end } else { line.length() };
+            line.pieces(from, to).into_iter().map(move |curve| (curve, lane))
         };
-        let path = || Path::new(route.lanes.iter().enumerate().map(piece)).on(route.lanes.iter().copied());
-        (route.changes == 0).then(path)
+        (route.changes == 0).then(|| Path::of_lanes(route.lanes.iter().enumerate().flat_map(pieces)))
     }
 }

@@ -1,16 +1,16 @@
 //! Straight and curved roads.
 
 use super::{LINE, LanePlan, Layout, Mouth, Port};
+use crate::curve::Curve;
+use crate::element::{Profile, Segment};
 use crate::geometry::Pose;
 use crate::geometry::wrapped;
-use crate::road::curve::Curve;
-use crate::road::element::{Profile, Segment};
-use crate::road::lane::LaneKind;
-use crate::road::strip::{Strip, Surface};
+use crate::lane::LaneKind;
+use crate::strip::{Strip, Surface};
 use std::f64::consts::PI;
 
 /// The width of a zebra crossing, in metres along the road.
-pub(in crate::road) const ZEBRA: f64 = 4.0;
+pub(crate) const ZEBRA: f64 = 4.0;
 /// The width of a crossing's stripes and of the gaps between them, in metres.
 const STRIPE: f64 = 0.5;
 /// The length in metres before and after a zebra crossing that has no other markings.

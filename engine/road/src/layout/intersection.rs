@@ -9,11 +9,11 @@
 
 use super::conflicts::find_conflicts;
 use super::{LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
+use crate::curve::Curve;
+use crate::element::Profile;
 use crate::geometry::wrapped;
-use crate::road::curve::Curve;
-use crate::road::element::Profile;
-use crate::road::lane::LaneKind;
-use crate::road::strip::{Strip, Surface};
+use crate::lane::LaneKind;
+use crate::strip::{Strip, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 use std::ops::RangeInclusive;
 

@@ -1,6 +1,6 @@
 //! The lanes of a network, with their neighbours: the lanes before, behind, beside and across each lane.
 
-use super::curve::Curve;
+use super::centreline::Centreline;
 
 /// The identifier of a lane, which is the lane's index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -64,8 +64,8 @@ pub struct Lane {
     /// The number of the lane among the parallel lanes. On a road, lanes 1, 2, ... lie right of the centre line, lanes
     /// -1, -2, ... left; in an intersection, it is the number of the joined lanes; in a roundabout, 1 is innermost.
     pub number: i32,
-    /// The curve along the middle of the lane.
-    pub curve: Curve,
+    /// The line along the middle of the lane.
+    pub curve: Centreline,
     /// The width of the lane in metres.
     pub width: f64,
     /// The next lane to the left in the same direction; `None` if cars may not change to the left.

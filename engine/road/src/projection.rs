@@ -68,7 +68,7 @@ impl RoadNetwork {
 
     /// Returns the place in metres along a lane of a body that drives along the lane; `None` if the body is elsewhere or
     /// points in another direction.
-    pub(crate) fn place_on_lane(&self, lane: LaneId, body: &Pose) -> Option<f64> {
+    pub fn place_on_lane(&self, lane: LaneId, body: &Pose) -> Option<f64> {
         if self.lane(lane).curve.is_beyond(body.position, ON_LANE.0) {
             return None;
         }
@@ -79,7 +79,7 @@ impl RoadNetwork {
 
     /// Visits all lanes that meet a box and some lanes that are only near it, in no particular order. `open` is the
     /// memory of the search; if the same memory is used again, the search allocates nothing.
-    pub(crate) fn lanes_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(LaneId)) {
+    pub fn lanes_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(LaneId)) {
         self.tree.visit_near(target, open, |lane| visit(LaneId(lane)));
     }
 

@@ -1,11 +1,11 @@
 //! Finds the lanes of an intersection that are in each other's way, and the places where they are.
 
 use super::LanePlan;
-use crate::road::curve::Curve;
+use crate::centreline::Centreline;
 
 /// The share of a lane's width below which the middles of two lanes are too close: two cars of 1.8 m in lanes of 3.5 m
 /// then have 0.65 m between them.
-const CLOSE: f64 = 0.7;
+pub(crate) const CLOSE: f64 = 0.7;
 /// The distance in metres between the places at which a lane is examined.
 const STEP: f64 = 0.25;
 /// The exactness in metres of the ends of a conflict.
@@ -13,7 +13,7 @@ const EXACT: f64 = 1e-3;
 
 /// A conflict of a lane, in the coordinates of its element.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::road) struct ConflictPlan {
+pub(crate) struct ConflictPlan {
     /// The index of the other lane, with which the lane is in conflict.
     pub with: usize,
     /// The beginning and the end of the stretch that is too close to the other lane, in metres along the lane.
@@ -34,7 +34,7 @@ pub(super) fn find_conflicts(
             if related(lanes, a, b) {
                 continue;
             }
-            let (one, other) = (lanes[a].curve, lanes[b].curve);
+            let (one, other) = (Centreline::from(lanes[a].curve), Centreline::from(lanes[b].curve));
             if !one.bounds().grown(close).meets(&other.bounds()) {
                 continue;
             }
@@ -55,8 +55,8 @@ fn related(lanes: &[LanePlan], a: usize, b: usize) -> bool {
     fork || parted || one.successors.contains(&b) || other.successors.contains(&a)
 }
 
-/// Returns the shortest stretch of a curve that contains all places that are too close to another curve.
-fn span(curve: &Curve, other: &Curve, close: f64) -> Option<(f64, f64)> {
+/// Returns the shortest stretch of a line that contains all places that are too close to another line.
+pub(crate) fn span(curve: &Centreline, other: &Centreline, close: f64) -> Option<(f64, f64)> {
     let distance = |s: f64| {
         let point = curve.point(s);
         (other.point(other.nearest(point)) - point).norm()

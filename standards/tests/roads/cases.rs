@@ -1,0 +1,288 @@
+//! Our own small files: what each element does, and what is refused. The table of `docs/opendrive.md` is written from them.
+
+use paracosm_standards::Support;
+use paracosm_standards::opendrive::{LaneType, Link, Map, Note, Road, Traffic, elements};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/roads/files").join(name)
+}
+
+fn read(name: &str) -> Map {
+    Map::read(&file(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A file with one straight road, with texts in place of parts of it.
+fn with(changes: &[(&str, &str)]) -> String {
+    let mut text = r#"<OpenDRIVE>
+<header revMajor="1" revMinor="6"/>
+<road id="1" length="50" junction="-1">
+<link/>
+<planView><geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry></planView>
+<lanes><laneSection s="0">
+<center><lane id="0" type="none"/></center>
+<right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right>
+</laneSection></lanes>
+</road>
+</OpenDRIVE>"#
+        .to_owned();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    text
+}
+
+fn parse(text: String) -> Result<Map, String> {
+    Map::parse("road.xodr".as_ref(), text).map_err(|error| error.to_string())
+}
+
+#[track_caller]
+fn refuses(changes: &[(&str, &str)], says: &str) {
+    let message = parse(with(changes)).expect_err("it was accepted");
+    assert!(message.contains(says), "expected `{says}` in: {message}");
+}
+
+#[test]
+fn every_shape_of_a_reference_line_begins_where_the_one_before_ends() {
+    let map = read("geometries.xodr");
+    let line = &map.roads[0].line;
+    assert_eq!(line.pieces().len(), 5);
+    for pair in line.pieces().windows(2) {
+        let end = pair[0].at(pair[0].length);
+        assert!((end.position - pair[1].start.position).norm() < 1e-5, "{end:?} {:?}", pair[1].start);
+        assert!((end.heading - pair[1].start.heading).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn borders_of_lanes_follow_offsets_widths_and_borders() {
+    let map = read("geometries.xodr");
+    let road = &map.roads[0];
+    let borders = |s: f64| [2, 1, 0, -1, -2].map(|lane| road.border(road.section_at(s), lane, s));
+    assert_eq!(borders(10.0), [Some(5.5), Some(3.5), Some(0.5), Some(-2.5), Some(-6.5)]);
+    // The first lane on the right is 0.05 m wider with every metre from s = 30 m on; the border of the second stays.
+    let right = borders(50.0)[3].expect("a lane");
+    assert!((right + 3.5).abs() < 1e-12, "{right}");
+    assert_eq!(borders(50.0)[4], Some(-6.5));
+    assert_eq!(borders(100.0)[0], None);
+}
+
+#[test]
+fn speed_limits_have_metres_and_seconds() {
+    let map = read("geometries.xodr");
+    let road = &map.roads[0];
+    assert_eq!(road.limits, [(0.0, Some(50.0 / 3.6))]);
+    let lane = road.sections[0].lane(1).expect("a lane");
+    assert_eq!(lane.limits, [(0.0, Some(30.0 * 0.44704))]);
+    let none = with(&[("<link/>", r#"<type s="0" type="motorway"><speed max="no limit"/></type>"#)]);
+    assert_eq!(parse(none).expect("it is sound").roads[0].limits, [(0.0, None)]);
+}
+
+#[test]
+fn heights_are_left_out_and_a_note_says_so() {
+    let map = read("geometries.xodr");
+    let road: &Road = &map.roads[0];
+    let [Note::Flat { height, roll }] = map.notes[..] else { panic!("{:?}", map.notes) };
+    assert!((height - 2.4).abs() < 1e-12 && roll == 0.05, "{height} {roll}");
+    assert!((road.height(40.0, 0.0) - 1.4).abs() < 1e-12);
+    assert!((road.height(40.0, -4.0) - (1.4 - 4.0 * 0.05f64.sin())).abs() < 1e-12);
+}
+
+#[test]
+fn lanes_of_a_network_lead_on_from_section_to_section() {
+    let network = read("geometries.xodr").network().expect("it has lanes");
+    // Lane -1 of the file is lane 1 of the network.
+    let first = network.lane(network.lane_of("1", 1).expect("it has the lane"));
+    assert_eq!(first.successors.len(), 1);
+    assert_eq!(first.right.map(|right| network.lane(right).number), Some(2));
+    let back = network.lane(network.lane_of("1", -1).expect("it has the lane"));
+    assert!(back.successors.is_empty() && back.predecessors.len() == 1 && back.beside().next().is_none());
+    let here = network.on_lane("1", 1, 10.0).expect("the road is longer");
+    assert!((here.position.y + 1.0).abs() < 1e-9 && here.heading.abs() < 1e-9, "{here:?}");
+    let there = network.on_lane("1", -1, 10.0).expect("the road is longer");
+    assert!((there.position.y - 2.0).abs() < 1e-9 && there.heading.abs() > 3.14, "{there:?}");
+}
+
+#[test]
+fn a_junction_connects_lanes_and_says_which_road_goes_first() {
+    let map = read("junction.xodr");
+    assert_eq!(map.roads[0].successor, Some(Link::Junction(0)));
+    let network = map.network().expect("it has lanes");
+    let lane = |road: &str, number: i32| network.lane_of(road, number).expect("it has the lane");
+    let next = |road: &str, number: i32| network.lane(lane(road, number)).successors.clone();
+    assert_eq!(next("w", 1), [lane("we", 1)]);
+    assert_eq!(next("we", 1), [lane("e", 1)]);
+    assert_eq!(next("e", -1), [lane("we", -1)]);
+    assert_eq!(next("we", -1), [lane("w", -1)]);
+    assert_eq!(next("s", -1), [lane("sw", 1)]);
+    assert_eq!(next("sw", 1), [lane("w", -1)]);
+    // The turn from the south crosses the way east and joins the way west, and gives way to both.
+    let turn = network.lane(lane("sw", 1));
+    assert_eq!(turn.conflicts.len(), 2);
+    assert!(turn.conflicts.iter().all(|conflict| conflict.gives_way));
+    assert!(network.lane(lane("we", 1)).conflicts.iter().all(|conflict| !conflict.gives_way));
+}
+
+#[test]
+fn traffic_on_the_left_drives_along_the_lanes_on_the_left() {
+    let left = with(&[("junction=\"-1\"", "junction=\"-1\" rule=\"LHT\"")]);
+    let map = parse(left).expect("it is sound");
+    assert_eq!(map.roads[0].traffic, Traffic::LeftHand);
+    let network = map.network().expect("it has lanes");
+    let heading = network.on_lane("1", 1, 10.0).expect("the road is longer").heading;
+    assert!(heading.abs() > 3.14, "{heading}");
+    let reversed = with(&[("type=\"driving\"", "type=\"driving\" direction=\"reversed\"")]);
+    let network = parse(reversed).expect("it is sound").network().expect("it has lanes");
+    assert!(network.on_lane("1", 1, 10.0).expect("the road is longer").heading.abs() > 3.14);
+}
+
+#[test]
+fn elements_without_effect_are_noted_once_with_their_number() {
+    let twice = with(&[("<link/>", r#"<link/><userData code="a"/><userData code="b"/>"#)]);
+    let notes: Vec<String> = parse(twice).expect("it is sound").notes.iter().map(Note::to_string).collect();
+    assert_eq!(notes, ["line 4: `userData` (2 times) has no effect: it is data for other programs"]);
+    let attribute = parse(with(&[("junction=\"-1\"", "junction=\"-1\" colour=\"red\"")])).expect("it is sound");
+    let notes: Vec<String> = attribute.notes.iter().map(Note::to_string).collect();
+    assert_eq!(notes, ["line 3: `road.colour` has no effect: the standard does not have this attribute"]);
+    assert!(parse(with(&[("<link/>", "<objects/><signals/>")])).expect("it is sound").notes.is_empty());
+}
+
+#[test]
+fn older_files_are_read_with_a_note_and_newer_ones_are_refused() {
+    let old = parse(with(&[("revMinor=\"6\"", "revMinor=\"1\"")])).expect("it is sound");
+    assert_eq!(old.notes, [Note::Old { minor: 1 }]);
+    refuses(
+        &[("revMinor=\"6\"", "revMinor=\"9\"")],
+        "road.xodr:2: `revMinor=\"9\"` of <header> is not allowed, expected 4 to 8",
+    );
+    refuses(&[("revMajor=\"1\"", "revMajor=\"2\"")], "expected 1");
+}
+
+#[test]
+fn what_a_file_says_wrongly_is_refused_with_its_place_and_the_nearest_name() {
+    refuses(&[("</road>", "")], "not well-formed XML");
+    refuses(&[("<OpenDRIVE>", "<!DOCTYPE x [<!ENTITY a \"b\">]><OpenDRIVE>")], "<!DOCTYPE");
+    refuses(
+        &[("<link/>", "<lnk/>")],
+        "road.xodr:4: <road> has an element <lnk>, which the standard does not have (did you mean `link`?)",
+    );
+    refuses(&[("<link/>", "<include file=\"other.xodr\"/>")], "<include> is not supported: put the content");
+    refuses(&[("\"driving\"", "\"drivng\"")], "(did you mean `driving`?)");
+    refuses(
+        &[("length=\"50\" junction", "length=\"NaN\" junction")],
+        "`length=\"NaN\"` of <road> is not allowed, expected a finite number",
+    );
+    refuses(&[("length=\"50\" junction", "length=\"-5\" junction")], "expected a positive number");
+    refuses(&[(" hdg=\"0\"", "")], "<geometry> has no attribute `hdg`");
+    refuses(&[("<line/>", "")], "<geometry> contains no <line, arc, spiral, poly3 or paramPoly3>");
+    refuses(
+        &[("<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>", "")],
+        "<lane> contains no <width or border>",
+    );
+    refuses(&[("id=\"-1\"", "id=\"-2\"")], "expected -1 in <right>");
+    refuses(&[("laneSection s=\"0\"", "laneSection s=\"10\"")], "expected 0 for the first section");
+    refuses(&[("junction=\"-1\"", "junction=\"7\"")], "names a junction that the file does not have");
+    let predecessor = r#"<link><predecessor elementType="road" elementId="2" contactPoint="end"/></link>"#;
+    refuses(
+        &[("<link/>", predecessor)],
+        "road.xodr:4: `elementId=\"2\"` of <predecessor> names a road that the file does not have",
+    );
+    let second = r#"</road><road id="1" length="5" junction="-1"/>"#;
+    refuses(&[("</road>", second)], "the element in line 3 has the same value");
+    refuses(
+        &[("</OpenDRIVE>", "<junction id=\"1\" type=\"virtual\"/></OpenDRIVE>")],
+        "virtual junctions are not supported",
+    );
+    refuses(&[("<header revMajor=\"1\" revMinor=\"6\"/>", "")], "<OpenDRIVE> contains no <header>");
+    let other = Map::parse("road.xodr".as_ref(), "<OpenSCENARIO/>".to_owned()).expect_err("it was accepted");
+    assert!(other.to_string().contains("the outermost element is <OpenSCENARIO>, expected <OpenDRIVE>"), "{other}");
+}
+
+#[test]
+fn a_file_that_is_absent_or_no_text_is_refused() {
+    let absent = Map::read(Path::new("absent.xodr")).expect_err("it was accepted").to_string();
+    assert!(absent.starts_with("absent.xodr: the file cannot be read"), "{absent}");
+    let noise = std::env::temp_dir().join(format!("paracosm-{}.xodr", std::process::id()));
+    fs::write(&noise, [b'<', 0xff, 0xfe]).expect("the folder is writable");
+    let message = Map::read(&noise).expect_err("it was accepted").to_string();
+    fs::remove_file(&noise).expect("the file is there");
+    assert!(message.contains("the byte at position 1 is not part of a UTF-8 text"), "{message}");
+}
+
+#[test]
+fn a_network_without_driven_lanes_is_refused() {
+    let walked = parse(with(&[("\"driving\"", "\"sidewalk\"")])).expect("it is sound");
+    assert_eq!(walked.roads[0].sections[0].lane(-1).map(|lane| lane.kind), Some(LaneType::Sidewalk));
+    let error = walked.network().expect_err("it was accepted").to_string();
+    assert!(error.contains("has no lanes"), "{error}");
+}
+
+/// The elements of a text, as pairs of parent and name.
+fn pairs(text: &str) -> BTreeSet<(String, String)> {
+    let tree = roxmltree::Document::parse(text).expect("it is well-formed");
+    let elements = tree.descendants().filter(roxmltree::Node::is_element);
+    elements
+        .filter_map(|node| {
+            let name = |node: roxmltree::Node<'_, '_>| node.tag_name().name().to_owned();
+            Some((name(node.parent_element()?), name(node)))
+        })
+        .collect()
+}
+
+/// The files in which elements occur that are read or have no effect, and the texts with elements that are refused.
+fn covered() -> BTreeMap<(String, String), String> {
+    let mut covered = BTreeMap::new();
+    for name in ["geometries.xodr", "junction.xodr", "without_effect.xodr"] {
+        read(name);
+        for pair in pairs(&fs::read_to_string(file(name)).expect("the file is readable")) {
+            covered.entry(pair).or_insert(format!("files/{name}"));
+        }
+    }
+    let virtual_end = |name: &str| {
+        let connection = format!("<connection id=\"0\"><{name} elementType=\"road\"/></connection>");
+        with(&[("</OpenDRIVE>", &format!("<junction id=\"1\">{connection}</junction></OpenDRIVE>"))])
+    };
+    let include = with(&[("<link/>", "<include file=\"other.xodr\"/>")]);
+    for text in [include, virtual_end("predecessor"), virtual_end("successor")] {
+        let message = parse(text.clone()).expect_err("it was accepted");
+        assert!(message.contains("is not supported"), "{message}");
+        for pair in pairs(&text) {
+            covered.entry(pair).or_insert_with(|| "cases.rs".to_owned());
+        }
+    }
+    covered
+}
+
+#[test]
+fn the_page_of_elements_is_written_from_the_table_and_its_tests() {
+    let covered = covered();
+    let mut page = include_str!("opendrive.head.md").to_owned();
+    let mut untested = Vec::new();
+    for element in elements() {
+        let anywhere = |(_, name): &&(String, String)| element.parent == "*" && name == element.name;
+        let key = (element.parent.to_owned(), element.name.to_owned());
+        let file = covered.get(&key).or_else(|| covered.keys().find(anywhere).map(|key| &covered[key]));
+        let Some(file) = file else {
+            untested.push(format!("{} in {}", element.name, element.parent));
+            continue;
+        };
+        let (state, reason) = match element.support {
+            Support::Read => ("read", ""),
+            Support::NoEffect(reason) => ("no effect", reason),
+            Support::Refused(reason) => ("refused", reason),
+        };
+        let parent = if element.parent == "*" { "any element".to_owned() } else { format!("`{}`", element.parent) };
+        let reason = if reason.is_empty() { String::new() } else { format!(": {reason}") };
+        page += &format!("| `{}` | {parent} | {state}{reason} | `{file}` |\n", element.name);
+    }
+    assert!(untested.is_empty(), "no test has these elements: {untested:?}");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/opendrive.md");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        fs::write(&path, &page).expect("the page is writable");
+    }
+    let found = fs::read_to_string(&path).unwrap_or_default();
+    assert!(found == page, "docs/opendrive.md is old; write it again with UPDATE_GOLDEN=1");
+}

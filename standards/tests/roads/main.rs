@@ -1,0 +1,6 @@
+//! Files of roads: our own small files, and published maps with the results of another program.
+
+mod cases;
+mod lanes;
+mod networks;
+mod others;
