@@ -16,11 +16,13 @@ pub struct Bounds {
 
 impl Bounds {
     /// Returns an empty box, which contains no point. It is the start for [`Bounds::include`] and [`Bounds::union`].
+    #[inline]
     pub fn empty() -> Self {
         Self { min: Vector2::repeat(f64::INFINITY), max: Vector2::repeat(f64::NEG_INFINITY) }
     }
 
     /// Returns the smallest box that contains all given points; an empty box without points.
+    #[inline]
     pub fn around(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
         let mut bounds = Self::empty();
         points.into_iter().for_each(|point| bounds.include(point));
@@ -28,6 +30,7 @@ impl Bounds {
     }
 
     /// Extends the box so that it contains a given point.
+    #[inline]
     pub fn include(&mut self, point: Vector2<f64>) {
         self.min = self.min.inf(&point);
         self.max = self.max.sup(&point);
@@ -35,17 +38,20 @@ impl Bounds {
 
     /// Returns the smallest box that contains both boxes.
     #[must_use]
+    #[inline]
     pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
     /// Returns the box with every side moved outward by `by` metres.
     #[must_use]
+    #[inline]
     pub fn grown(&self, by: f64) -> Self {
         Self { min: self.min.add_scalar(-by), max: self.max.add_scalar(by) }
     }
 
     /// Returns true if the boxes have a point in common.
+    #[inline]
     pub fn meets(&self, other: &Self) -> bool {
         let apart = |a: &Self, b: &Self| a.max.x < b.min.x || a.max.y < b.min.y;
         !apart(self, other) && !apart(other, self)

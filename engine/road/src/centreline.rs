@@ -52,11 +52,13 @@ impl Centreline {
     }
 
     /// Returns the length of the line in metres.
+    #[inline]
     pub fn length(&self) -> f64 {
         self.length
     }
 
     /// Returns the curve at a place, and the place along that curve.
+    #[inline]
     fn curve_at(&self, s: f64) -> (&Curve, f64) {
         match &self.chain {
             None => (&self.first, s),
@@ -74,47 +76,55 @@ impl Centreline {
 
     /// Returns the point `s` metres along the line. Before its start and beyond its end the first and the last curve
     /// continue.
+    #[inline]
     pub fn point(&self, s: f64) -> Vector2<f64> {
         let (curve, s) = self.curve_at(s);
         curve.point(s)
     }
 
     /// Returns the point `offset` metres to the left of the point `s` metres along the line.
+    #[inline]
     pub fn beside(&self, s: f64, offset: f64) -> Vector2<f64> {
         let (curve, s) = self.curve_at(s);
         curve.beside(s, offset)
     }
 
     /// Returns the heading of the line in radians, `s` metres along the line, in (-π, π].
+    #[inline]
     pub fn heading(&self, s: f64) -> f64 {
         let (curve, s) = self.curve_at(s);
         curve.heading(s)
     }
 
     /// Returns the unit vector in the direction of the line, `s` metres along the line.
+    #[inline]
     pub(super) fn forward(&self, s: f64) -> Vector2<f64> {
         let (curve, s) = self.curve_at(s);
         curve.forward(s)
     }
 
     /// Returns the axes of [`Centreline::at`], to the last bit; on a straight line it takes no sine.
+    #[inline]
     pub fn frame(&self, s: f64) -> Frame {
         let (curve, s) = self.curve_at(s);
         curve.frame(s)
     }
 
     /// Returns the position and the heading of the line, `s` metres along the line.
+    #[inline]
     pub fn at(&self, s: f64) -> Pose {
         let (curve, s) = self.curve_at(s);
         curve.at(s)
     }
 
     /// Returns the position and the heading at the start of the line.
+    #[inline]
     pub fn start(&self) -> Pose {
         self.first.start()
     }
 
     /// Returns the position and the heading at the end of the line.
+    #[inline]
     pub fn end(&self) -> Pose {
         self.last().end()
     }
@@ -124,6 +134,7 @@ impl Centreline {
     }
 
     /// Returns the distance in metres along the line to the line's point that is nearest to `point`.
+    #[inline]
     pub fn nearest(&self, point: Vector2<f64>) -> f64 {
         let Some(chain) = &self.chain else { return self.first.nearest(point) };
         let mut best = (f64::INFINITY, 0.0);
@@ -142,6 +153,7 @@ impl Centreline {
 
     /// Returns `true` only if all points of the line are more than `metres` metres away from a point. The test needs no
     /// square root and no sine.
+    #[inline]
     pub fn is_beyond(&self, point: Vector2<f64>, metres: f64) -> bool {
         match &self.chain {
             None => self.first.is_beyond(point, metres),

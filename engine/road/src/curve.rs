@@ -22,26 +22,31 @@ fn left_of(vector: Vector2<f64>) -> Vector2<f64> {
 
 impl Curve {
     /// Makes a curve of `length` metres from a pose `start`. `curvature` in 1/m is positive to the left, 0 for a line.
+    #[inline]
     pub fn new(start: Pose, curvature: f64, length: f64) -> Self {
         Self { start, forward: start.forward(), curvature, length }
     }
 
     /// Returns the length of the curve in metres.
+    #[inline]
     pub fn length(&self) -> f64 {
         self.length
     }
 
     /// Returns the curvature of the curve in 1/m; positive for a bend to the left, 0 for a straight line.
+    #[inline]
     pub fn curvature(&self) -> f64 {
         self.curvature
     }
 
     /// Returns the point `s` metres along the curve. Before its start and beyond its end the line or circle continues.
+    #[inline]
     pub fn point(&self, s: f64) -> Vector2<f64> {
         self.beside(s, 0.0)
     }
 
     /// Returns the point `offset` metres to the left of the point `s` metres along the curve.
+    #[inline]
     pub fn beside(&self, s: f64, offset: f64) -> Vector2<f64> {
         let left = left_of(self.forward);
         if self.curvature == 0.0 {
@@ -56,12 +61,14 @@ impl Curve {
     }
 
     /// Returns the heading of the curve in radians, `s` metres along the curve, in (-π, π].
+    #[inline]
     pub fn heading(&self, s: f64) -> f64 {
         wrapped(self.start.heading + self.curvature * s)
     }
 
     /// Returns the unit vector in the direction of the curve, `s` metres along the curve. It is the direction of
     /// [`Curve::at`], to the last bit; on a straight line it takes no sine.
+    #[inline]
     pub(super) fn forward(&self, s: f64) -> Vector2<f64> {
         let heading = self.heading(s);
         let is_start = heading.to_bits() == self.start.heading.to_bits();
@@ -69,21 +76,25 @@ impl Curve {
     }
 
     /// Returns the axes of [`Curve::at`], to the last bit; on a straight line it takes no sine.
+    #[inline]
     pub fn frame(&self, s: f64) -> Frame {
         Frame::new(self.point(s), self.forward(s))
     }
 
     /// Returns the position and the heading of the curve, `s` metres along the curve.
+    #[inline]
     pub fn at(&self, s: f64) -> Pose {
         Pose { position: self.point(s), heading: self.heading(s) }
     }
 
     /// Returns the position and the heading at the start of the curve.
+    #[inline]
     pub fn start(&self) -> Pose {
         self.at(0.0)
     }
 
     /// Returns the position and the heading at the end of the curve.
+    #[inline]
     pub fn end(&self) -> Pose {
         self.at(self.length)
     }
@@ -109,6 +120,7 @@ impl Curve {
 
     /// Returns `true` only if all points of the curve are more than `metres` metres away from a point. The test needs no
     /// square root and no sine: no point of the curve is farther from the start than the length.
+    #[inline]
     pub fn is_beyond(&self, point: Vector2<f64>, metres: f64) -> bool {
         // The margin is far above all rounding.
         let reach = self.length + metres + 1e-6;
@@ -135,6 +147,7 @@ impl Curve {
     }
 
     /// Returns the piece of the curve between two distances along it.
+    #[inline]
     pub(super) fn piece(&self, from: f64, to: f64) -> Self {
         Self::new(self.at(from), self.curvature, to - from)
     }

@@ -7,11 +7,13 @@ use super::centreline::Centreline;
 pub struct LaneId(pub(super) u32);
 
 impl LaneId {
+    #[inline]
     pub(super) fn new(index: usize) -> Self {
         Self(index as u32)
     }
 
     /// Returns the index of the lane in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
+    #[inline]
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -82,11 +84,13 @@ pub struct Lane {
 
 impl Lane {
     /// Returns the length of the lane in metres.
+    #[inline]
     pub fn length(&self) -> f64 {
         self.curve.length()
     }
 
     /// Returns the next lane to the left and the next lane to the right, if cars may change to these lanes.
+    #[inline]
     pub fn beside(&self) -> impl Iterator<Item = LaneId> {
         self.left.into_iter().chain(self.right)
     }

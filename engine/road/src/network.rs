@@ -173,6 +173,7 @@ impl RoadNetwork {
     }
 
     /// Returns all lanes of the network.
+    #[inline]
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
@@ -186,6 +187,7 @@ impl RoadNetwork {
     ///
     /// # Panics
     /// The lane belongs to another network, which has more lanes.
+    #[inline]
     pub fn lane(&self, id: LaneId) -> &Lane {
         &self.lanes[id.index()]
     }

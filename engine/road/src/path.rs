@@ -77,6 +77,7 @@ impl Path {
     }
 
     /// Returns `true` if the path was made from lanes.
+    #[inline]
     pub fn is_on_lanes(&self) -> bool {
         self.lanes.is_some()
     }
@@ -109,6 +110,7 @@ impl Path {
     }
 
     /// Returns the length of the path in metres.
+    #[inline]
     pub fn length(&self) -> f64 {
         self.length
     }
@@ -138,11 +140,13 @@ impl Path {
     }
 
     /// Returns the pose `s` metres along the path. Before its start and beyond its end the path continues straight.
+    #[inline]
     pub fn at(&self, s: f64) -> Pose {
         self.beside(s, 0.0)
     }
 
     /// Returns the pose `offset` metres to the left of the pose `s` metres along the path.
+    #[inline]
     pub fn beside(&self, s: f64, offset: f64) -> Pose {
         // Beyond both ends the path continues straight.
         let inside = s.max(0.0).min(self.length);
@@ -158,6 +162,7 @@ impl Path {
 
     /// Returns the points and the curvatures of the path at the given distances along the path, which ascend. They are
     /// the positions of [`Path::at`] and the curvatures of [`Path::curvature`], at a lower cost.
+    #[inline]
     pub fn points<const N: usize>(&self, places: [f64; N]) -> [(Vector2<f64>, f64); N] {
         let mut piece = self.index(places[0]);
         places.map(|s| {
@@ -177,6 +182,7 @@ impl Path {
     }
 
     /// Returns the curvature of the path at the place `s`, in 1/m, positive to the left; 0 beyond the ends of the path.
+    #[inline]
     pub fn curvature(&self, s: f64) -> f64 {
         let inside = (0.0..=self.length).contains(&s);
         if inside { self.pieces[self.index(s)].1.curvature() } else { 0.0 }
@@ -216,6 +222,7 @@ impl Path {
     }
 
     /// Returns the index of the curve that contains the point `s` metres along the path.
+    #[inline]
     fn index(&self, s: f64) -> usize {
         index(&self.pieces, s)
     }
@@ -232,6 +239,7 @@ impl Path {
 }
 
 /// Returns the index of the last piece that begins at most `s` metres along the path.
+#[inline]
 fn index(pieces: &[(f64, Curve)], s: f64) -> usize {
     pieces.partition_point(|(from, _)| *from <= s).max(1) - 1
 }
