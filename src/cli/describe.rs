@@ -7,6 +7,7 @@ use super::{Failure, Status, Verbosity, print};
 use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup};
 use crate::oracles::signal;
 use crate::space::Value;
+use crate::standards::opendrive;
 use clap::Args;
 use paracosm_campaign::{Error, Study};
 use paracosm_report::{birds_eye, plot};
@@ -24,6 +25,9 @@ pub(super) struct Options {
     /// Draw the world from above at time 0, with values of --set and nominal values, to a file: .svg or .png
     #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "format"])]
     draw: Option<PathBuf>,
+    /// Write the roads of the world to a file of ASAM OpenDRIVE: .xodr
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "draw", "format"])]
+    roads: Option<PathBuf>,
     /// The form of the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
@@ -40,6 +44,12 @@ impl Options {
             verbosity.note(target.write(|kind| draw(&study, program, &declaration, kind))?);
             return Ok(Status::Nothing);
         }
+        if let Some(file) = &self.roads {
+            let target = Target::new("--roads", file, &[FileKind::Xodr], &self.subject.files())?;
+            let run = world(&study, program, &declaration)?;
+            verbosity.note(target.write(|_| Ok(opendrive::write(run.network(), program.name())?.into_bytes()))?);
+            return Ok(Status::Nothing);
+        }
         let text = match Format::or_fitting(self.format) {
             _ if self.dot => program.dot()?,
             Format::Table => table(&study, program, &declaration)?,
@@ -49,17 +59,21 @@ impl Options {
     }
 }
 
-/// The world from above.
-fn draw(study: &Study, program: &Program, declaration: &Declaration, kind: FileKind) -> Result<Vec<u8>, Failure> {
+/// The world at the beginning of a run.
+fn world(study: &Study, program: &Program, declaration: &Declaration) -> Result<Run, Failure> {
     let values = declaration.parameters.iter().map(|declared| {
         let name = &declared.parameter.name;
         (name.clone(), study.fixed().get(name).cloned().unwrap_or_else(|| declared.nominal()))
     });
-    let run = Run::new(program, &values.collect(), Setup::asking_every(DEFAULT_DT))?;
-    let drawing = birds_eye::world(&run, program.name());
+    Ok(Run::new(program, &values.collect(), Setup::asking_every(DEFAULT_DT))?)
+}
+
+/// The world from above.
+fn draw(study: &Study, program: &Program, declaration: &Declaration, kind: FileKind) -> Result<Vec<u8>, Failure> {
+    let drawing = birds_eye::world(&world(study, program, declaration)?, program.name());
     match kind {
         FileKind::Svg => Ok(drawing.svg().into_bytes()),
-        FileKind::Png | FileKind::Gif | FileKind::Csv => plot::drawing_png(&drawing),
+        FileKind::Png | FileKind::Gif | FileKind::Csv | FileKind::Xodr => plot::drawing_png(&drawing),
     }
 }
 

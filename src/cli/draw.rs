@@ -1,4 +1,4 @@
-//! The files that pictures are written to: `--draw` of `paracosm-fuzz describe` and `replay`, `--out` of `map`.
+//! The files that pictures, tables and roads are written to: `--draw` of `paracosm-fuzz describe` and `replay`, `--out` of `map`.
 //!
 //! Older pictures and reports are replaced, since they can be made again. Files of a campaign are never replaced.
 
@@ -17,6 +17,7 @@ pub(super) enum FileKind {
     Png,
     Gif,
     Csv,
+    Xodr,
 }
 
 impl FileKind {
@@ -26,6 +27,7 @@ impl FileKind {
             FileKind::Png => "png",
             FileKind::Gif => "gif",
             FileKind::Csv => "csv",
+            FileKind::Xodr => "xodr",
         }
     }
 }
@@ -71,7 +73,11 @@ impl Target {
     ) -> Result<String, Error> {
         let contents = drawn(self.kind).map_err(|source| Breakdown::Drawing { path: self.path.clone(), source })?;
         write_whole(&self.path, &contents)?;
-        let what = if self.kind == FileKind::Csv { "table" } else { "picture" };
+        let what = match self.kind {
+            FileKind::Csv => "table",
+            FileKind::Xodr => "road network",
+            FileKind::Svg | FileKind::Png | FileKind::Gif => "picture",
+        };
         Ok(format!("{what} of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
     }
 }

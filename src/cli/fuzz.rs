@@ -77,7 +77,8 @@ enum Verb {
     #[command(
         after_help = "Examples:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg\n  \
                             paracosm-fuzz describe pedestrian-crossing --set friction=0.3 --open lanes\n  \
-                            paracosm-fuzz describe pedestrian-crossing --draw world.svg"
+                            paracosm-fuzz describe pedestrian-crossing --draw world.svg\n  \
+                            paracosm-fuzz describe grid-traffic --roads city.xodr"
     )]
     Describe(Box<describe::Options>),
     /// Draw the failure map of a campaign again, over other parameters

@@ -124,6 +124,6 @@ fn contents(map: &FailureMap, kind: FileKind) -> Result<Vec<u8>, Failure> {
             Ok(estimate.ok_or("nothing is estimated: an estimate needs a failing test and a passing test")?.csv())
         }
         FileKind::Png => Picture::of(map.clone()).png(),
-        FileKind::Svg | FileKind::Gif => Ok(Picture::of(map.clone()).svg()?.into_bytes()),
+        FileKind::Svg | FileKind::Gif | FileKind::Xodr => Ok(Picture::of(map.clone()).svg()?.into_bytes()),
     }
 }

@@ -240,7 +240,7 @@ fn draw(record: &MotionRecord, kind: FileKind, caption: &str) -> Result<Vec<u8>,
         FileKind::Svg => Ok(story()?.svg().into_bytes()),
         FileKind::Png => plot::drawing_png(&story()?),
         FileKind::Gif => plot::film_gif(&record.film(FILM, caption).ok_or(nothing)?),
-        FileKind::Csv => unreachable!("the target takes no CSV"),
+        FileKind::Csv | FileKind::Xodr => unreachable!("the target takes pictures only"),
     }
 }
 

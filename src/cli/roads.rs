@@ -4,8 +4,8 @@ use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
-use crate::engine::road::RoadNetwork;
-use crate::standards::opendrive::{Map, Note, borders};
+use crate::engine::road::{Lane, RoadNetwork};
+use crate::standards::opendrive::{Map, Note, Road, borders};
 use clap::Args;
 use paracosm_report::{birds_eye::RoadPicture, plot};
 use serde_json::json;
@@ -61,12 +61,12 @@ impl Options {
                 let drawing = RoadPicture::of(&network).drawing();
                 match kind {
                     FileKind::Svg => Ok(drawing.svg().into_bytes()),
-                    FileKind::Png | FileKind::Gif | FileKind::Csv => plot::drawing_png(&drawing),
+                    _ => plot::drawing_png(&drawing),
                 }
             })?);
         }
         if let Some(target) = &lanes {
-            let of_road = |road: &crate::standards::opendrive::Road| {
+            let of_road = |road: &Road| {
                 let sections = road.sections.iter();
                 sections.map(|of| of.lanes.len() as f64 * ((of.end - of.s) / self.step + 2.0)).sum::<f64>()
             };
@@ -113,7 +113,7 @@ fn road_metres(map: &Map) -> f64 {
 }
 
 fn lane_metres(network: &RoadNetwork) -> f64 {
-    network.lanes().iter().map(|lane| lane.length()).sum()
+    network.lanes().iter().map(Lane::length).sum()
 }
 
 fn table(map: &Map, network: &RoadNetwork) -> String {

@@ -94,3 +94,15 @@ fn wrong_options_are_refused_before_the_file_is_read() {
     let many = fuzz(dir.path(), &["roads", "bend.xodr", "--step", "5"]);
     assert_eq!(many.status.code(), Some(2), "{}", stderr(&many));
 }
+
+#[test]
+fn the_roads_of_a_scenario_are_written_and_read_again() {
+    let dir = folder(BEND);
+    for scenario in ["pedestrian-crossing", "grid-traffic", "roundabout-entry", "t-loop"] {
+        succeeds(fuzz(dir.path(), &["describe", scenario, "--roads", "world.xodr"]));
+        let json = stdout(&succeeds(fuzz(dir.path(), &["roads", "world.xodr"])));
+        let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
+        assert!(json["lanes"].as_u64() > Some(1) && json["notes"].as_array().is_some_and(Vec::is_empty), "{json}");
+    }
+    refused(&fuzz(dir.path(), &["describe", "t-loop", "--roads", "world.svg"]), &["expected .xodr"]);
+}

@@ -61,7 +61,7 @@ pub use element::{
 pub use error::RoadError;
 pub use geometry::{Frame, Pose, Side, wrapped};
 pub use lane::{Lane, LaneConflict, LaneId, LaneKind};
-pub use network::{Crossing, RoadNetwork};
+pub use network::{Crossing, EvenRoad, RoadNetwork};
 pub use path::Path;
 pub use projection::LanePosition;
 pub use route::{Route, RoutePosition};

@@ -55,6 +55,21 @@ pub(super) enum Course {
     Surveyed { centre: Centreline, spans: Vec<[f64; 2]> },
 }
 
+/// A road with the same cross-section everywhere, as [`RoadSegment`](super::RoadSegment) describes it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EvenRoad {
+    /// The index of the road in [`RoadNetwork::elements`].
+    pub element: usize,
+    /// The line in the middle of the road.
+    pub centre: Curve,
+    /// The number of lanes in each direction.
+    pub each_way: i32,
+    /// The width of a lane in metres.
+    pub lane_width: f64,
+    /// The width of a sidewalk on each side in metres; 0 if the road has none.
+    pub sidewalk: f64,
+}
+
 /// A zebra crossing over a road.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crossing {
@@ -190,6 +205,23 @@ impl RoadNetwork {
     #[inline]
     pub fn lane(&self, id: LaneId) -> &Lane {
         &self.lanes[id.index()]
+    }
+
+    /// Returns the roads with the same cross-section everywhere; `None` if the network has a road of a file.
+    pub fn even_roads(&self) -> Option<Vec<EvenRoad>> {
+        let courses =
+            self.elements.iter().enumerate().filter_map(|(index, placed)| Some((index, placed.course.as_ref()?)));
+        let even = |(element, course): (usize, &Course)| match course {
+            Course::Even { centre, profile } => Some(EvenRoad {
+                element,
+                centre: *centre,
+                each_way: profile.each_way(),
+                lane_width: profile.lane_width,
+                sidewalk: profile.sidewalk,
+            }),
+            Course::Surveyed { .. } => None,
+        };
+        courses.map(even).collect()
     }
 
     /// Returns the identifier of the lane with a given number on a road; the first one along the road, if lanes with the number

@@ -7,9 +7,12 @@ use super::layout::{CLOSE, span};
 use super::network::{Course, Placed, RoadNetwork};
 use super::strip::Strip;
 use crate::geometry::wrapped;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::Arc;
+
+/// The distance in metres up to which two lanes begin at the same place.
+const TOGETHER: f64 = 0.01;
 
 /// A road network that is described lane by lane. [`Survey::build`] finds the lanes that are in each other's way, and makes the
 /// network.
@@ -21,7 +24,7 @@ use std::sync::Arc;
 /// let centre = Curve::new(Pose { position: Vector2::zeros(), heading: 0.0 }, 0.0, 80.0);
 /// let lane = SurveyedLane { width: 3.5, ..SurveyedLane::new(0, 1, [0.0, 80.0], centre.into()) };
 /// let road = SurveyedRoad { name: "7".to_owned(), centre: centre.into(), junction: None };
-/// let network = Survey { roads: vec![road], lanes: vec![lane], strips: Vec::new() }.build()?;
+/// let network = Survey { roads: vec![road], lanes: vec![lane], ..Survey::default() }.build()?;
 /// assert_eq!(network.on_lane("7", 1, 30.0)?.position.x, 30.0);
 /// # Ok::<(), paracosm_road::RoadError>(())
 /// ```
@@ -33,6 +36,8 @@ pub struct Survey {
     pub lanes: Vec<SurveyedLane>,
     /// The visible surfaces of the network.
     pub strips: Vec<Strip>,
+    /// Pairs of roads of a junction, by their indices: cars on the second road give way to cars on the first road.
+    pub priorities: Vec<[usize; 2]>,
 }
 
 /// A road of a [`Survey`].
@@ -67,21 +72,19 @@ pub struct SurveyedLane {
     pub right: Option<usize>,
     /// The lanes that begin at the end of the lane.
     pub successors: Vec<usize>,
-    /// The rank of the lane in its junction: a car gives way to cars on lanes of a higher rank.
-    pub rank: i32,
 }
 
 impl SurveyedLane {
     /// Makes a lane of a road without neighbours and successors, 3.5 m wide.
     pub fn new(road: usize, number: i32, span: [f64; 2], line: Centreline) -> Self {
         let (left, right, successors, kind) = (None, None, Vec::new(), LaneKind::Road);
-        Self { road, number, kind, span, line, width: 3.5, left, right, successors, rank: 0 }
+        Self { road, number, kind, span, line, width: 3.5, left, right, successors }
     }
 }
 
 impl Survey {
-    /// Builds the network. Of two lanes of a junction that cross or join, one gives way: the lane of the lower rank; else a lane
-    /// that turns left to a lane from ahead; else a lane to a lane from its right.
+    /// Builds the network. Of two lanes of a junction that cross or join, one gives way: as [`Survey::priorities`] says; else a
+    /// lane that turns left to a lane from ahead; else a lane to a lane from its right.
     ///
     /// # Errors
     /// Two roads have the same name, there are no lanes, or a number is not finite.
@@ -90,7 +93,8 @@ impl Survey {
     /// An index names no road or lane.
     pub fn build(self) -> Result<Arc<RoadNetwork>, RoadError> {
         self.check()?;
-        let Self { roads, lanes: drafts, strips } = self;
+        let Self { roads, lanes: drafts, strips, priorities } = self;
+        let priorities: BTreeSet<[usize; 2]> = priorities.into_iter().collect();
         let mut order: Vec<usize> = (0..drafts.len()).collect();
         // The lanes of a road follow one another in the network.
         order.sort_by_key(|index| drafts[*index].road);
@@ -119,8 +123,7 @@ impl Survey {
                 junctions.entry(junction).or_default().push(place);
             }
         }
-        let ranks: Vec<i32> = order.iter().map(|index| drafts[*index].rank).collect();
-        junctions.values().for_each(|of_one| find_conflicts(&mut lanes, of_one, &ranks));
+        junctions.values().for_each(|of_one| find_conflicts(&mut lanes, of_one, &priorities));
         let mut end = 0;
         let element = |(index, road): (usize, SurveyedRoad)| {
             let start = end;
@@ -169,7 +172,7 @@ impl Survey {
 
 /// Finds the conflicts between lanes of a junction: lanes that cross or join. Lanes that part from one another, or follow one
 /// another, are in no conflict.
-fn find_conflicts(lanes: &mut [Lane], of_one: &[usize], ranks: &[i32]) {
+fn find_conflicts(lanes: &mut [Lane], of_one: &[usize], priorities: &BTreeSet<[usize; 2]>) {
     let mut before: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (index, lane) in lanes.iter().enumerate() {
         lane.successors.iter().for_each(|next| before.entry(next.index()).or_default().push(index));
@@ -177,7 +180,8 @@ fn find_conflicts(lanes: &mut [Lane], of_one: &[usize], ranks: &[i32]) {
     for (i, &b) in of_one.iter().enumerate() {
         for &a in &of_one[..i] {
             let [one, other] = [&lanes[a], &lanes[b]];
-            let parted = before_both(&before, [a, b]);
+            let starts = [one, other].map(|lane| lane.curve.start().position);
+            let parted = before_both(&before, [a, b]) || (starts[0] - starts[1]).norm() < TOGETHER;
             let is_beside = one.left == Some(LaneId::new(b)) || one.right == Some(LaneId::new(b));
             let follows = one.successors.contains(&LaneId::new(b)) || other.successors.contains(&LaneId::new(a));
             let close = CLOSE * 0.5 * (one.width + other.width);
@@ -186,7 +190,7 @@ fn find_conflicts(lanes: &mut [Lane], of_one: &[usize], ranks: &[i32]) {
             }
             let spans = [span(&one.curve, &other.curve, close), span(&other.curve, &one.curve, close)];
             if let [Some(span), Some(other_span)] = spans {
-                let rules = [gives_way(one, other, [ranks[a], ranks[b]]), gives_way(other, one, [ranks[b], ranks[a]])];
+                let rules = [gives_way(one, other, priorities), gives_way(other, one, priorities)];
                 let conflict = |with, (from, to): (f64, f64), gives_way| LaneConflict {
                     with: LaneId::new(with),
                     from,
@@ -207,9 +211,10 @@ fn before_both(before: &BTreeMap<usize, Vec<usize>>, [a, b]: [usize; 2]) -> bool
 }
 
 /// Returns `true` if a lane gives way to another lane of the same junction.
-fn gives_way(lane: &Lane, other: &Lane, [rank, others]: [i32; 2]) -> bool {
-    if rank != others {
-        return rank < others;
+fn gives_way(lane: &Lane, other: &Lane, priorities: &BTreeSet<[usize; 2]>) -> bool {
+    let goes_first = |first: &Lane, second: &Lane| priorities.contains(&[first.element, second.element]);
+    if goes_first(lane, other) != goes_first(other, lane) {
+        return goes_first(other, lane);
     }
     let turned = wrapped(other.curve.start().heading - lane.curve.start().heading);
     if turned.abs() > PI - FRAC_PI_4 {

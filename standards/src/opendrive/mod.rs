@@ -35,6 +35,7 @@ mod plan_view;
 mod read;
 mod road;
 mod table;
+mod write;
 
 pub use cubics::{Cubic, Cubics};
 pub use elements::{Supported, elements};
@@ -44,3 +45,4 @@ pub use note::Note;
 pub use plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 pub use road::{Direction, End, Extent, Lane, LaneChange, LaneType, Link, MarkType, Road, RoadMark, Section, Traffic};
 pub use table::{Border, borders};
+pub use write::{FromFile, write};

@@ -5,7 +5,6 @@
 //! identifiers.
 
 use super::arcs::{Beside, reversed};
-use super::junction::Junction;
 use super::map::Map;
 use super::paving;
 use super::road::{Direction, End, Lane, LaneChange, Link, Road, Section, Traffic};
@@ -32,6 +31,8 @@ impl Map {
     /// The file has no lanes that cars drive on.
     pub fn network(&self) -> Result<Arc<RoadNetwork>, RoadError> {
         let mut survey = Survey::default();
+        let priorities = self.junctions.iter().flat_map(|junction| &junction.priorities);
+        survey.priorities = priorities.map(|(first, second)| [*first, *second]).collect();
         let mut indices: BTreeMap<Key, usize> = BTreeMap::new();
         for (r, road) in self.roads.iter().enumerate() {
             let cuts = road.cuts();
@@ -80,8 +81,7 @@ impl Map {
             Some(_) => turn(&arcs),
         };
         let width = road.width(s, lane.number, 0.5 * (section.s + section.end)).max(0.1);
-        let rank = road.junction.map_or(0, |junction| rank(&self.junctions[junction], index));
-        SurveyedLane { kind, width, rank, ..SurveyedLane::new(index, -lane.number, span, Centreline::new(arcs)) }
+        SurveyedLane { kind, width, ..SurveyedLane::new(index, -lane.number, span, Centreline::new(arcs)) }
     }
 
     /// Returns the lane with a number beside a lane, if it leads in the same direction and cars may change to it.
@@ -197,10 +197,4 @@ fn turn(arcs: &[Curve]) -> LaneKind {
         angle if angle < -FRAC_PI_6 => LaneKind::Right,
         _ => LaneKind::Straight,
     }
-}
-
-/// Returns the rank of a road in its junction.
-fn rank(junction: &Junction, road: usize) -> i32 {
-    let of = |(high, low): &(usize, usize)| i32::from(*high == road) - i32::from(*low == road);
-    junction.priorities.iter().map(of).sum()
 }

@@ -17,7 +17,7 @@ pub(crate) struct Document(Source);
 impl Document {
     /// Reads a file.
     pub fn open(file: &Path) -> Result<Self, ReadError> {
-        let fails = |flaw| ReadError { file: file.to_owned(), line: None, flaw };
+        let fails = |flaw| ReadError { file: file.to_owned(), line: None, flaw: Box::new(flaw) };
         let mut bytes = Vec::new();
         let opened = File::open(file).map_err(|error| fails(Flaw::Unreadable(error)))?;
         opened.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| fails(Flaw::Unreadable(error)))?;
@@ -43,7 +43,7 @@ impl Document {
                 roxmltree::Error::DtdDetected => Flaw::DocumentType,
                 error => Flaw::Malformed(Malformed(error)),
             };
-            ReadError { file: self.0.file().to_owned(), line, flaw }
+            ReadError { file: self.0.file().to_owned(), line, flaw: Box::new(flaw) }
         })
     }
 

@@ -29,7 +29,7 @@ impl<'a, 'i> Element<'a, 'i> {
 
     /// Makes an error at the place of the element.
     pub fn error(&self, flaw: Flaw) -> ReadError {
-        ReadError { file: self.source.file().to_owned(), line: Some(self.line()), flaw }
+        ReadError { file: self.source.file().to_owned(), line: Some(self.line()), flaw: Box::new(flaw) }
     }
 
     /// Returns all elements directly within this one, in the order of the file.

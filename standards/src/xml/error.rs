@@ -15,7 +15,7 @@ pub struct ReadError {
     pub line: Option<u32>,
     /// The error itself.
     #[source]
-    pub flaw: Flaw,
+    pub flaw: Box<Flaw>,
 }
 
 /// The description of an error in a file of a standard. The names of elements and attributes are those of the file.

@@ -6,9 +6,11 @@ mod element;
 mod error;
 mod schema;
 mod source;
+mod writer;
 
 pub(crate) use document::Document;
 pub(crate) use element::Element;
 pub use error::{Flaw, Malformed, ReadError};
 pub use schema::{NoEffect, Support};
 pub(crate) use schema::{Row, Schema, no_effect, read, refused};
+pub(crate) use writer::Writer;

@@ -37,8 +37,8 @@ fn farthest(map: &Map, borders: &Borders) -> ((f64, String), f64) {
         for (i, [x, y, _, heading]) in points.iter().enumerate() {
             let s = of.s + (of.end - of.s) * i as f64 / (points.len() - 1) as f64;
             let point = road.point(s, road.border(*section, *lane, s).expect("the lane"));
-            let distance = (point.x - x).hypot(point.y - y);
-            let turned = (road.lane_heading(*section, *lane, s).expect("the lane") - heading).sin().abs();
+            let distance = libm::hypot(point.x - x, point.y - y);
+            let turned = libm::sin(road.lane_heading(*section, *lane, s).expect("the lane") - heading).abs();
             turn = turn.max(turned);
             if distance > worst.0 {
                 worst = (distance, format!("road {id}, section {section}, lane {lane}, s = {s}"));

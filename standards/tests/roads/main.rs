@@ -4,3 +4,4 @@ mod cases;
 mod lanes;
 mod networks;
 mod others;
+mod round_trip;
