@@ -72,6 +72,11 @@ fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
     let names: Vec<&str> = network.elements().collect();
     let mut roads: Vec<Road> =
         network.even_roads()?.iter().map(|road| even(network, road, names[road.element])).collect();
+    // A junction without roads that lead to it is no junction of the standard.
+    let has_roads = |element: usize| {
+        let mut lanes = network.lanes().iter().filter(|lane| lane.element == element);
+        lanes.any(|lane| lane.predecessors.iter().any(|before| network.lane(*before).element != element))
+    };
     for id in network.ids() {
         let lane = network.lane(id);
         // The leftmost of the lanes beside each other stands for all.
@@ -86,7 +91,7 @@ fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
         }
         roads.push(Road {
             name: names[lane.element].to_owned(),
-            junction: (lane.kind != LaneKind::Ring).then_some(lane.element),
+            junction: (lane.kind != LaneKind::Ring && has_roads(lane.element)).then_some(lane.element),
             line: *lane.curve.curves().next()?,
             offset: 0.5 * lane.width,
             width: lane.width,

@@ -1,6 +1,7 @@
 //! Files of roads: our own small files, and published maps with the results of another program.
 
 mod cases;
+mod judge;
 mod lanes;
 mod networks;
 mod others;

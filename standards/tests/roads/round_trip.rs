@@ -8,7 +8,8 @@ use paracosm_engine::road::{
 use paracosm_standards::opendrive::{Map, Note, write};
 use std::sync::Arc;
 
-fn networks() -> Vec<(&'static str, Arc<RoadNetwork>)> {
+/// Networks of all kinds of elements.
+pub fn networks() -> Vec<(&'static str, Arc<RoadNetwork>)> {
     let road = |length: f64, name: &str| RoadSegment::new(length).lanes(4).named(name);
     let tee =
         TIntersection::new().lanes(4).connect("one", road(50.0, "e"), "two").connect("two", road(50.0, "s"), "one");
@@ -25,7 +26,7 @@ fn networks() -> Vec<(&'static str, Arc<RoadNetwork>)> {
         ("tee", built(tee)),
         ("bent", built(bent)),
         ("roundabout", built(ring)),
-        ("crossing", CrossIntersection::new().lanes(4).build().expect("it is sound")),
+        ("crossing", built(CrossIntersection::new().lanes(4).connect("one", arm("a"), "one"))),
         ("city", built(grid_city(3, 4, 60.0, 4))),
     ]
 }
