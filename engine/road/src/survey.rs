@@ -123,7 +123,11 @@ impl Survey {
                 junctions.entry(junction).or_default().push(place);
             }
         }
-        junctions.values().for_each(|of_one| find_conflicts(&mut lanes, of_one, &priorities));
+        let mut before: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (index, lane) in lanes.iter().enumerate() {
+            lane.successors.iter().for_each(|next| before.entry(next.index()).or_default().push(index));
+        }
+        junctions.values().for_each(|of_one| find_conflicts(&mut lanes, of_one, &before, &priorities));
         let mut end = 0;
         let element = |(index, road): (usize, SurveyedRoad)| {
             let start = end;
@@ -172,16 +176,17 @@ impl Survey {
 
 /// Finds the conflicts between lanes of a junction: lanes that cross or join. Lanes that part from one another, or follow one
 /// another, are in no conflict.
-fn find_conflicts(lanes: &mut [Lane], of_one: &[usize], priorities: &BTreeSet<[usize; 2]>) {
-    let mut before: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (index, lane) in lanes.iter().enumerate() {
-        lane.successors.iter().for_each(|next| before.entry(next.index()).or_default().push(index));
-    }
+fn find_conflicts(
+    lanes: &mut [Lane],
+    of_one: &[usize],
+    before: &BTreeMap<usize, Vec<usize>>,
+    priorities: &BTreeSet<[usize; 2]>,
+) {
     for (i, &b) in of_one.iter().enumerate() {
         for &a in &of_one[..i] {
             let [one, other] = [&lanes[a], &lanes[b]];
             let starts = [one, other].map(|lane| lane.curve.start().position);
-            let parted = before_both(&before, [a, b]) || (starts[0] - starts[1]).norm() < TOGETHER;
+            let parted = before_both(before, [a, b]) || (starts[0] - starts[1]).norm() < TOGETHER;
             let is_beside = one.left == Some(LaneId::new(b)) || one.right == Some(LaneId::new(b));
             let follows = one.successors.contains(&LaneId::new(b)) || other.successors.contains(&LaneId::new(a));
             let close = CLOSE * 0.5 * (one.width + other.width);

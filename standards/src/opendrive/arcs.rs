@@ -10,6 +10,10 @@ use paracosm_engine::road::Curve;
 const EXACT: f64 = 0.0005;
 /// The length in metres of a piece that is not divided further.
 const SHORTEST: f64 = 0.05;
+/// The length in metres up to which an arc is a point and left out.
+const POINT: f64 = 1e-9;
+/// The number of arcs of one line from which on pieces are not divided further.
+const MOST: usize = 100_000;
 /// The greatest turn in radians of one arc.
 const TURN: f64 = 1.0;
 
@@ -44,11 +48,12 @@ impl<F: Fn(f64) -> f64> Beside<'_, F> {
         let mut start = from;
         while let Some(&end) = ends.last() {
             let arc = self.arc(start, end);
-            if end - start > SHORTEST && !(self.follows(&arc, start, end) && is_fine(start, end)) {
+            let may_divide = end - start > SHORTEST && arcs.len() < MOST;
+            if may_divide && !(self.follows(&arc, start, end) && is_fine(start, end)) {
                 ends.push(0.5 * (start + end));
                 continue;
             }
-            if arc.length() > 0.0 {
+            if arc.length() > POINT {
                 arcs.push((end, arc));
             }
             start = end;

@@ -37,12 +37,16 @@ impl Map {
         for (r, road) in self.roads.iter().enumerate() {
             let cuts = road.cuts();
             let centre = Beside { road, offset: |_| 0.0 }.arcs([0.0, road.length], &cuts, |_, _| true);
-            let centre = Centreline::new(centre.into_iter().map(|(_, arc)| arc));
+            let straight = || Curve::new(road.line.at(0.0), 0.0, road.length).into();
+            let centre = centre.into_iter().map(|(_, arc)| arc).collect::<Vec<_>>();
+            let centre = if centre.is_empty() { straight() } else { Centreline::new(centre) };
             survey.roads.push(SurveyedRoad { name: road.id.clone(), centre, junction: road.junction });
             for (s, section) in road.sections.iter().enumerate() {
                 for lane in section.lanes.iter().filter(|lane| road.is_driven(s, lane)) {
-                    indices.insert((r, s, lane.number), survey.lanes.len());
-                    survey.lanes.push(self.surveyed(r, s, lane, &cuts));
+                    if let Some(surveyed) = self.surveyed(r, s, lane, &cuts) {
+                        indices.insert((r, s, lane.number), survey.lanes.len());
+                        survey.lanes.push(surveyed);
+                    }
                 }
                 paving::pave(road, s, &cuts, &mut survey.strips);
             }
@@ -65,7 +69,8 @@ impl Map {
         survey.build()
     }
 
-    fn surveyed(&self, index: usize, s: usize, lane: &Lane, cuts: &[f64]) -> SurveyedLane {
+    /// Returns a lane of the survey; `None` if the lane has no length, as on the inner side of a tight bend.
+    fn surveyed(&self, index: usize, s: usize, lane: &Lane, cuts: &[f64]) -> Option<SurveyedLane> {
         let road = &self.roads[index];
         let section = &road.sections[s];
         let middle = |at: f64| road.middle(s, lane.number, at);
@@ -81,7 +86,8 @@ impl Map {
             Some(_) => turn(&arcs),
         };
         let width = road.width(s, lane.number, 0.5 * (section.s + section.end)).max(0.1);
-        SurveyedLane { kind, width, ..SurveyedLane::new(index, -lane.number, span, Centreline::new(arcs)) }
+        let line = (!arcs.is_empty()).then(|| Centreline::new(arcs))?;
+        Some(SurveyedLane { kind, width, ..SurveyedLane::new(index, -lane.number, span, line) })
     }
 
     /// Returns the lane with a number beside a lane, if it leads in the same direction and cars may change to it.

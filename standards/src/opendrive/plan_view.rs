@@ -205,6 +205,12 @@ impl Polynomials {
         pair
     }
 
+    /// Returns `true` if the curve has a finite length that is not zero.
+    pub(super) fn has_length(&self) -> bool {
+        let length = self.knots[KNOTS];
+        length > 0.0 && length.is_finite()
+    }
+
     /// Returns the coefficients a, b, c and d of u(p) and of v(p).
     pub fn coefficients(&self) -> [[f64; 4]; 2] {
         [self.u, self.v]

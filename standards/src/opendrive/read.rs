@@ -10,10 +10,15 @@ use super::road::{
 use crate::xml::{Element, ReadError};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
+use std::ops::RangeInclusive;
 
 /// The oldest and the newest minor version that are supported; the major version is 1.
 pub(super) const OLDEST: u32 = 4;
 const NEWEST: u32 = 8;
+
+/// The greatest length of a road in metres, and the greatest turn of a piece of a reference line in radians.
+const LONGEST: f64 = 100_000.0;
+const MOST_TURN: f64 = 1000.0;
 
 /// The tolerance in metres for places at the ends of a road.
 const CLOSE: f64 = 1e-3;
@@ -42,6 +47,9 @@ fn version(header: Element<'_, '_>) -> Result<u32, ReadError> {
 
 fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> {
     let length = positive(element, "length")?;
+    if length > LONGEST {
+        return Err(element.unexpected("length", format!("at most {LONGEST} m")));
+    }
     let lanes = element.child("lanes")?;
     let profile =
         |name, child| element.first(name).map_or(Ok(Cubics::default()), |profile| cubics(profile, child, "s", 0.0));
@@ -107,11 +115,18 @@ fn numbers<const N: usize>(element: Element<'_, '_>, attributes: [&'static str; 
 }
 
 fn plan_view(element: Element<'_, '_>) -> Result<PlanView, ReadError> {
-    let mut before = 0.0;
+    let (mut before, mut is_first) = (0.0, true);
     let geometry = |of: Element<'_, '_>| {
         let s = place(of, "s", &mut before)?;
         let [x, y, heading] = numbers(of, ["x", "y", "hdg"])?;
         let length = of.length("length")?;
+        if length > LONGEST {
+            return Err(of.unexpected("length", format!("at most {LONGEST} m")));
+        }
+        if is_first && s > CLOSE {
+            return Err(of.unexpected("s", "0 for the first piece"));
+        }
+        is_first = false;
         let start = Pose { position: Vector2::new(x, y), heading };
         Ok(Geometry { s, length, start, shape: shape(of, length)? })
     };
@@ -123,9 +138,15 @@ fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
     for element in geometry.elements() {
         return Ok(match element.name() {
             "line" => Shape::Line,
-            "arc" => Shape::Arc { curvature: element.number("curvature")? },
-            "spiral" => Shape::Spiral(Spiral::new(element.number("curvStart")?, element.number("curvEnd")?, length)),
-            "poly3" => Shape::Polynomials(Polynomials::graph(numbers(element, ["a", "b", "c", "d"])?, length)),
+            "arc" => Shape::Arc { curvature: curvature(element, "curvature", length)? },
+            "spiral" => {
+                let [from, to] = ["curvStart", "curvEnd"].map(|name| curvature(element, name, length));
+                Shape::Spiral(Spiral::new(from?, to?, length))
+            }
+            "poly3" => {
+                let pair = Polynomials::graph(numbers(element, ["a", "b", "c", "d"])?, length);
+                polynomials(element, "b", length, pair)?
+            }
             "paramPoly3" => {
                 let end = match element.text("pRange") {
                     None => 1.0,
@@ -133,12 +154,37 @@ fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
                 };
                 let u = numbers(element, ["aU", "bU", "cU", "dU"])?;
                 let v = numbers(element, ["aV", "bV", "cV", "dV"])?;
-                Shape::Polynomials(Polynomials::new(u, v, [end, length]))
+                polynomials(element, "bU", length, Polynomials::new(u, v, [end, length]))?
             }
             _ => continue,
         });
     }
     Err(geometry.lacks("line, arc, spiral, poly3 or paramPoly3"))
+}
+
+/// Checks that a curve of polynomials has a length. `attribute` is the coefficient that usually gives it.
+fn polynomials(
+    element: Element<'_, '_>,
+    attribute: &'static str,
+    length: f64,
+    pair: Polynomials,
+) -> Result<Shape, ReadError> {
+    if length == 0.0 || pair.has_length() {
+        Ok(Shape::Polynomials(pair))
+    } else {
+        Err(element.unexpected(attribute, format!("coefficients of a curve that is about {length} m long")))
+    }
+}
+
+/// Returns the curvature in an attribute. A piece of `length` metres with this curvature must not turn too often.
+fn curvature(element: Element<'_, '_>, attribute: &'static str, length: f64) -> Result<f64, ReadError> {
+    let curvature = element.number(attribute)?;
+    if curvature.abs() * length <= MOST_TURN {
+        Ok(curvature)
+    } else {
+        let most = MOST_TURN / length;
+        Err(element.unexpected(attribute, format!("a magnitude of at most {most} 1/m for a length of {length} m")))
+    }
 }
 
 fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadError> {
@@ -156,7 +202,34 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
         }
         sections.push(section(element, s, length)?);
     }
+    for (section, element) in sections.iter().zip(lanes.all("laneSection")) {
+        check_widths(section, element)?;
+    }
     if sections.is_empty() { Err(lanes.lacks("laneSection")) } else { Ok(sections) }
+}
+
+/// The widths in metres that a lane may have. Published files have lanes that are slightly narrower than nothing where they end.
+const WIDTHS: RangeInclusive<f64> = -0.05..=1000.0;
+
+/// Checks the widths of the lanes of a section at nine places.
+fn check_widths(section: &Section, element: Element<'_, '_>) -> Result<(), ReadError> {
+    for of in element.elements().flat_map(|side| side.all("lane")) {
+        let lane = section.lane(of.whole("id")?);
+        let Some(Lane { extent: Extent::Width(width), .. }) = lane else { continue };
+        let places = (0..=8).map(|i| section.s + (section.end - section.s) * f64::from(i) / 8.0);
+        for s in places.filter(|_| !width.pieces().is_empty()) {
+            let metres = width.at(s);
+            if !WIDTHS.contains(&metres) {
+                let (at, most) = (s - section.s, WIDTHS.end());
+                let width = of.child("width")?;
+                let metres = if metres.abs() < 1e6 { format!("{metres}") } else { format!("{metres:e}") };
+                let expected =
+                    format!("widths of 0 to {most} m; {at:.3} m after the section begins, the width is {metres} m");
+                return Err(width.unexpected("a", expected));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn section(element: Element<'_, '_>, s: f64, end: f64) -> Result<Section, ReadError> {

@@ -5,7 +5,7 @@
 
 use crate::xml::Writer;
 use paracosm_engine::road::{Curve, EvenRoad, Lane, LaneId, LaneKind, RoadNetwork};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 
 /// A road of the file.
@@ -73,10 +73,9 @@ fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
     let mut roads: Vec<Road> =
         network.even_roads()?.iter().map(|road| even(network, road, names[road.element])).collect();
     // A junction without roads that lead to it is no junction of the standard.
-    let has_roads = |element: usize| {
-        let mut lanes = network.lanes().iter().filter(|lane| lane.element == element);
-        lanes.any(|lane| lane.predecessors.iter().any(|before| network.lane(*before).element != element))
-    };
+    let is_entered =
+        |lane: &&Lane| lane.predecessors.iter().any(|before| network.lane(*before).element != lane.element);
+    let entered: BTreeSet<usize> = network.lanes().iter().filter(is_entered).map(|lane| lane.element).collect();
     for id in network.ids() {
         let lane = network.lane(id);
         // The leftmost of the lanes beside each other stands for all.
@@ -91,7 +90,7 @@ fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
         }
         roads.push(Road {
             name: names[lane.element].to_owned(),
-            junction: (lane.kind != LaneKind::Ring && has_roads(lane.element)).then_some(lane.element),
+            junction: (lane.kind != LaneKind::Ring && entered.contains(&lane.element)).then_some(lane.element),
             line: *lane.curve.curves().next()?,
             offset: 0.5 * lane.width,
             width: lane.width,
@@ -334,7 +333,7 @@ fn mark(kind: &str, change: &str, xml: &mut Writer) {
 fn sidewalk(road: &Road, number: i32, xml: &mut Writer) {
     if road.sidewalk > 0.0 {
         xml.within("lane", &[("id", &number), ("type", &"sidewalk"), ("level", &"false")], |xml| {
-            width(road.sidewalk, xml)
+            width(road.sidewalk, xml);
         });
     }
 }

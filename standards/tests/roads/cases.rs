@@ -176,6 +176,22 @@ fn what_a_file_says_wrongly_is_refused_with_its_place_and_the_nearest_name() {
         "`length=\"NaN\"` of <road> is not allowed, expected a finite number",
     );
     refuses(&[("length=\"50\" junction", "length=\"-5\" junction")], "expected a positive number");
+    refuses(&[("length=\"50\" junction", "length=\"1e9\" junction")], "expected at most 100000 m");
+    refuses(
+        &[("a=\"3.5\"", "a=\"-3\"")],
+        "expected widths of 0 to 1000 m; 0.000 m after the section begins, the width is -3 m",
+    );
+    refuses(&[("geometry s=\"0\"", "geometry s=\"5\"")], "expected 0 for the first piece");
+    let point = r#"<paramPoly3 aU="0" bU="0" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>"#;
+    refuses(
+        &[("<line/>", point)],
+        "`bU=\"0\"` of <paramPoly3> is not allowed, expected coefficients of a curve that is about 50 m long",
+    );
+    let coil = "<arc curvature=\"1e6\"/>";
+    refuses(
+        &[("<line/>", coil)],
+        "`curvature=\"1e6\"` of <arc> is not allowed, expected a magnitude of at most 20 1/m for a length of 50 m",
+    );
     refuses(&[(" hdg=\"0\"", "")], "<geometry> has no attribute `hdg`");
     refuses(&[("<line/>", "")], "<geometry> contains no <line, arc, spiral, poly3 or paramPoly3>");
     refuses(
@@ -217,6 +233,14 @@ fn a_network_without_driven_lanes_is_refused() {
     let walked = parse(with(&[("\"driving\"", "\"sidewalk\"")])).expect("it is sound");
     assert_eq!(walked.roads[0].sections[0].lane(-1).map(|lane| lane.kind), Some(LaneType::Sidewalk));
     let error = walked.network().expect_err("it was accepted").to_string();
+    assert!(error.contains("has no lanes"), "{error}");
+}
+
+#[test]
+fn a_lane_without_length_in_a_tight_bend_is_left_out() {
+    // The middle of lane -1 is the centre of the arc.
+    let bend = with(&[("<line/>", "<arc curvature=\"-0.1\"/>"), ("a=\"3.5\"", "a=\"20\"")]);
+    let error = parse(bend).expect("it is sound").network().expect_err("the lane has no length").to_string();
     assert!(error.contains("has no lanes"), "{error}");
 }
 
