@@ -5,8 +5,9 @@ use super::output::{Format, Table, digits, json, plural};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use crate::engine::road::{Lane, RoadNetwork};
-use crate::standards::opendrive::{Map, Note, Road, borders};
+use crate::standards::opendrive::{Map, Note, Section, borders};
 use clap::Args;
+use paracosm_campaign::Error;
 use paracosm_report::{birds_eye::RoadPicture, plot};
 use serde_json::json;
 use std::path::PathBuf;
@@ -56,6 +57,9 @@ impl Options {
         }
         let map = Map::read(&self.file)?;
         let network = map.network().map_err(|error| usage(format!("{}: {error}", self.file.display())))?;
+        if lanes.is_some() {
+            self.check_points(&map)?;
+        }
         if let Some(target) = &draw {
             verbosity.note(target.write(|kind| {
                 let drawing = RoadPicture::of(&network).drawing();
@@ -66,15 +70,6 @@ impl Options {
             })?);
         }
         if let Some(target) = &lanes {
-            let of_road = |road: &Road| {
-                let sections = road.sections.iter();
-                sections.map(|of| of.lanes.len() as f64 * ((of.end - of.s) / self.step + 2.0)).sum::<f64>()
-            };
-            let points: f64 = map.roads.iter().map(of_road).sum();
-            if points > MOST_POINTS {
-                let message = format!("--step {} gives {points:.0} points, expected at most {MOST_POINTS}", self.step);
-                return Err(usage(message).into());
-            }
             verbosity.note(target.write(|_| Ok(self.csv(&map)?))?);
         }
         let text = match Format::or_fitting(self.format) {
@@ -82,6 +77,18 @@ impl Options {
             Format::Json => self.as_json(&map, &network),
         };
         print(&text).map(|()| Status::Nothing)
+    }
+
+    /// Refuses a step that gives too many points, before anything is written.
+    fn check_points(&self, map: &Map) -> Result<(), Error> {
+        let sections = map.roads.iter().flat_map(|road| &road.sections);
+        let of_one = |of: &Section| of.lanes.len() as f64 * ((of.end - of.s) / self.step + 2.0);
+        let points: f64 = sections.map(of_one).sum();
+        if points > MOST_POINTS {
+            let step = self.step;
+            return Err(usage(format!("--step {step} gives {points:.0} points, expected at most {MOST_POINTS}")));
+        }
+        Ok(())
     }
 
     fn csv(&self, map: &Map) -> Result<Vec<u8>, csv::Error> {

@@ -91,6 +91,11 @@ fn wrong_options_are_refused_before_the_file_is_read() {
     );
     refused(&fuzz(dir.path(), &["roads", "bend.xodr", "--lanes", "lanes.txt"]), &["expected .csv"]);
     refused(&fuzz(dir.path(), &["roads", "bend.xodr", "--draw", "bend.xodr"]), &["--draw bend.xodr"]);
+    let long = BEND.replace("length=\"62.83185307179586\"", "length=\"10000\"");
+    let many = folder(&long);
+    let output = fuzz(many.path(), &["roads", "bend.xodr", "--draw", "a.svg", "--lanes", "b.csv", "--step", "0.001"]);
+    refused(&output, &["--step 0.001 gives 30000006 points"]);
+    assert_eq!(files(many.path()), 1);
     let many = fuzz(dir.path(), &["roads", "bend.xodr", "--step", "5"]);
     assert_eq!(many.status.code(), Some(2), "{}", stderr(&many));
 }

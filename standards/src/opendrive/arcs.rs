@@ -33,8 +33,7 @@ impl<F: Fn(f64) -> f64> Beside<'_, F> {
         // A difference within the piece: functions of files may jump between pieces.
         let step = 1e-4 * (toward - s).signum() * (toward - s).abs().min(1.0);
         let slope = ((self.offset)(s + step) - (self.offset)(s)) / step;
-        let line = &self.road.line;
-        line.at(s).heading + libm::atan2(slope, 1.0 - line.curvature(s) * (self.offset)(s))
+        self.road.heading_beside(s, (self.offset)(s), slope)
     }
 
     /// Returns arcs along the line between two places, and the place along the road at which each arc ends. `cuts` are places

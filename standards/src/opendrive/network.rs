@@ -24,7 +24,7 @@ const GAP: f64 = 0.5;
 type Key = (usize, usize, i32);
 
 impl Map {
-    /// Builds the road network of all lanes that cars drive on. Lines that are no lines or arcs are approximated by arcs to
+    /// Builds the road network of all lanes that cars drive on. Arcs approximate spirals and polynomials to
     /// 0.5 mm.
     ///
     /// # Errors

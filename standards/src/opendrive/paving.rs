@@ -58,7 +58,7 @@ fn mark(road: &Road, section: usize, lane: &Lane, cuts: &[f64], strips: &mut Vec
             MarkType::BrokenBroken => &[(-2.0, true), (2.0, true)],
             MarkType::None | MarkType::BottsDots | MarkType::Grass | MarkType::Curb | MarkType::Custom => &[],
         };
-        // Of two lines, the first is the inner one.
+        // The first of two lines is the inner line.
         let outward = if lane.number > 0 { -1.0 } else { 1.0 };
         for (aside, broken) in lines {
             let at = |s: f64| {

@@ -66,6 +66,15 @@ impl PlanView {
         piece.curvature(s - piece.s)
     }
 
+    /// Returns the metres of the line for each metre of the road at a place: 1, unless a `paramPoly3` has another length than
+    /// its piece.
+    pub fn rate(&self, s: f64) -> f64 {
+        match &self.piece(s).shape {
+            Shape::Polynomials(pair) => pair.scale,
+            Shape::Line | Shape::Arc { .. } | Shape::Spiral(_) => 1.0,
+        }
+    }
+
     fn piece(&self, s: f64) -> &Geometry {
         let after = self.pieces.partition_point(|piece| piece.s <= s);
         &self.pieces[after.saturating_sub(1)]

@@ -42,7 +42,7 @@ fn version(header: Element<'_, '_>) -> Result<u32, ReadError> {
         return Err(header.unexpected("revMajor", "1"));
     }
     let minor = header.required("revMinor")?.parse().ok().filter(|minor| *minor <= NEWEST);
-    minor.ok_or_else(|| header.unexpected("revMinor", format!("{OLDEST} to {NEWEST}")))
+    minor.ok_or_else(|| header.unexpected("revMinor", format!("at most {NEWEST}")))
 }
 
 fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> {

@@ -177,8 +177,8 @@ impl Road {
     }
 
     /// Returns the heading of a line `t` metres to the left of the reference line whose distance grows by `slope`.
-    fn heading_beside(&self, s: f64, t: f64, slope: f64) -> f64 {
-        wrapped(self.line.at(s).heading + libm::atan2(slope, 1.0 - self.line.curvature(s) * t))
+    pub(super) fn heading_beside(&self, s: f64, t: f64, slope: f64) -> f64 {
+        wrapped(self.line.at(s).heading + libm::atan2(slope, self.line.rate(s) * (1.0 - self.line.curvature(s) * t)))
     }
 
     /// Returns the derivative of [`Road::border`].
@@ -361,7 +361,7 @@ impl LaneType {
 }
 
 names! {
-    /// The type of a road mark, with the names of OpenDRIVE. Of two lines, the first is the inner one.
+    /// The type of a road mark, with the names of OpenDRIVE. The first of two lines is the inner line.
     MarkType, MARK_TYPES:
     /// No mark.
     None = "none",

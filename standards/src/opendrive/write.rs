@@ -259,7 +259,7 @@ impl File<'_> {
         });
     }
 
-    /// Returns the pairs of roads of a junction of which the first goes first.
+    /// Returns pairs of roads of a junction: traffic on the first road has priority over traffic on the second road.
     fn priorities(&self, roads: &[usize]) -> Vec<(usize, usize)> {
         let mut pairs = Vec::new();
         for low in roads {

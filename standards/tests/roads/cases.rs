@@ -156,13 +156,13 @@ fn older_files_are_read_with_a_note_and_newer_ones_are_refused() {
     assert_eq!(old.notes, [Note::Old { minor: 1 }]);
     refuses(
         &[("revMinor=\"6\"", "revMinor=\"9\"")],
-        "road.xodr:2: `revMinor=\"9\"` of <header> is not allowed, expected 4 to 8",
+        "road.xodr:2: `revMinor=\"9\"` of <header> is not allowed, expected at most 8",
     );
     refuses(&[("revMajor=\"1\"", "revMajor=\"2\"")], "expected 1");
 }
 
 #[test]
-fn what_a_file_says_wrongly_is_refused_with_its_place_and_the_nearest_name() {
+fn wrong_values_are_refused_with_its_place_and_the_nearest_name() {
     refuses(&[("</road>", "")], "not well-formed XML");
     refuses(&[("<OpenDRIVE>", "<!DOCTYPE x [<!ENTITY a \"b\">]><OpenDRIVE>")], "<!DOCTYPE");
     refuses(
@@ -234,6 +234,15 @@ fn a_network_without_driven_lanes_is_refused() {
     assert_eq!(walked.roads[0].sections[0].lane(-1).map(|lane| lane.kind), Some(LaneType::Sidewalk));
     let error = walked.network().expect_err("it was accepted").to_string();
     assert!(error.contains("has no lanes"), "{error}");
+}
+
+#[test]
+fn headings_of_borders_count_the_length_of_a_curve_that_is_longer_than_its_piece() {
+    // A curve of 100 m on a road of 50 m; the lane becomes 5 m wider.
+    let curve = r#"<paramPoly3 aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>"#;
+    let map = parse(with(&[("<line/>", curve), ("b=\"0\"", "b=\"0.1\"")])).expect("it is sound");
+    let heading = map.roads[0].border_heading(0, -1, 25.0).expect("the lane");
+    assert!((heading + libm::atan2(5.0, 100.0)).abs() < 1e-9, "{heading}");
 }
 
 #[test]
