@@ -16,7 +16,22 @@ pub struct Centreline {
     first: Curve,
     length: f64,
     /// All curves of a chain, each with the place where it begins, in metres along the line; `None` for a single curve.
-    chain: Option<Arc<[(f64, Curve)]>>,
+    chain: Option<Chain>,
+}
+
+/// Curves one after the other, each with the place where it begins, in metres from the start of the first.
+pub(super) type Chain = Arc<[(f64, Curve)]>;
+
+/// Returns curves with the places where they begin, and the sum of their lengths in metres.
+pub(super) fn chained(curves: impl IntoIterator<Item = Curve>) -> (Chain, f64) {
+    let mut length = 0.0;
+    let begun = |curve: Curve| {
+        let from = length;
+        length += curve.length();
+        (from, curve)
+    };
+    let chain = curves.into_iter().map(begun).collect();
+    (chain, length)
 }
 
 impl From<Curve> for Centreline {
@@ -31,13 +46,7 @@ impl Centreline {
     /// # Panics
     /// There are no curves.
     pub fn new(curves: impl IntoIterator<Item = Curve>) -> Self {
-        let mut length = 0.0;
-        let begun = |curve: Curve| {
-            let from = length;
-            length += curve.length();
-            (from, curve)
-        };
-        let chain: Arc<[_]> = curves.into_iter().map(begun).collect();
+        let (chain, length) = chained(curves);
         match &*chain {
             [] => panic!("a line has at least one curve"),
             [(_, curve)] => Self::from(*curve),

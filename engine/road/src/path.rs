@@ -1,5 +1,6 @@
 //! Paths over a network as a single line. An object that moves along a path needs no lanes.
 
+use super::centreline::{Chain, chained};
 use super::curve::Curve;
 use super::lane::LaneId;
 use super::network::RoadNetwork;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// The curves, each with the place where it begins, in metres along the path.
-    pieces: Arc<[(f64, Curve)]>,
+    pieces: Chain,
     /// The lane of each piece, if the path was made from lanes.
     lanes: Option<Arc<[LaneId]>>,
     length: f64,
@@ -44,13 +45,7 @@ impl Path {
     /// # Panics
     /// There are no curves.
     pub fn new(curves: impl IntoIterator<Item = Curve>) -> Self {
-        let mut length = 0.0;
-        let begun = |curve: Curve| {
-            let from = length;
-            length += curve.length();
-            (from, curve)
-        };
-        let pieces: Arc<[_]> = curves.into_iter().map(begun).collect();
+        let (pieces, length) = chained(curves);
         assert!(!pieces.is_empty(), "a path has at least one curve");
         let ends = [0.0, length].map(|s| {
             let (from, curve) = &pieces[index(&pieces, s)];

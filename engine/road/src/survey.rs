@@ -83,7 +83,7 @@ impl SurveyedLane {
 }
 
 impl Survey {
-    /// Builds the network. Of two lanes of a junction that cross or join, one gives way: as [`Survey::priorities`] says; else a
+    /// Builds the network. If two lanes of a junction cross or join, one gives way: as [`Survey::priorities`] says; else a
     /// lane that turns left to a lane from ahead; else a lane to a lane from its right.
     ///
     /// # Errors

@@ -78,9 +78,27 @@ pub(super) const ROWS: &[Row] = &[
     no_effect("OpenDRIVE", "vmsGroup", NOT_DRAWN),
 ];
 
+/// The elements that occur at most once within their parent.
+const ONCE: &[&str] = &[
+    "header",
+    "link",
+    "planView",
+    "elevationProfile",
+    "lateralProfile",
+    "lanes",
+    "left",
+    "center",
+    "right",
+    "line",
+    "arc",
+    "spiral",
+    "poly3",
+    "paramPoly3",
+];
+
 /// Returns the table of all elements of OpenDRIVE.
 pub(super) fn schema() -> Schema {
-    Schema::new(ROWS)
+    Schema::new(ROWS, ONCE)
 }
 
 /// An element of OpenDRIVE within another element, and how it is supported.

@@ -158,9 +158,15 @@ pub(super) fn lost(root: Element<'_, '_>, map: &Map) -> Result<Vec<Note>, ReadEr
     for (junction, element) in map.junctions.iter().zip(root.all("junction")) {
         for (connection, of) in junction.connections.iter().zip(element.all("connection")) {
             let next = map.roads[connection.to].section_of(connection.at);
-            for (link, (_, lane)) in of.all("laneLink").zip(&connection.lanes) {
-                if next.lane(*lane).is_none() {
-                    notes.push(Note::NoLane { line: link.line(), lane: *lane });
+            let from = &map.roads[connection.from];
+            for (link, (incoming, lane)) in of.all("laneLink").zip(&connection.lanes) {
+                // The road may meet the junction at either end.
+                let has_incoming =
+                    [End::Start, End::End].iter().any(|end| from.section_of(*end).lane(*incoming).is_some());
+                for (lane, exists) in [(incoming, has_incoming), (lane, next.lane(*lane).is_some())] {
+                    if !exists {
+                        notes.push(Note::NoLane { line: link.line(), lane: *lane });
+                    }
                 }
             }
         }

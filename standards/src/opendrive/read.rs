@@ -7,7 +7,7 @@ use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
 };
-use crate::xml::{Element, ReadError};
+use crate::xml::{Element, Flaw, ReadError};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use std::ops::RangeInclusive;
@@ -134,32 +134,37 @@ fn plan_view(element: Element<'_, '_>) -> Result<PlanView, ReadError> {
     if pieces.is_empty() { Err(element.lacks("geometry")) } else { Ok(PlanView::new(pieces)) }
 }
 
+/// The names of the shapes of a piece of a reference line.
+const SHAPES: [&str; 5] = ["line", "arc", "spiral", "poly3", "paramPoly3"];
+
 fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
-    for element in geometry.elements() {
-        return Ok(match element.name() {
-            "line" => Shape::Line,
-            "arc" => Shape::Arc { curvature: curvature(element, "curvature", length)? },
-            "spiral" => {
-                let [from, to] = ["curvStart", "curvEnd"].map(|name| curvature(element, name, length));
-                Shape::Spiral(Spiral::new(from?, to?, length))
-            }
-            "poly3" => {
-                let pair = Polynomials::graph(numbers(element, ["a", "b", "c", "d"])?, length);
-                polynomials(element, "b", length, pair)?
-            }
-            "paramPoly3" => {
-                let end = match element.text("pRange") {
-                    None => 1.0,
-                    Some(_) => element.one_of("pRange", &[("normalized", 1.0), ("arcLength", length)])?,
-                };
-                let u = numbers(element, ["aU", "bU", "cU", "dU"])?;
-                let v = numbers(element, ["aV", "bV", "cV", "dV"])?;
-                polynomials(element, "bU", length, Polynomials::new(u, v, [end, length]))?
-            }
-            _ => continue,
-        });
+    let mut shapes = geometry.elements().filter(|element| SHAPES.contains(&element.name()));
+    let element = shapes.next().ok_or_else(|| geometry.lacks("line, arc, spiral, poly3 or paramPoly3"))?;
+    if let Some(second) = shapes.next() {
+        let [element, parent] = [second, geometry].map(|of| of.name().to_owned());
+        return Err(second.error(Flaw::Repeated { element, parent }));
     }
-    Err(geometry.lacks("line, arc, spiral, poly3 or paramPoly3"))
+    Ok(match element.name() {
+        "line" => Shape::Line,
+        "arc" => Shape::Arc { curvature: curvature(element, "curvature", length)? },
+        "spiral" => {
+            let [from, to] = ["curvStart", "curvEnd"].map(|name| curvature(element, name, length));
+            Shape::Spiral(Spiral::new(from?, to?, length))
+        }
+        "poly3" => {
+            let pair = Polynomials::graph(numbers(element, ["a", "b", "c", "d"])?, length);
+            polynomials(element, "b", length, pair)?
+        }
+        _ => {
+            let end = match element.text("pRange") {
+                None => 1.0,
+                Some(_) => element.one_of("pRange", &[("normalized", 1.0), ("arcLength", length)])?,
+            };
+            let u = numbers(element, ["aU", "bU", "cU", "dU"])?;
+            let v = numbers(element, ["aV", "bV", "cV", "dV"])?;
+            polynomials(element, "bU", length, Polynomials::new(u, v, [end, length]))?
+        }
+    })
 }
 
 /// Checks that a curve of polynomials has a length. `attribute` is the coefficient that usually gives it.

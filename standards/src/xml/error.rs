@@ -73,6 +73,14 @@ pub enum Flaw {
         /// The reason, and the nearest supported element if there is one.
         reason: &'static str,
     },
+    /// An element occurs twice where the standard allows it once.
+    #[error("<{parent}> has a second <{element}>, expected at most one")]
+    Repeated {
+        /// The name of the element.
+        element: String,
+        /// The name of the element that contains it.
+        parent: String,
+    },
     /// An element lacks a required attribute.
     #[error("<{element}> has no attribute `{attribute}`, which the standard requires")]
     MissingAttribute {

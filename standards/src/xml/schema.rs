@@ -49,6 +49,8 @@ pub(crate) const fn refused(parents: &'static str, names: &'static str, reason: 
 /// The elements of a standard by their parents.
 #[derive(Debug)]
 pub(crate) struct Schema {
+    /// The elements that occur at most once within their parent.
+    once: &'static [&'static str],
     children: BTreeMap<&'static str, BTreeMap<&'static str, &'static Row>>,
 }
 
@@ -70,7 +72,8 @@ const ANYWHERE: &str = "*";
 const NOT_IN_STANDARD: &str = "the standard does not have this attribute";
 
 impl Schema {
-    pub fn new(rows: &'static [Row]) -> Self {
+    /// Makes the table of a standard. The elements in `once` occur at most once within their parent.
+    pub fn new(rows: &'static [Row], once: &'static [&'static str]) -> Self {
         let mut children: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
         for row in rows {
             for parent in row.parents.split('|') {
@@ -79,7 +82,7 @@ impl Schema {
                 }
             }
         }
-        Self { children }
+        Self { once, children }
     }
 
     /// Checks an element and all that it contains. Returns the parts that have no effect.
@@ -88,7 +91,15 @@ impl Schema {
         // A stack of our own: a file may nest elements deeply.
         let mut open = vec![root];
         while let Some(parent) = open.pop() {
+            let mut seen = Vec::new();
             for element in parent.elements() {
+                if let Some(name) = self.once.iter().find(|name| **name == element.name()) {
+                    if seen.contains(name) {
+                        let [element_name, parent] = [element, parent].map(|of| of.name().to_owned());
+                        return Err(element.error(Flaw::Repeated { element: element_name, parent }));
+                    }
+                    seen.push(name);
+                }
                 let row = self.row(parent, element)?;
                 match row.support {
                     Support::Read => {

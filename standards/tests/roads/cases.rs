@@ -127,6 +127,16 @@ fn a_junction_connects_lanes_and_says_which_road_goes_first() {
 }
 
 #[test]
+fn links_to_lanes_that_do_not_exist_are_noted() {
+    let text = fs::read_to_string(file("junction.xodr")).expect("the file is readable");
+    let wrong = text.replacen("<laneLink from=\"-1\" to=\"-1\"/>", "<laneLink from=\"-9\" to=\"-8\"/>", 1);
+    let map = parse(wrong).expect("it is sound");
+    let lanes: Vec<i32> =
+        map.notes.iter().map(|note| if let Note::NoLane { lane, .. } = note { *lane } else { 0 }).collect();
+    assert_eq!(lanes, [-9, -8]);
+}
+
+#[test]
 fn traffic_on_the_left_drives_along_the_lanes_on_the_left() {
     let left = with(&[("junction=\"-1\"", "junction=\"-1\" rule=\"LHT\"")]);
     let map = parse(left).expect("it is sound");
@@ -186,6 +196,11 @@ fn wrong_values_are_refused_with_its_place_and_the_nearest_name() {
     refuses(
         &[("<line/>", point)],
         "`bU=\"0\"` of <paramPoly3> is not allowed, expected coefficients of a curve that is about 50 m long",
+    );
+    refuses(&[("<line/>", "<line/><arc curvature=\"0\"/>")], "<geometry> has a second <arc>, expected at most one");
+    refuses(
+        &[("</laneSection>", "<right/></laneSection>")],
+        "road.xodr:9: <laneSection> has a second <right>, expected at most one",
     );
     let coil = "<arc curvature=\"1e6\"/>";
     refuses(
