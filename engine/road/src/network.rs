@@ -52,7 +52,7 @@ pub(super) enum Course {
     /// A road with the same cross-section everywhere.
     Even { centre: Curve, profile: Profile },
     /// A road whose lanes begin, end and change their widths. Each lane has its beginning and its end along the road.
-    Surveyed { centre: Centreline, spans: Vec<[f64; 2]> },
+    Surveyed { centre: Centreline, length: f64, spans: Vec<[f64; 2]> },
 }
 
 /// A road with the same cross-section everywhere, as [`RoadSegment`](super::RoadSegment) describes it.
@@ -305,7 +305,7 @@ impl RoadNetwork {
     pub fn on_centre_line(&self, road: &str, at: f64) -> Result<Pose, RoadError> {
         Ok(match self.find(road)?.course_at(at)? {
             Course::Even { centre, .. } => centre.at(at),
-            Course::Surveyed { centre, .. } => centre.at(at),
+            Course::Surveyed { centre, length, .. } => centre.at(at / length * centre.length()),
         })
     }
 
@@ -411,7 +411,7 @@ impl Placed {
         })?;
         let length = match course {
             Course::Even { centre, .. } => centre.length(),
-            Course::Surveyed { centre, .. } => centre.length(),
+            Course::Surveyed { length, .. } => *length,
         };
         if (0.0..=length).contains(&at) {
             Ok(course)

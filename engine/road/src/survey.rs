@@ -23,7 +23,7 @@ const TOGETHER: f64 = 0.01;
 ///
 /// let centre = Curve::new(Pose { position: Vector2::zeros(), heading: 0.0 }, 0.0, 80.0);
 /// let lane = SurveyedLane { width: 3.5, ..SurveyedLane::new(0, 1, [0.0, 80.0], centre.into()) };
-/// let road = SurveyedRoad { name: "7".to_owned(), centre: centre.into(), junction: None };
+/// let road = SurveyedRoad { name: "7".to_owned(), length: 80.0, centre: centre.into(), junction: None };
 /// let network = Survey { roads: vec![road], lanes: vec![lane], ..Survey::default() }.build()?;
 /// assert_eq!(network.on_lane("7", 1, 30.0)?.position.x, 30.0);
 /// # Ok::<(), paracosm_road::RoadError>(())
@@ -45,7 +45,10 @@ pub struct Survey {
 pub struct SurveyedRoad {
     /// The name of the road, unique in the network.
     pub name: String,
-    /// The line along which places on the road are measured.
+    /// The length of the road in metres: the place at its end.
+    pub length: f64,
+    /// The line along which places on the road are measured. If the line is an approximation, its length may differ slightly
+    /// from the length of the road; places are then in proportion.
     pub centre: Centreline,
     /// The number of the junction that the road belongs to. Lanes of the same junction can be in each other's way.
     pub junction: Option<usize>,
@@ -138,7 +141,7 @@ impl Survey {
                 points: Vec::new(),
                 lanes: start..end,
                 mouths: vec![[None; 2]; end - start],
-                course: Some(Course::Surveyed { centre: road.centre, spans }),
+                course: Some(Course::Surveyed { centre: road.centre, length: road.length, spans }),
             }
         };
         let elements = roads.into_iter().enumerate().map(element).collect();

@@ -68,15 +68,33 @@ impl Cubics {
 
     /// Returns the greatest magnitude of the function between two places, in metres along the road.
     pub fn greatest(&self, from: f64, to: f64) -> f64 {
+        self.extremes(from, to).into_iter().map(|extreme| extreme.value.abs()).fold(0.0, f64::max)
+    }
+
+    /// Returns the places between two places at which the function can be least or greatest: its local extremes, and both ends of
+    /// each polynomial.
+    pub(super) fn extremes(&self, from: f64, to: f64) -> Vec<Extreme> {
         let ends = self.0.iter().map(|piece| piece.s).skip(1).chain([to]);
-        let pieces = self.0.iter().zip(ends).map(|(piece, end)| (piece, piece.s.max(from), end.min(to)));
-        let places = pieces.filter(|(_, from, to)| from <= to).flat_map(|(piece, from, to)| {
+        let of = |(index, (piece, end)): (usize, (&Cubic, f64))| {
+            let [from, to] = [piece.s.max(from), end.min(to)];
             let [_, b, c, d] = piece.coefficients;
             let inner = extremes(b, c, d).map(|x| piece.s + x).into_iter().filter(move |s| from < *s && *s < to);
-            [from, to].into_iter().chain(inner).map(move |s| piece.at(s).abs()).collect::<Vec<_>>()
-        });
-        places.fold(0.0, f64::max)
+            let places = [from, to].into_iter().filter(move |_| from <= to).chain(inner);
+            places.map(|s| Extreme { piece: index, s, value: piece.at(s) }).collect::<Vec<_>>()
+        };
+        self.0.iter().zip(ends).enumerate().flat_map(of).collect()
     }
+}
+
+/// A place at which a function can be least or greatest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extreme {
+    /// The index of the polynomial.
+    pub piece: usize,
+    /// The place in metres along the road.
+    pub s: f64,
+    /// The value of the function.
+    pub value: f64,
 }
 
 /// Returns the places at which b + 2·c·x + 3·d·x² is zero; NaN for places that do not exist.

@@ -8,7 +8,7 @@ use super::road::Road;
 use crate::xml::{Document, ReadError};
 use std::path::Path;
 
-/// The distance in metres from which on a gap between two pieces of a reference line is reported.
+/// The distance in metres from which on differences between the pieces of a reference line are reported.
 const GAP: f64 = 0.01;
 
 impl Map {
@@ -38,7 +38,8 @@ impl Map {
             notes.insert(0, Note::Old { minor });
         }
         notes.extend(map.flattened());
-        notes.extend(map.roads.iter().flat_map(jumps));
+        notes.extend(widest(map.roads.iter().flat_map(jumps)));
+        notes.extend(widest(map.roads.iter().flat_map(lengths)));
         notes.extend(without_effect.into_iter().map(Note::NoEffect));
         map.notes = notes;
         Ok(map)
@@ -52,9 +53,32 @@ impl Map {
     }
 }
 
-fn jumps(road: &Road) -> impl Iterator<Item = Note> {
-    road.line.pieces().windows(2).filter_map(|pair| {
+/// Returns the differences in metres between the pieces of a reference line, and a note on each difference.
+fn jumps(road: &Road) -> impl Iterator<Item = (f64, Note)> {
+    road.line.pieces().windows(2).map(|pair| {
         let gap = (pair[0].at(pair[1].s - pair[0].s).position - pair[1].start.position).norm();
-        (gap > GAP).then(|| Note::Jump { road: road.id.clone(), s: pair[1].s, gap })
+        (gap, Note::Jump { road: road.id.clone(), s: pair[1].s, gap, count: 1 })
     })
+}
+
+/// Returns the differences in metres between the length of each piece and its share of the road, and a note on each difference.
+fn lengths(road: &Road) -> impl Iterator<Item = (f64, Note)> {
+    let pieces = road.line.pieces();
+    let ends = pieces.iter().skip(1).map(|next| next.s).chain([road.length]);
+    pieces.iter().zip(ends).map(|(piece, end)| {
+        let (length, span) = (piece.length, end - piece.s);
+        ((length - span).abs(), Note::Length { road: road.id.clone(), s: piece.s, length, span, count: 1 })
+    })
+}
+
+/// Returns the note on the greatest difference, with the number of all differences that are reported.
+fn widest(differences: impl Iterator<Item = (f64, Note)>) -> Option<Note> {
+    let reported: Vec<_> = differences.filter(|(metres, _)| *metres > GAP).collect();
+    let all = reported.len();
+    // The first of equal differences.
+    let (_, mut note) = reported.into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    if let Note::Jump { count, .. } | Note::Length { count, .. } = &mut note {
+        *count = all;
+    }
+    Some(note)
 }

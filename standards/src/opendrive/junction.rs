@@ -37,6 +37,17 @@ pub struct Connection {
     pub to: usize,
     /// The end of the next road that is met.
     pub at: End,
-    /// Pairs of numbers of lanes: of the road that leads to the junction, and of the next road.
+    /// Pairs of numbers of lanes: of the road that leads to the junction, and of the next road. If there are none, lanes with
+    /// the same numbers are linked.
     pub lanes: Vec<(i32, i32)>,
+}
+
+impl Connection {
+    /// Returns the numbers of the lanes of the next road that follow a lane.
+    pub fn next(&self, lane: i32) -> Vec<i32> {
+        if self.lanes.is_empty() {
+            return vec![lane];
+        }
+        self.lanes.iter().filter(|(from, _)| *from == lane).map(|(_, to)| *to).collect()
+    }
 }

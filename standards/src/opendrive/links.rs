@@ -2,9 +2,11 @@
 
 use super::junction::{Connection, Junction, JunctionKind};
 use super::map::Map;
+use super::network::GAP;
 use super::note::Note;
-use super::road::{End, Link, Road, Section};
+use super::road::{End, Lane, Link, Road};
 use crate::xml::{Element, Flaw, ReadError};
+use nalgebra::Vector2;
 use std::collections::BTreeMap;
 
 const ENDS: &[(&str, End)] = &[("start", End::Start), ("end", End::End)];
@@ -116,11 +118,11 @@ pub(super) fn junction(element: Element<'_, '_>, names: &Names<'_>) -> Result<Ju
 }
 
 impl Road {
-    /// Returns the section at an end of the road.
-    pub fn section_of(&self, end: End) -> &Section {
+    /// Returns the index of the section at an end of the road.
+    pub(super) fn index_of(&self, end: End) -> usize {
         match end {
-            End::Start => &self.sections[0],
-            End::End => &self.sections[self.sections.len() - 1],
+            End::Start => 0,
+            End::End => self.sections.len() - 1,
         }
     }
 
@@ -133,23 +135,81 @@ impl Road {
     }
 }
 
-/// Returns notes on the links between lanes that lead to lanes which do not exist. Published files have such links, so they
-/// are no errors.
+/// A lane at an end of a section.
+struct Tip<'a> {
+    road: &'a Road,
+    section: usize,
+    lane: i32,
+    end: End,
+}
+
+impl Tip<'_> {
+    /// Returns the lane, if the section has it.
+    fn lane(&self) -> Option<&Lane> {
+        self.road.sections[self.section].lane(self.lane)
+    }
+
+    /// Returns the middle of the lane at the end.
+    fn point(&self) -> Vector2<f64> {
+        let section = &self.road.sections[self.section];
+        let s = match self.end {
+            End::Start => section.s,
+            End::End => section.s.max(section.end - 1e-9 * (section.end - section.s)),
+        };
+        self.road.point(s, self.road.middle(self.section, self.lane, s))
+    }
+
+    /// Returns the distance to another tip in metres; 0 if cars do not drive on both lanes.
+    fn gap(&self, other: &Self) -> f64 {
+        let is_driven = |tip: &Self| tip.lane().is_some_and(|lane| lane.kind.is_driven());
+        if is_driven(self) && is_driven(other) { (self.point() - other.point()).norm() } else { 0.0 }
+    }
+}
+
+/// The links that cars do not use: the first of a kind, and the number of all.
+#[derive(Default)]
+struct Lost {
+    no_lane: Option<(u32, i32, usize)>,
+    apart: Option<(u32, f64, usize)>,
+}
+
+impl Lost {
+    /// Checks the lane to which the link in a line leads, from lanes of which one has to meet it.
+    fn check(&mut self, line: u32, from: &[Tip<'_>], to: &Tip<'_>) {
+        if to.lane().is_none() {
+            return self.misses(line, to.lane);
+        }
+        let gap = from.iter().map(|tip| tip.gap(to)).fold(f64::INFINITY, f64::min);
+        if GAP < gap && gap < f64::INFINITY {
+            self.apart.get_or_insert((line, gap, 0)).2 += 1;
+        }
+    }
+
+    fn misses(&mut self, line: u32, lane: i32) {
+        self.no_lane.get_or_insert((line, lane, 0)).2 += 1;
+    }
+
+    fn notes(self) -> Vec<Note> {
+        let no_lane = self.no_lane.map(|(line, lane, count)| Note::NoLane { line, lane, count });
+        let apart = self.apart.map(|(line, gap, count)| Note::Apart { line, gap, count });
+        no_lane.into_iter().chain(apart).collect()
+    }
+}
+
+/// Returns notes on the links between lanes that cars do not use: the lane does not exist, or the lanes do not meet. Published
+/// files have such links, so they are no errors.
 pub(super) fn lost(root: Element<'_, '_>, map: &Map) -> Result<Vec<Note>, ReadError> {
-    let mut notes = Vec::new();
+    let mut lost = Lost::default();
     for (road, element) in map.roads.iter().zip(root.all("road")) {
         let sections = element.first("lanes").into_iter().flat_map(|lanes| lanes.all("laneSection"));
         for (index, section) in sections.enumerate() {
-            let before = index.checked_sub(1).and_then(|before| road.sections.get(before));
-            let before = before.or_else(|| map.beyond(road, End::Start));
-            let after = road.sections.get(index + 1).or_else(|| map.beyond(road, End::End));
-            for (name, next) in [("predecessor", before), ("successor", after)] {
-                let Some(next) = next else { continue };
-                let lanes = section.elements().flat_map(|side| side.all("lane"));
-                for to in lanes.flat_map(|lane| lane.all("link")).flat_map(|link| link.all(name)) {
-                    let lane = to.whole("id")?;
-                    if next.lane(lane).is_none() {
-                        notes.push(Note::NoLane { line: to.line(), lane });
+            for (name, end) in [("predecessor", End::Start), ("successor", End::End)] {
+                let Some((to, next, at)) = map.beyond(road, index, end) else { continue };
+                for of in section.elements().flat_map(|side| side.all("lane")) {
+                    let from = [Tip { road, section: index, lane: of.whole("id")?, end }];
+                    for link in of.all("link").flat_map(|link| link.all(name)) {
+                        let tip = Tip { road: to, section: next, lane: link.whole("id")?, end: at };
+                        lost.check(link.line(), &from, &tip);
                     }
                 }
             }
@@ -157,28 +217,35 @@ pub(super) fn lost(root: Element<'_, '_>, map: &Map) -> Result<Vec<Note>, ReadEr
     }
     for (junction, element) in map.junctions.iter().zip(root.all("junction")) {
         for (connection, of) in junction.connections.iter().zip(element.all("connection")) {
-            let next = map.roads[connection.to].section_of(connection.at);
-            let from = &map.roads[connection.from];
+            let [road, from] = [connection.to, connection.from].map(|index| &map.roads[index]);
             for (link, (incoming, lane)) in of.all("laneLink").zip(&connection.lanes) {
                 // The road may meet the junction at either end.
-                let has_incoming =
-                    [End::Start, End::End].iter().any(|end| from.section_of(*end).lane(*incoming).is_some());
-                for (lane, exists) in [(incoming, has_incoming), (lane, next.lane(*lane).is_some())] {
-                    if !exists {
-                        notes.push(Note::NoLane { line: link.line(), lane: *lane });
-                    }
+                let tip = |end| Tip { road: from, section: from.index_of(end), lane: *incoming, end };
+                let tips = [End::Start, End::End].map(tip).into_iter().filter(|tip| tip.lane().is_some());
+                let tips: Vec<_> = tips.collect();
+                if tips.is_empty() {
+                    lost.misses(link.line(), *incoming);
                 }
+                let end = connection.at;
+                lost.check(link.line(), &tips, &Tip { road, section: road.index_of(end), lane: *lane, end });
             }
         }
     }
-    Ok(notes)
+    Ok(lost.notes())
 }
 
 impl Map {
-    /// Returns the section that follows an end of a road on the linked road; `None` if there is no such road.
-    fn beyond(&self, road: &Road, end: End) -> Option<&Section> {
+    /// Returns the road, the section and its end that follow an end of a section; `None` if a junction or nothing follows.
+    fn beyond<'a>(&'a self, road: &'a Road, section: usize, end: End) -> Option<(&'a Road, usize, End)> {
+        let next = match end {
+            End::Start => section.checked_sub(1),
+            End::End => Some(section + 1).filter(|next| *next < road.sections.len()),
+        };
+        if let Some(next) = next {
+            return Some((road, next, if end == End::Start { End::End } else { End::Start }));
+        }
         match road.link(end)? {
-            Link::Road(next, at) => Some(self.roads[next].section_of(at)),
+            Link::Road(next, at) => Some((&self.roads[next], self.roads[next].index_of(at), at)),
             Link::Junction(_) => None,
         }
     }

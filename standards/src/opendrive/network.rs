@@ -18,7 +18,7 @@ const NARROWEST: f64 = 1.5;
 
 /// The greatest distance in metres between the end of a lane and the beginning of the next lane. A lane that becomes narrow
 /// beside the lane that it joins ends there.
-const GAP: f64 = 0.5;
+pub(super) const GAP: f64 = 0.5;
 
 /// A lane of the file: the indices of the road and of the section, and the number.
 type Key = (usize, usize, i32);
@@ -40,7 +40,8 @@ impl Map {
             let straight = || Curve::new(road.line.at(0.0), 0.0, road.length).into();
             let centre = centre.into_iter().map(|(_, arc)| arc).collect::<Vec<_>>();
             let centre = if centre.is_empty() { straight() } else { Centreline::new(centre) };
-            survey.roads.push(SurveyedRoad { name: road.id.clone(), centre, junction: road.junction });
+            let (name, length, junction) = (road.id.clone(), road.length, road.junction);
+            survey.roads.push(SurveyedRoad { name, length, centre, junction });
             for (s, section) in road.sections.iter().enumerate() {
                 for lane in section.lanes.iter().filter(|lane| road.is_driven(s, lane)) {
                     if let Some(surveyed) = self.surveyed(r, s, lane, &cuts) {
@@ -138,12 +139,8 @@ impl Map {
                     let back = self.roads[connection.to].link(connection.at);
                     connection.from == r && !matches!(back, Some(Link::Road(of, other)) if of == r && other != end)
                 });
-                let entered = ours.flat_map(|connection| {
-                    let lanes = connection.lanes.iter().filter(|(from, _)| *from == number);
-                    let numbers: Vec<i32> = lanes.map(|(_, to)| *to).collect();
-                    self.entered_at(connection.to, connection.at, &numbers)
-                });
-                entered.collect()
+                ours.flat_map(|connection| self.entered_at(connection.to, connection.at, &connection.next(number)))
+                    .collect()
             }
         }
     }

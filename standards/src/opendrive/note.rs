@@ -21,21 +21,48 @@ pub enum Note {
         /// The greatest roll of a road in the file, in radians.
         roll: f64,
     },
-    /// The link of a lane leads to a lane that does not exist. Cars do not use the link.
+    /// Links of lanes lead to lanes that do not exist. Cars do not use the links.
     NoLane {
-        /// The line of the link in the file, from 1.
+        /// The line of the first link in the file, from 1.
         line: u32,
-        /// The number of the missing lane.
+        /// The number of the missing lane of the first link.
         lane: i32,
+        /// The number of links.
+        count: usize,
     },
-    /// The reference line of a road is not continuous.
-    Jump {
-        /// The identifier of the road.
-        road: String,
-        /// The place of the jump, in metres along the road.
-        s: f64,
-        /// The distance between the two ends, in metres.
+    /// Links join lanes that cars drive on, but the lanes do not meet. Cars do not use the links.
+    Apart {
+        /// The line of the first link in the file, from 1.
+        line: u32,
+        /// The distance between the middles of the two lanes of the first link, in metres.
         gap: f64,
+        /// The number of links.
+        count: usize,
+    },
+    /// Reference lines of roads are not continuous.
+    Jump {
+        /// The identifier of the road with the widest jump.
+        road: String,
+        /// The place of the widest jump, in metres along the road.
+        s: f64,
+        /// The distance between the two ends at the widest jump, in metres.
+        gap: f64,
+        /// The number of jumps.
+        count: usize,
+    },
+    /// Pieces of reference lines do not end where the next piece of the road begins, or where the road ends. A piece that is too
+    /// short continues with its shape, and a piece that is too long is cut.
+    Length {
+        /// The identifier of the road with the greatest difference.
+        road: String,
+        /// The place at which the piece begins, in metres along the road.
+        s: f64,
+        /// The length of the piece in metres.
+        length: f64,
+        /// The distance in metres from the place to the next piece, or to the end of the road.
+        span: f64,
+        /// The number of pieces.
+        count: usize,
     },
 }
 
@@ -59,12 +86,39 @@ impl fmt::Display for Note {
                 }
                 f.write_str(" are left out")
             }
-            Self::NoLane { line, lane } => {
-                write!(f, "line {line}: the link leads to lane {lane}, which does not exist there; cars do not use it")
+            Self::NoLane { line, lane, count } => {
+                write!(
+                    f,
+                    "line {line}: the link leads to lane {lane}, which does not exist there; cars do not use it"
+                )?;
+                others(f, *count, "link")
             }
-            Self::Jump { road, s, gap } => {
-                write!(f, "the reference line of road `{road}` jumps by {gap:.3} m at s = {s:.3} m")
+            Self::Apart { line, gap, count } => {
+                write!(f, "line {line}: the link joins lanes that are {gap:.3} m apart; cars do not use it")?;
+                others(f, *count, "link")
+            }
+            Self::Jump { road, s, gap, count } => {
+                write!(f, "the reference line of road `{road}` jumps by {gap:.3} m at s = {s:.3} m")?;
+                others(f, *count, "jump")
+            }
+            Self::Length { road, s, length, span, count } => {
+                let effect = if length < span { "its shape continues" } else { "the rest is cut" };
+                write!(
+                    f,
+                    "the piece at s = {s:.3} m of the reference line of road `{road}` is {length:.3} m long, but ends after \
+                     {span:.3} m: {effect}"
+                )?;
+                others(f, *count, "piece")
             }
         }
+    }
+}
+
+/// Writes how many more places there are than the one that was named.
+fn others(f: &mut fmt::Formatter<'_>, count: usize, name: &str) -> fmt::Result {
+    match count.saturating_sub(1) {
+        0 => Ok(()),
+        1 => write!(f, "; and 1 {name} more"),
+        more => write!(f, "; and {more} {name}s more"),
     }
 }

@@ -1,6 +1,6 @@
 //! Reads the roads of a file that was checked against the table of elements.
 
-use super::cubics::{Cubic, Cubics};
+use super::cubics::{Cubic, Cubics, Extreme};
 use super::links::{self, Names};
 use super::map::Map;
 use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
@@ -19,6 +19,9 @@ const NEWEST: u32 = 8;
 /// The greatest length of a road in metres, and the greatest turn of a piece of a reference line in radians.
 const LONGEST: f64 = 100_000.0;
 const MOST_TURN: f64 = 1000.0;
+
+/// The greatest width of a road mark in metres.
+const WIDEST_MARK: f64 = 10.0;
 
 /// The tolerance in metres for places at the ends of a road.
 const CLOSE: f64 = 1e-3;
@@ -58,6 +61,8 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         Some(_) => element.one_of("rule", &[("RHT", Traffic::RightHand), ("LHT", Traffic::LeftHand)])?,
     };
     let (predecessor, successor) = links::of_road(element, names)?;
+    let offset = cubics(lanes, "laneOffset", "s", 0.0)?;
+    check(&offset, [0.0, length], (lanes, "laneOffset"), BORDERS)?;
     Ok(Road {
         id: element.required("id")?.to_owned(),
         name: element.text("name").unwrap_or_default().to_owned(),
@@ -67,7 +72,7 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         predecessor,
         successor,
         line: plan_view(element.child("planView")?)?,
-        offset: cubics(lanes, "laneOffset", "s", 0.0)?,
+        offset,
         elevation: profile("elevationProfile", "elevation")?,
         superelevation: profile("lateralProfile", "superelevation")?,
         sections: sections(lanes, length)?,
@@ -208,7 +213,7 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
         sections.push(section(element, s, length)?);
     }
     for (section, element) in sections.iter().zip(lanes.all("laneSection")) {
-        check_widths(section, element)?;
+        check_extents(section, element)?;
     }
     if sections.is_empty() { Err(lanes.lacks("laneSection")) } else { Ok(sections) }
 }
@@ -216,25 +221,36 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
 /// The widths in metres that a lane may have. Published files have lanes that are slightly narrower than nothing where they end.
 const WIDTHS: RangeInclusive<f64> = -0.05..=1000.0;
 
-/// Checks the widths of the lanes of a section at nine places.
-fn check_widths(section: &Section, element: Element<'_, '_>) -> Result<(), ReadError> {
+/// The offsets of lane 0 and the borders in metres that a lane may have.
+const BORDERS: RangeInclusive<f64> = -1000.0..=1000.0;
+
+/// Checks the widths and borders of the lanes of a section.
+fn check_extents(section: &Section, element: Element<'_, '_>) -> Result<(), ReadError> {
+    let span = [section.s, section.end];
     for of in element.elements().flat_map(|side| side.all("lane")) {
-        let lane = section.lane(of.whole("id")?);
-        let Some(Lane { extent: Extent::Width(width), .. }) = lane else { continue };
-        let places = (0..=8).map(|i| section.s + (section.end - section.s) * f64::from(i) / 8.0);
-        for s in places.filter(|_| !width.pieces().is_empty()) {
-            let metres = width.at(s);
-            if !WIDTHS.contains(&metres) {
-                let (at, most) = (s - section.s, WIDTHS.end());
-                let width = of.child("width")?;
-                let metres = if metres.abs() < 1e6 { format!("{metres}") } else { format!("{metres:e}") };
-                let expected =
-                    format!("widths of 0 to {most} m; {at:.3} m after the section begins, the width is {metres} m");
-                return Err(width.unexpected("a", expected));
-            }
+        match section.lane(of.whole("id")?).map(|lane| &lane.extent) {
+            Some(Extent::Width(width)) => check(width, span, (of, "width"), WIDTHS)?,
+            Some(Extent::Border(border)) => check(border, span, (of, "border"), BORDERS)?,
+            None => {}
         }
     }
     Ok(())
+}
+
+/// Checks that a function stays in a range between two places. The function is read from the children of an element.
+fn check(
+    cubics: &Cubics,
+    [from, to]: [f64; 2],
+    (parent, child): (Element<'_, '_>, &'static str),
+    range: RangeInclusive<f64>,
+) -> Result<(), ReadError> {
+    let outside = cubics.extremes(from, to).into_iter().find(|extreme| !range.contains(&extreme.value));
+    let Some(Extreme { piece, s, value }) = outside else { return Ok(()) };
+    let element = parent.all(child).nth(piece).ok_or_else(|| parent.lacks(child))?;
+    let [least, most] = [range.start(), range.end()];
+    let value = if value.abs() < 1e6 { format!("{value:.3}") } else { format!("{value:e}") };
+    let at = s - from;
+    Err(element.unexpected("a", format!("values of {least} to {most} m; after {at:.3} m, the value is {value} m")))
 }
 
 fn section(element: Element<'_, '_>, s: f64, end: f64) -> Result<Section, ReadError> {
@@ -314,6 +330,9 @@ fn marks(lane: Element<'_, '_>, from: f64) -> Result<Vec<RoadMark>, ReadError> {
             )?,
         };
         let width = element.text("width").map(|_| element.length("width")).transpose()?;
+        if width.is_some_and(|metres| metres > WIDEST_MARK) {
+            return Err(element.unexpected("width", format!("at most {WIDEST_MARK} m")));
+        }
         Ok(RoadMark { s, kind: element.one_of("type", MARK_TYPES)?, width, change })
     };
     lane.all("roadMark").map(mark).collect()

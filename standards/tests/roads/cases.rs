@@ -131,9 +131,63 @@ fn links_to_lanes_that_do_not_exist_are_noted() {
     let text = fs::read_to_string(file("junction.xodr")).expect("the file is readable");
     let wrong = text.replacen("<laneLink from=\"-1\" to=\"-1\"/>", "<laneLink from=\"-9\" to=\"-8\"/>", 1);
     let map = parse(wrong).expect("it is sound");
-    let lanes: Vec<i32> =
-        map.notes.iter().map(|note| if let Note::NoLane { lane, .. } = note { *lane } else { 0 }).collect();
-    assert_eq!(lanes, [-9, -8]);
+    assert_eq!(map.notes, [Note::NoLane { line: 55, lane: -9, count: 2 }]);
+}
+
+#[test]
+fn links_between_lanes_that_do_not_meet_are_noted_and_not_used() {
+    let text = fs::read_to_string(file("junction.xodr")).expect("the file is readable");
+    let apart = parse(text.replacen("x=\"10\"", "x=\"12\"", 1)).expect("it is sound");
+    // Lane -1 leads to the east road, and lane 1 comes from it by a link of the road and by one of the junction.
+    assert_eq!(
+        apart.notes.iter().map(Note::to_string).collect::<Vec<_>>(),
+        ["line 38: the link joins lanes that are 2.000 m apart; cars do not use it; and 2 links more"]
+    );
+    let network = apart.network().expect("it has lanes");
+    assert!(network.lane(network.lane_of("we", 1).expect("it has the lane")).successors.is_empty());
+}
+
+#[test]
+fn a_connection_without_links_of_lanes_connects_lanes_with_the_same_numbers() {
+    let text = fs::read_to_string(file("junction.xodr")).expect("the file is readable");
+    let links = ["<laneLink from=\"-1\" to=\"-1\"/>", "<laneLink from=\"1\" to=\"1\"/>"];
+    let bare = links.iter().fold(text.clone(), |text, link| text.replacen(link, "", 1));
+    let successors = |text: String| {
+        let network = parse(text).expect("it is sound").network().expect("it has lanes");
+        network.lanes().iter().map(|lane| lane.successors.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(successors(bare), successors(text));
+}
+
+#[test]
+fn pieces_that_are_longer_or_shorter_than_their_share_of_the_road_are_noted() {
+    let note = |length| {
+        let map = parse(with(&[("hdg=\"0\" length=\"50\"", length)])).expect("it is sound");
+        map.notes.iter().map(Note::to_string).collect::<Vec<_>>()
+    };
+    let piece = "the piece at s = 0.000 m of the reference line of road `1` is";
+    assert_eq!(
+        note("hdg=\"0\" length=\"30\""),
+        [format!("{piece} 30.000 m long, but ends after 50.000 m: its shape continues")]
+    );
+    assert_eq!(
+        note("hdg=\"0\" length=\"80\""),
+        [format!("{piece} 80.000 m long, but ends after 50.000 m: the rest is cut")]
+    );
+}
+
+#[test]
+fn the_end_of_a_road_is_a_place_on_its_lanes_and_on_its_centre_line() {
+    for shape in ["<line/>", "<arc curvature=\"0.02\"/>", "<spiral curvStart=\"0\" curvEnd=\"0.03\"/>"] {
+        let map = parse(with(&[("<line/>", shape)])).expect("it is sound");
+        let network = map.network().expect("it has lanes");
+        let end = map.roads[0].line.at(50.0);
+        let centre = network.on_centre_line("1", 50.0).expect("the road is as long");
+        let lane = network.on_lane("1", 1, 50.0).expect("the road is as long");
+        assert!((centre.position - end.position).norm() < 1e-6, "{shape}: {centre:?}");
+        assert!((lane.position - (end.position - end.left() * 1.75)).norm() < 1e-6, "{shape}: {lane:?}");
+        assert!(network.on_lane("1", 1, 50.1).is_err());
+    }
 }
 
 #[test]
@@ -189,8 +243,23 @@ fn wrong_values_are_refused_with_its_place_and_the_nearest_name() {
     refuses(&[("length=\"50\" junction", "length=\"1e9\" junction")], "expected at most 100000 m");
     refuses(
         &[("a=\"3.5\"", "a=\"-3\"")],
-        "expected widths of 0 to 1000 m; 0.000 m after the section begins, the width is -3 m",
+        "`a=\"-3\"` of <width> is not allowed, expected values of -0.05 to 1000 m; after 0.000 m, the value is -3.000 m",
     );
+    // The lane is narrower than nothing only from 2.5 to 3.5 m.
+    refuses(
+        &[("a=\"3.5\" b=\"0\" c=\"0\"", "a=\"1.7\" b=\"-1.2\" c=\"0.2\"")],
+        "expected values of -0.05 to 1000 m; after 3.000 m, the value is -0.100 m",
+    );
+    refuses(
+        &[("<lanes>", "<lanes><laneOffset s=\"0\" a=\"0\" b=\"100\" c=\"0\" d=\"0\"/>")],
+        "of <laneOffset> is not allowed, expected values of -1000 to 1000 m; after 50.000 m, the value is 5000.000 m",
+    );
+    refuses(
+        &[("width sOffset=\"0\" a=\"3.5\"", "border sOffset=\"0\" a=\"-3500\"")],
+        "of <border> is not allowed, expected values of -1000 to 1000 m; after 0.000 m, the value is -3500.000 m",
+    );
+    let mark = "c=\"0\" d=\"0\"/><roadMark sOffset=\"0\" type=\"solid\" width=\"1e6\"/>";
+    refuses(&[("c=\"0\" d=\"0\"/>", mark)], "`width=\"1e6\"` of <roadMark> is not allowed, expected at most 10 m");
     refuses(&[("geometry s=\"0\"", "geometry s=\"5\"")], "expected 0 for the first piece");
     let point = r#"<paramPoly3 aU="0" bU="0" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>"#;
     refuses(
