@@ -4,7 +4,7 @@ use super::elements::schema;
 use super::map::Map;
 use super::note::Note;
 use super::read;
-use super::road::Road;
+use super::road::{Direction, LaneType, Road, Section};
 use crate::xml::{Document, ReadError};
 use std::path::Path;
 
@@ -40,6 +40,8 @@ impl Map {
         notes.extend(map.flattened());
         notes.extend(widest(map.roads.iter().flat_map(jumps)));
         notes.extend(widest(map.roads.iter().flat_map(lengths)));
+        notes.extend(map.without_length());
+        notes.extend(map.one_way());
         notes.extend(without_effect.into_iter().map(Note::NoEffect));
         map.notes = notes;
         Ok(map)
@@ -50,6 +52,26 @@ impl Map {
         let height = greatest(|road| road.elevation.greatest(0.0, road.length));
         let roll = greatest(|road| road.superelevation.greatest(0.0, road.length));
         (height > 0.0 || roll > 0.0).then_some(Note::Flat { height, roll })
+    }
+
+    fn without_length(&self) -> Option<Note> {
+        let mut empty = self.sections().filter(|(_, section)| section.end <= section.s);
+        let (road, section) = empty.next()?;
+        Some(Note::NoLength { road: road.id.clone(), s: section.s, count: 1 + empty.count() })
+    }
+
+    fn one_way(&self) -> Option<Note> {
+        let lanes = self.sections().flat_map(|(road, section)| section.lanes.iter().map(move |lane| (road, lane)));
+        let mut both = lanes.filter(|(_, lane)| {
+            let is_both = lane.direction == Direction::Both || lane.kind == LaneType::Bidirectional;
+            is_both && lane.kind.is_driven()
+        });
+        let (road, lane) = both.next()?;
+        Some(Note::OneWay { road: road.id.clone(), lane: lane.number, count: 1 + both.count() })
+    }
+
+    fn sections(&self) -> impl Iterator<Item = (&Road, &Section)> {
+        self.roads.iter().flat_map(|road| road.sections.iter().map(move |section| (road, section)))
     }
 }
 

@@ -64,6 +64,24 @@ pub enum Note {
         /// The number of pieces.
         count: usize,
     },
+    /// Sections of lanes have no length. Cars do not drive from the section before to the section after.
+    NoLength {
+        /// The identifier of the road with the first section.
+        road: String,
+        /// The place of the first section, in metres along the road.
+        s: f64,
+        /// The number of sections.
+        count: usize,
+    },
+    /// Lanes are for both directions. Cars drive on the lanes only in the direction of the side of the lane.
+    OneWay {
+        /// The identifier of the road with the first lane.
+        road: String,
+        /// The number of the first lane.
+        lane: i32,
+        /// The number of lanes, counted in each section.
+        count: usize,
+    },
 }
 
 impl fmt::Display for Note {
@@ -109,6 +127,20 @@ impl fmt::Display for Note {
                      {span:.3} m: {effect}"
                 )?;
                 others(f, *count, "piece")
+            }
+            Self::NoLength { road, s, count } => {
+                write!(
+                    f,
+                    "the section of lanes at s = {s:.3} m of road `{road}` has no length; cars do not drive over it"
+                )?;
+                others(f, *count, "section")
+            }
+            Self::OneWay { road, lane, count } => {
+                write!(
+                    f,
+                    "lane {lane} of road `{road}` is for both directions; cars drive only in the direction of its side"
+                )?;
+                others(f, *count, "lane")
             }
         }
     }

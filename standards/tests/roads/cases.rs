@@ -177,6 +177,17 @@ fn pieces_that_are_longer_or_shorter_than_their_share_of_the_road_are_noted() {
 }
 
 #[test]
+fn sections_without_length_and_lanes_for_both_directions_are_noted() {
+    let notes = |changes: &[(&str, &str)]| parse(with(changes)).expect("it is sound").notes;
+    let both = [("type=\"driving\"", "type=\"driving\" direction=\"both\"")];
+    assert_eq!(notes(&both), [Note::OneWay { road: "1".to_owned(), lane: -1, count: 1 }]);
+    let both = [("type=\"driving\"", "type=\"bidirectional\"")];
+    assert_eq!(notes(&both), [Note::OneWay { road: "1".to_owned(), lane: -1, count: 1 }]);
+    let empty = "<lanes><laneSection s=\"0\"><center><lane id=\"0\" type=\"none\"/></center></laneSection>";
+    assert_eq!(notes(&[("<lanes>", empty)]), [Note::NoLength { road: "1".to_owned(), s: 0.0, count: 1 }]);
+}
+
+#[test]
 fn the_end_of_a_road_is_a_place_on_its_lanes_and_on_its_centre_line() {
     for shape in ["<line/>", "<arc curvature=\"0.02\"/>", "<spiral curvStart=\"0\" curvEnd=\"0.03\"/>"] {
         let map = parse(with(&[("<line/>", shape)])).expect("it is sound");
