@@ -63,8 +63,7 @@ impl<F: Fn(f64) -> f64> Beside<'_, F> {
 
     /// Returns the arc through the points at two places that turns as much as the line.
     fn arc(&self, from: f64, to: f64) -> Curve {
-        // A function of a file may jump at `to`; the piece ends before.
-        let to = to - 1e-9 * (to - from);
+        let to = just_before(to, from);
         let [start, end] = [from, to].map(|s| self.point(s));
         let chord = end - start;
         let turn = wrapped(self.heading(to, from) - self.heading(from, to));
@@ -83,6 +82,11 @@ impl<F: Fn(f64) -> f64> Beside<'_, F> {
                 (arc.point(arc.nearest(point)) - point).norm() <= EXACT
             })
     }
+}
+
+/// Returns a place just before the end of a piece: functions of files may jump at the end.
+pub(super) fn just_before(end: f64, start: f64) -> f64 {
+    end - 1e-9 * (end - start)
 }
 
 /// Returns an arc in the opposite direction.

@@ -1,5 +1,6 @@
 //! Links of roads, lanes and junctions: from identifiers to indices.
 
+use super::arcs::just_before;
 use super::junction::{Connection, Junction, JunctionKind};
 use super::map::Map;
 use super::network::GAP;
@@ -154,7 +155,7 @@ impl Tip<'_> {
         let section = &self.road.sections[self.section];
         let s = match self.end {
             End::Start => section.s,
-            End::End => section.s.max(section.end - 1e-9 * (section.end - section.s)),
+            End::End => just_before(section.end, section.s),
         };
         self.road.point(s, self.road.middle(self.section, self.lane, s))
     }

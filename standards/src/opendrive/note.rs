@@ -123,8 +123,8 @@ impl fmt::Display for Note {
                 let effect = if length < span { "its shape continues" } else { "the rest is cut" };
                 write!(
                     f,
-                    "the piece at s = {s:.3} m of the reference line of road `{road}` is {length:.3} m long, but ends after \
-                     {span:.3} m: {effect}"
+                    "the piece at s = {s:.3} m of the reference line of road `{road}` is {length:.3} m long, but its share of the \
+                     road is {span:.3} m: {effect}"
                 )?;
                 others(f, *count, "piece")
             }

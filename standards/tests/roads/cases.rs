@@ -168,11 +168,11 @@ fn pieces_that_are_longer_or_shorter_than_their_share_of_the_road_are_noted() {
     let piece = "the piece at s = 0.000 m of the reference line of road `1` is";
     assert_eq!(
         note("hdg=\"0\" length=\"30\""),
-        [format!("{piece} 30.000 m long, but ends after 50.000 m: its shape continues")]
+        [format!("{piece} 30.000 m long, but its share of the road is 50.000 m: its shape continues")]
     );
     assert_eq!(
         note("hdg=\"0\" length=\"80\""),
-        [format!("{piece} 80.000 m long, but ends after 50.000 m: the rest is cut")]
+        [format!("{piece} 80.000 m long, but its share of the road is 50.000 m: the rest is cut")]
     );
 }
 
