@@ -4,6 +4,7 @@
 //! with their names and places; elements without an effect are listed as notes.
 
 pub mod opendrive;
+pub mod openscenario;
 mod xml;
 
-pub use xml::{Flaw, Malformed, NoEffect, ReadError, Support};
+pub use xml::{ExpressionFlaw, Flaw, Malformed, NoEffect, ReadError, Support};

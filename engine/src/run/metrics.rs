@@ -12,7 +12,7 @@ const BRAKING: f64 = 0.5;
 
 /// Returns the measurements of a run at the end of the run.
 pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
-    let car = scene.ego.dynamics.state();
+    let car = scene.ego.dynamics().state();
     let contact = scene.contact.map(|touching| {
         let touched = &scene.bodies[touching.body];
         Contact {

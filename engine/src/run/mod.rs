@@ -41,6 +41,9 @@ pub struct Setup {
     pub dt: Option<f64>,
     /// The model that moves the ego vehicle, and the resistances against the motion.
     pub vehicle: VehicleSetup,
+    /// `true` if the driver gets the car when a scenario that leads the car hands it over. If it is `false`, the scenario leads
+    /// the car throughout, and no contact ends the run.
+    pub takes_over: bool,
 }
 
 /// The state of a paused run, which either needs a control or is over.
@@ -78,6 +81,9 @@ pub struct Run {
     graph: Graph,
     scene: Scene,
     premise: Option<Slot>,
+    end: Option<Slot>,
+    /// `true` if a contact ends the run.
+    ends_at_contact: bool,
     triggered: bool,
     requirements: Vec<Requirement>,
     /// The slot of each column of the trace.
@@ -109,7 +115,8 @@ impl Run {
             "the tick and the driver's period must be positive numbers of seconds"
         );
         let graph = std::mem::take(&mut scenario.graph);
-        let premise = scenario.premise.as_ref().map(|event| graph.slot(&event.node));
+        let [premise, end] =
+            [&scenario.premise, &scenario.end].map(|event| event.as_ref().map(|event| graph.slot(&event.node)));
         let signals = std::mem::take(&mut scenario.signals);
         let (mut names, mut columns): (Vec<String>, Vec<Slot>) =
             signals.into_iter().map(|(name, source)| (name, Graph::output(source))).unzip();
@@ -127,7 +134,7 @@ impl Run {
         let ticks = ticks(scenario.duration, dt);
         let (key, scenery) = (scenario.keys.test.get(), scenario.keys.scenery.get());
         let beginning = scenario.beginning();
-        let mut scene = Scene::new(scenario, &graph, setup.vehicle);
+        let mut scene = Scene::new(scenario, &graph, setup);
         let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
         let overlap = scene.overlapping().map(Outcome::broken);
         let upset = begun.err().map(|cause| Outcome::broken(Breakdown::World { cause, time: 0.0 }));
@@ -145,6 +152,8 @@ impl Run {
             told: Control::default(),
             graph,
             premise,
+            end,
+            ends_at_contact: setup.takes_over,
             triggered: false,
             requirements,
             row: vec![0.0; columns.len()],
@@ -183,7 +192,7 @@ impl Run {
                     return self.end(Outcome::broken(Breakdown::World { cause, time: self.time() }));
                 }
                 self.sense();
-                if self.scene.contact.is_some() || self.tick == self.ticks {
+                if self.is_at_end() {
                     let outcome = self.judged();
                     return self.end(outcome);
                 }
@@ -267,6 +276,16 @@ impl Run {
         self.over
     }
 
+    fn is_at_end(&self) -> bool {
+        let ended = self.end.is_some_and(|event| self.graph.value(event) == Some(true));
+        self.touches() || ended || self.tick == self.ticks
+    }
+
+    /// Returns `true` if a contact ends the run.
+    fn touches(&self) -> bool {
+        self.ends_at_contact && self.scene.contact.is_some()
+    }
+
     fn end(&mut self, outcome: Outcome) -> Step<'static> {
         self.over = true;
         Step::Done(Box::new(outcome))
@@ -300,14 +319,14 @@ impl Run {
         self.observation.others.clear();
         self.observation.others.extend(others);
         self.observation.time = self.time();
-        self.observation.speed = self.scene.ego.dynamics.state().speed();
-        self.observation.travelled = self.scene.ego.dynamics.state().travelled;
+        self.observation.speed = self.scene.ego.dynamics().state().speed();
+        self.observation.travelled = self.scene.ego.dynamics().state().travelled;
         self.observation.odometry = self.scene.ego.odometry();
         self.observation.way = self.scene.ego.way();
     }
 
     fn judged(&mut self) -> Outcome {
-        if self.scene.contact.is_none() {
+        if !self.touches() {
             self.trace.finish();
         }
         let mut judgements = Vec::with_capacity(self.requirements.len());
@@ -342,6 +361,6 @@ impl Setup {
     /// Makes a setup with a question every `period` seconds, the program's tick, the vehicle model `single-track` and no
     /// resistances.
     pub fn asking_every(period: f64) -> Self {
-        Self { period, dt: None, vehicle: VehicleSetup::default() }
+        Self { period, dt: None, vehicle: VehicleSetup::default(), takes_over: true }
     }
 }

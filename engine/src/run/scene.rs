@@ -1,5 +1,6 @@
 //! The scene of a run: everything in a world, as it moves from tick to tick.
 
+use super::Setup;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
 use crate::outcome::Invalid;
 use crate::road::{Path, RoadNetwork};
@@ -7,7 +8,7 @@ use crate::scenario::Ego;
 use crate::scenario::Scenario;
 use crate::stream::{Clock, DatumSample, Graph, Slot};
 use crate::upset::Upset;
-use crate::vehicle::{GRAVITY, VehicleSetup};
+use crate::vehicle::GRAVITY;
 use crate::weather::{Weather, WeatherPart};
 use crate::world::{Touching, World, overlapping};
 use nalgebra::Vector2;
@@ -27,6 +28,8 @@ struct Object {
 /// The ego vehicle, the objects around it, and the states of all bodies.
 pub(super) struct Scene {
     pub ego: Ego,
+    /// `true` if the driver gets the car when the scenario hands it over.
+    takes_over: bool,
     pub network: Arc<RoadNetwork>,
     objects: Vec<Object>,
     /// The states of the bodies of the car, of the objects and of the scenery, in this order.
@@ -55,11 +58,11 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Makes the scene of a program that has been built and laid out, with the given setup of the ego vehicle.
-    pub fn new(mut scenario: Scenario, graph: &Graph, vehicle: VehicleSetup) -> Self {
+    /// Makes the scene of a program that has been built and laid out, with the given setup of the run.
+    pub fn new(mut scenario: Scenario, graph: &Graph, setup: Setup) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
         let weather: Vec<_> = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
-        let ego = Ego::new(&scenario.cars[0], vehicle);
+        let ego = Ego::new(&scenario.cars[0], setup.vehicle);
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
         let mut objects = Vec::new();
@@ -82,6 +85,7 @@ impl Scene {
             told,
             world,
             ego,
+            takes_over: setup.takes_over,
             network,
             inputs: scenario.wiring.slots(graph),
             wiring: scenario.wiring,
@@ -182,9 +186,6 @@ impl Scene {
             let what = "friction of the road";
             return Err(Upset::Condition { what, value: friction, expected: "a number from 0 on" });
         }
-        self.ego.step(friction, dt)?;
-        self.previous[0].follow(&self.bodies[0], Some(self.ego.pose()), dt);
-        self.previous[0].velocity = self.ego.velocity();
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
@@ -210,6 +211,10 @@ impl Scene {
                 }
             }
         }
+        // An object may lead the car, so the car moves last.
+        self.ego.step(friction, dt, self.takes_over)?;
+        self.previous[0].follow(&self.bodies[0], Some(self.ego.pose()), dt);
+        self.previous[0].velocity = self.ego.velocity();
         std::mem::swap(&mut self.bodies, &mut self.previous);
         self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
         let clearance = self.world.clearance(&self.bodies);

@@ -77,7 +77,7 @@ impl Run {
         let weather = self.weather();
         SensorView {
             time: self.time(),
-            car: self.scene.ego.dynamics.state(),
+            car: self.scene.ego.dynamics().state(),
             bodies: &self.scene.bodies,
             before: self.scene.before(),
             dt: self.dt,

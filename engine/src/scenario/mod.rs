@@ -12,7 +12,7 @@ mod requirement;
 mod road;
 
 pub use draft::ObjectDraft;
-pub use ego::{AutonomousVehicle, Car};
+pub use ego::{AutonomousVehicle, Car, Lead, LedMotion};
 pub(crate) use ego::{Ego, EgoSetup};
 pub use environment::{Conditions, Environment};
 pub use param::Param;
@@ -64,6 +64,7 @@ pub struct Scenario {
     names: HashMap<String, usize>,
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
+    pub(crate) end: Option<Stream<bool>>,
     pub(crate) duration: f64,
     pub(crate) dt: f64,
     effects: Vec<Rc<Node>>,
@@ -121,6 +122,7 @@ impl Scenario {
             names: HashMap::new(),
             requirements: Rc::default(),
             premise: None,
+            end: None,
             duration: 10.0,
             dt: DEFAULT_DT,
             effects: Vec::new(),
@@ -247,6 +249,11 @@ impl Scenario {
         self.premise = Some(event.clone());
     }
 
+    /// Ends every run at the first tick at which `event` occurs, before its duration is over.
+    pub fn end(&mut self, event: &Stream<bool>) {
+        self.end = Some(event.clone());
+    }
+
     /// Makes the test invalid for the reason `why`, because the test's world is impossible. Use this for conditions
     /// that the intervals of the parameters cannot express.
     pub fn refuse(&mut self, why: &str) {
@@ -275,6 +282,7 @@ impl Scenario {
         let conditions =
             std::iter::once(("road.friction".to_owned(), self.conditions.friction.node.clone())).chain(weather);
         let premise = self.premise.iter().map(|event| ("premise".to_owned(), event.node.clone()));
+        let end = self.end.iter().map(|event| ("end".to_owned(), event.node.clone()));
         let requirements = self.requirements.borrow();
         let read = |stated: &requirement::Stated| {
             let id = stated.requirement.id.clone();
@@ -282,7 +290,7 @@ impl Scenario {
         };
         let requirements = requirements.iter().flat_map(read);
         let effects = self.effects.iter().map(|effect| ("for_each".to_owned(), effect.clone()));
-        conditions.chain(self.wiring.readers()).chain(premise).chain(requirements).chain(effects).collect()
+        conditions.chain(self.wiring.readers()).chain(premise).chain(end).chain(requirements).chain(effects).collect()
     }
 
     /// Lays out all streams that are read or defined. An error in them is a flaw of the scenario.

@@ -1,5 +1,7 @@
 //! The reasons why a file of a standard cannot be used: each with its place in the file.
 
+use super::expression::ExpressionFlaw;
+use paracosm_engine::road::RoadError;
 use paracosm_space::did_you_mean;
 use std::io;
 use std::path::PathBuf;
@@ -111,6 +113,30 @@ pub enum Flaw {
         /// The most similar allowed value; `None` if no value is similar.
         nearest: Option<String>,
     },
+    /// The value of an attribute has a parameter or an expression without a value.
+    #[error("`{attribute}=\"{text}\"` of <{element}> has no value: {flaw}")]
+    Expression {
+        /// The name of the element.
+        element: String,
+        /// The name of the attribute.
+        attribute: String,
+        /// The text of the attribute.
+        text: String,
+        /// The reason.
+        flaw: ExpressionFlaw,
+    },
+    /// A folder that an element names cannot be read.
+    #[error("the folder {} cannot be read: {error}", folder.display())]
+    Folder {
+        /// The path of the folder.
+        folder: PathBuf,
+        /// The error of the system.
+        #[source]
+        error: io::Error,
+    },
+    /// The roads of a map form no network.
+    #[error("the map has no roads to drive on: {0}")]
+    Roads(#[source] RoadError),
     /// Two elements have the same identifier.
     #[error("`{attribute}=\"{found}\"` of <{element}> is taken: the element in line {first} has the same value")]
     Taken {

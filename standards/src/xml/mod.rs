@@ -4,6 +4,7 @@
 mod document;
 mod element;
 mod error;
+mod expression;
 mod schema;
 mod source;
 mod writer;
@@ -11,6 +12,8 @@ mod writer;
 pub(crate) use document::Document;
 pub(crate) use element::Element;
 pub use error::{Flaw, Malformed, ReadError};
+pub use expression::ExpressionFlaw;
+pub(crate) use expression::{Expression, Value};
 pub use schema::{NoEffect, Support};
 pub(crate) use schema::{Row, Schema, no_effect, read, refused};
 pub(crate) use writer::Writer;

@@ -1,5 +1,6 @@
 //! The ego vehicle, with its place and its outputs in a program, and with its motion in a run.
 
+mod lead;
 mod quantity;
 mod right_of_way;
 
@@ -12,6 +13,8 @@ use crate::road::{LaneId, Path, RoadNetwork};
 use crate::stream::Stream;
 use crate::upset::Upset;
 use crate::vehicle::{Dynamics, Pedals, Vehicle, VehicleSetup};
+use lead::Led;
+pub use lead::{Lead, LedMotion};
 use nalgebra::Vector2;
 use paracosm_road::Pose;
 use paracosm_road::wrapped;
@@ -31,6 +34,7 @@ pub struct AutonomousVehicle {
     endless: bool,
     start: f64,
     speed: f64,
+    lead: Option<Lead>,
 }
 
 /// The data of the placed car that a run needs.
@@ -74,7 +78,10 @@ pub struct Car {
 pub(crate) struct Ego {
     car: AutonomousVehicle,
     shown: Shown,
-    pub dynamics: Box<dyn Dynamics>,
+    setup: VehicleSetup,
+    dynamics: Box<dyn Dynamics>,
+    /// The lead of the scenario, and the motion that it gives the car; `None` if the driver has the car.
+    led: Option<(Lead, Led)>,
     pub control: Control,
     /// The car's position along its way, in metres.
     at: f64,
@@ -93,7 +100,7 @@ impl AutonomousVehicle {
 
     /// Makes a car at the beginning of a path, which is the way that the car is to go.
     pub fn along(way: Path) -> Self {
-        Self { vehicle: Vehicle::BMW_320I, way, endless: false, start: 0.0, speed: 0.0 }
+        Self { vehicle: Vehicle::BMW_320I, way, endless: false, start: 0.0, speed: 0.0, lead: None }
     }
 
     /// Sets the place at which the car's middle starts, in metres along the car's way.
@@ -114,8 +121,15 @@ impl AutonomousVehicle {
         self
     }
 
+    /// Lets the scenario lead the car until it hands the car over to the driver.
+    pub fn led_by(mut self, lead: &Lead) -> Self {
+        self.lead = Some(lead.clone());
+        self
+    }
+
     fn start(&self) -> Pose {
-        self.way.at(self.start)
+        let led = self.lead.as_ref().and_then(Lead::next);
+        led.map_or_else(|| self.way.at(self.start), |motion| motion.pose)
     }
 }
 
@@ -279,7 +293,9 @@ impl Ego {
     pub fn new(setup: &EgoSetup, vehicle: VehicleSetup) -> Self {
         let EgoSetup { car, shown } = setup.clone();
         let dynamics = vehicle.build(&car.vehicle, car.start(), car.speed);
-        Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0, standing: 0.0 }
+        let led = car.lead.clone().map(|lead| (lead, Led::new(LedMotion { pose: car.start(), speed: car.speed })));
+        let (at, control) = (car.start, Control::default());
+        Self { at, car, shown, setup: vehicle, dynamics, led, control, jerk: 0.0, standing: 0.0 }
     }
 
     /// Returns the briefing of the car's driver, with the map of the given roads.
@@ -296,13 +312,21 @@ impl Ego {
         BodyState { velocity: self.velocity(), ..BodyState::at_rest(body, self.pose()) }
     }
 
+    /// Returns the motion of the car.
+    pub fn dynamics(&self) -> &dyn Dynamics {
+        match &self.led {
+            Some((_, led)) => led,
+            None => &*self.dynamics,
+        }
+    }
+
     pub fn pose(&self) -> Pose {
-        self.dynamics.state().pose()
+        self.dynamics().state().pose()
     }
 
     /// Returns the car's velocity over the ground in m/s.
     pub fn velocity(&self) -> Vector2<f64> {
-        self.pose().turn_to_plane(self.dynamics.state().velocity)
+        self.pose().turn_to_plane(self.dynamics().state().velocity)
     }
 
     /// Returns the rest of the way that the car is to go; `None` if the car is just to go straight on.
@@ -350,7 +374,7 @@ impl Ego {
 
     /// Sets the car's outputs. `clearance` is the value of [`Car::clearance`], and the car is the first of the bodies.
     pub fn show(&self, clearance: f64, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
-        let state = self.dynamics.state();
+        let state = self.dynamics().state();
         outputs.set(&self.shown.position, state.position);
         outputs.set(&self.shown.x, state.position.x);
         outputs.set(&self.shown.y, state.position.y);
@@ -364,23 +388,52 @@ impl Ego {
         self.shown.asked.show(self, bodies, network, outputs);
     }
 
-    /// Moves the car on by a tick on ground with the given friction.
-    pub fn step(&mut self, friction: f64, dt: f64) -> Result<(), Upset> {
+    /// Moves the car on by a tick on ground with the given friction. If the scenario leads the car, `takes_over` tells whether
+    /// the driver gets the car when the scenario hands it over.
+    pub fn step(&mut self, friction: f64, dt: f64, takes_over: bool) -> Result<(), Upset> {
+        let before = self.dynamics().state().acceleration.x;
+        if takes_over {
+            self.take_over();
+        }
+        match &mut self.led {
+            Some((lead, led)) => {
+                if let Some(motion) = lead.next() {
+                    led.follow(motion, dt);
+                }
+            }
+            None => self.drive(friction, dt)?,
+        }
+        let state = self.dynamics().state();
+        let (position, acceleration, speed) = (state.position, state.acceleration.x, state.speed());
+        if !state.is_finite() {
+            return Err(Upset::Car(Box::new(*state)));
+        }
+        if let (None, Some(lead)) = (&self.led, &self.car.lead) {
+            lead.show(LedMotion { pose: state.pose(), speed: state.velocity.x });
+        }
+        self.jerk = (acceleration - before) / dt;
+        self.standing = if speed < STANDING { self.standing + dt } else { 0.0 };
+        self.at = self.car.way.nearest(position, self.at);
+        Ok(())
+    }
+
+    /// Gives the car to the driver if the scenario has handed it over.
+    fn take_over(&mut self) {
+        if let Some((_, led)) = self.led.take_if(|(lead, _)| lead.is_handed_over()) {
+            let state = led.state();
+            let (pose, speed) = (state.pose(), state.velocity.x.max(0.0));
+            self.dynamics = self.setup.build_after(state.travelled, &self.car.vehicle, pose, speed);
+        }
+    }
+
+    fn drive(&mut self, friction: f64, dt: f64) -> Result<(), Upset> {
         let Control { throttle, steering } = self.control;
         for (what, value) in [("throttle", throttle), ("steering", steering)] {
             if !(-1.0..=1.0).contains(&value) {
                 return Err(Upset::Control { what, value });
             }
         }
-        let before = self.dynamics.state().acceleration.x;
         self.dynamics.step(Pedals { throttle, steering }, friction, dt);
-        let state = self.dynamics.state();
-        if !state.is_finite() {
-            return Err(Upset::Car(Box::new(*state)));
-        }
-        self.jerk = (state.acceleration.x - before) / dt;
-        self.standing = if state.speed() < STANDING { self.standing + dt } else { 0.0 };
-        self.at = self.car.way.nearest(state.position, self.at);
         Ok(())
     }
 }

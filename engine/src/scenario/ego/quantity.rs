@@ -54,8 +54,8 @@ impl Quantity {
 
     /// Measures the quantity now, with the car as the first of the bodies.
     fn measure(self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
-        let state = ego.dynamics.state();
-        let wheels = || ego.dynamics.wheels().into_iter();
+        let state = ego.dynamics().state();
+        let wheels = || ego.dynamics().wheels().into_iter();
         match self {
             Quantity::LateralAcceleration => state.acceleration.y,
             Quantity::YawRate => state.yaw_rate,

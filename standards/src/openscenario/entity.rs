@@ -1,0 +1,114 @@
+//! The entities of a scenario: vehicles, pedestrians and things, with their dimensions and their limits.
+
+use super::catalogs::Catalogs;
+use super::scope::Node;
+use crate::xml::{Flaw, ReadError};
+use nalgebra::Vector2;
+use paracosm_engine::object::{Body, Class};
+
+/// An entity of a scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entity {
+    pub name: String,
+    /// The box around the entity, with its class.
+    pub body: Body,
+    /// The middle of the box as seen from the reference point, in metres ahead and to the left. The reference point of a
+    /// vehicle is the middle of the rear axle.
+    pub middle: Vector2<f64>,
+    /// Half of the length and half of the width of the box, in metres.
+    pub half: Vector2<f64>,
+    /// The limits of a vehicle; `None` for pedestrians and things.
+    pub vehicle: Option<Limits>,
+    /// `true` if the scenario assigns a controller to the entity.
+    pub is_controlled: bool,
+}
+
+/// The limits of a vehicle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limits {
+    /// The greatest speed in m/s.
+    pub speed: f64,
+    /// The greatest acceleration in m/s².
+    pub acceleration: f64,
+    /// The greatest deceleration in m/s².
+    pub deceleration: f64,
+    /// The distance from the front axle to the rear axle in metres; 0 without a front axle.
+    pub wheelbase: f64,
+}
+
+impl Entity {
+    /// Reads all entities of a scenario.
+    pub fn all(entities: Node<'_>, catalogs: &Catalogs<'_>) -> Result<Vec<Self>, ReadError> {
+        let mut read: Vec<(Self, u32)> = Vec::new();
+        for object in entities.elements() {
+            if object.name() != "ScenarioObject" {
+                return Err(object.refused("name the entities one by one"));
+            }
+            let name = object.required("name")?.into_owned();
+            if let Some((_, first)) = read.iter().find(|(other, _)| other.name == name) {
+                let (element, attribute, first) = (object.name().to_owned(), "name", *first);
+                return Err(object.error(Flaw::Taken { element, attribute, found: name, first }));
+            }
+            let is_controlled = object.first("ObjectController").is_some();
+            let kind = object.choice("Vehicle, Pedestrian, MiscObject or CatalogReference")?;
+            let entity = catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| {
+                Self::one(node, name.clone(), is_controlled)
+            })?;
+            read.push((entity, object.element.line()));
+        }
+        Ok(read.into_iter().map(|(entity, _)| entity).collect())
+    }
+
+    fn one(node: Node<'_>, name: String, is_controlled: bool) -> Result<Self, ReadError> {
+        let class = match node.name() {
+            "Vehicle" => node.one_of("vehicleCategory", &VEHICLES)?,
+            "Pedestrian" => Class::Pedestrian,
+            "MiscObject" => Class::Prop,
+            _ => return Err(node.refused("use a Vehicle, a Pedestrian or a MiscObject")),
+        };
+        let vehicle = (node.name() == "Vehicle").then(|| Limits::read(node)).transpose()?;
+        let bounds = node.child("BoundingBox")?;
+        let (centre, dimensions) = (bounds.child("Center")?, bounds.child("Dimensions")?);
+        let [length, width, height] =
+            [dimensions.length("length")?, dimensions.length("width")?, dimensions.length("height")?];
+        // Files give things no extent where none matters; a body has some.
+        let [length, width, height] = [length, width, height].map(|metres| metres.max(LEAST_EXTENT));
+        Ok(Self {
+            name,
+            body: Body::block(class, length, width, height),
+            middle: Vector2::new(centre.number("x")?, centre.number("y")?),
+            half: Vector2::new(0.5 * length, 0.5 * width),
+            vehicle,
+            is_controlled,
+        })
+    }
+}
+
+/// The least extent of a body in metres.
+const LEAST_EXTENT: f64 = 0.01;
+
+const VEHICLES: [(&str, Class); 10] = [
+    ("car", Class::Car),
+    ("van", Class::Van),
+    ("truck", Class::Truck),
+    ("trailer", Class::Truck),
+    ("semitrailer", Class::Truck),
+    ("bus", Class::Bus),
+    ("motorbike", Class::Motorcycle),
+    ("bicycle", Class::Bicycle),
+    ("train", Class::Prop),
+    ("tram", Class::Prop),
+];
+
+impl Limits {
+    fn read(vehicle: Node<'_>) -> Result<Self, ReadError> {
+        let performance = vehicle.child("Performance")?;
+        let front = vehicle.first("Axles").and_then(|axles| axles.first("FrontAxle"));
+        Ok(Self {
+            speed: performance.length("maxSpeed")?,
+            acceleration: performance.length("maxAcceleration")?,
+            deceleration: performance.length("maxDeceleration")?,
+            wheelbase: front.map_or(Ok(0.0), |axle| axle.number("positionX"))?,
+        })
+    }
+}

@@ -1,0 +1,15 @@
+//! ASAM OpenSCENARIO XML 1.0 to 1.3: scenarios of files as programs.
+
+mod action;
+mod catalogs;
+mod condition;
+mod entity;
+mod place;
+mod play;
+mod position;
+mod program;
+mod scope;
+mod story;
+mod transition;
+
+pub use program::Xosc;

@@ -1,0 +1,192 @@
+//! Places on the lanes of a map, and the way along them.
+
+use crate::opendrive::{Direction, End, Link, Map, Road, Traffic};
+use paracosm_engine::Pose;
+use paracosm_engine::road::wrapped;
+use std::f64::consts::PI;
+
+/// A place beside the middle of a lane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// The index of the road.
+    pub road: usize,
+    /// The place along the road in metres.
+    pub s: f64,
+    /// The number of the lane.
+    pub lane: i32,
+    /// The distance from the middle of the lane in metres, to the left of the direction of the road.
+    pub offset: f64,
+    /// The angle from the direction of the lane along the road, in radians.
+    pub turn: f64,
+}
+
+/// The distance in metres that a look along the road covers.
+const SIGHT: f64 = 2000.0;
+
+impl Place {
+    /// Returns the distance from the reference line in metres to the left.
+    pub fn t(&self, map: &Map) -> f64 {
+        let road = &map.roads[self.road];
+        road.middle(road.section_at(self.s), self.lane, self.s) + self.offset
+    }
+
+    /// Returns the position and the heading of the place.
+    pub fn pose(&self, map: &Map) -> Pose {
+        let road = &map.roads[self.road];
+        let section = road.section_at(self.s);
+        let heading = road.lane_heading(section, self.lane, self.s).unwrap_or_else(|| road.line.at(self.s).heading);
+        Pose { position: road.point(self.s, self.t(map)), heading: wrapped(heading + self.turn) }
+    }
+
+    /// Returns `true` if the place faces against the direction of the road.
+    pub fn is_against(&self) -> bool {
+        libm::cos(self.turn) < 0.0
+    }
+
+    /// Moves the place to another lane without moving it in the world.
+    pub fn enter(&mut self, lane: i32, map: &Map) {
+        let t = self.t(map);
+        self.lane = lane;
+        self.offset = 0.0;
+        self.offset = t - self.t(map);
+    }
+
+    /// Returns the number of the lane under the place.
+    pub fn lane_below(&self, map: &Map) -> i32 {
+        let road = &map.roads[self.road];
+        let section = road.section_at(self.s);
+        let t = self.t(map);
+        let lanes = road.sections[section].lanes.iter().filter(|lane| lane.number != 0);
+        let distance = |number: i32| {
+            let (middle, half) = (road.middle(section, number, self.s), 0.5 * road.width(section, number, self.s));
+            (t - middle).abs() - half
+        };
+        let nearest = lanes.map(|lane| (lane.number, distance(lane.number))).min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map_or(self.lane, |(number, _)| number)
+    }
+
+    /// Moves the place along its lane by `metres` metres in the direction that it faces. Returns `false` at the end of the road.
+    pub fn advance(&mut self, metres: f64, map: &Map) -> bool {
+        let mut rest = if self.is_against() { -metres } else { metres };
+        loop {
+            let road = &map.roads[self.road];
+            let section = road.section_at(self.s);
+            let wanted = self.s + self.along(rest, map);
+            let (start, end) = (road.sections[section].s, road.sections[section].end);
+            if (start..end).contains(&wanted) || wanted == end && section + 1 == road.sections.len() {
+                self.s = wanted;
+                return true;
+            }
+            let border = if wanted < start { start } else { end };
+            rest -= (border - self.s) * rest / (wanted - self.s);
+            if !self.cross(section, border == end, &mut rest, map) {
+                self.s = border;
+                return false;
+            }
+        }
+    }
+
+    /// Returns the metres along the reference line that belong to `metres` metres along the place's own line.
+    fn along(&self, metres: f64, map: &Map) -> f64 {
+        let road = &map.roads[self.road];
+        let rate = |s: f64| {
+            let t = Self { s, ..*self }.t(map);
+            road.line.rate(s) * (1.0 - road.line.curvature(s) * t).max(0.01)
+        };
+        let first = metres / rate(self.s);
+        metres / rate((self.s + 0.5 * first).clamp(0.0, road.length))
+    }
+
+    /// Moves the place over a border of a section to the next section. Returns `false` if there is none.
+    fn cross(&mut self, section: usize, at_end: bool, rest: &mut f64, map: &Map) -> bool {
+        let road = &map.roads[self.road];
+        let lane = road.sections[section].lane(self.lane);
+        let next = lane.and_then(|lane| if at_end { lane.successors.first() } else { lane.predecessors.first() });
+        let neighbour = if at_end { section + 1 } else { section.wrapping_sub(1) };
+        if let Some(there) = road.sections.get(neighbour) {
+            self.lane = next.copied().unwrap_or(self.lane);
+            self.s = if at_end { there.s } else { there.end - f64::EPSILON * there.end };
+            return true;
+        }
+        let end = if at_end { End::End } else { End::Start };
+        let Some((to, at, lane)) = road.link(end).and_then(|link| self.beyond(link, next.copied(), map)) else {
+            return false;
+        };
+        let entered = &map.roads[to];
+        let turns = (at == End::End) == at_end;
+        (self.road, self.lane) = (to, lane);
+        self.s = if at == End::Start { 0.0 } else { entered.length - f64::EPSILON * entered.length };
+        if turns {
+            self.turn = wrapped(self.turn + PI);
+            self.offset = -self.offset;
+            *rest = -*rest;
+        }
+        true
+    }
+
+    /// Returns the road, the end and the lane that are entered over a link. At a junction this is the straightest way.
+    fn beyond(&self, link: Link, next: Option<i32>, map: &Map) -> Option<(usize, End, i32)> {
+        match link {
+            Link::Road(to, at) => Some((to, at, next.unwrap_or(self.lane))),
+            Link::Junction(junction) => {
+                let heading = self.pose(map).heading;
+                let connections =
+                    map.junctions[junction].connections.iter().filter(|connection| connection.from == self.road);
+                let ways = connections.filter_map(|connection| {
+                    let lane = connection.next(self.lane).first().copied()?;
+                    let road = &map.roads[connection.to];
+                    let (far, back) = match connection.at {
+                        End::Start => (road.length, 0.0),
+                        End::End => (0.0, PI),
+                    };
+                    let bend = wrapped(road.line.at(far).heading + back - heading).abs();
+                    Some((bend, (connection.to, connection.at, lane)))
+                });
+                ways.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, way)| way)
+            }
+        }
+    }
+
+    /// Returns the distance along the road to another place in metres; negative if the other place is behind. `None` if no road
+    /// leads there within 2 km.
+    pub fn distance_to(&self, other: &Self, map: &Map) -> Option<f64> {
+        if self.road == other.road {
+            let ahead = other.s - self.s;
+            return Some(if self.is_against() { -ahead } else { ahead });
+        }
+        self.ahead_to(other, map).or_else(|| {
+            let back = Self { turn: wrapped(self.turn + PI), ..*self };
+            back.ahead_to(other, map).map(|metres| -metres)
+        })
+    }
+
+    fn ahead_to(&self, other: &Self, map: &Map) -> Option<f64> {
+        let (mut here, mut metres) = (*self, 0.0);
+        while metres < SIGHT {
+            let road = &map.roads[here.road];
+            let rest = if here.is_against() { here.s } else { road.length - here.s };
+            metres += rest;
+            here.s = if here.is_against() { 0.0 } else { road.length };
+            let section = road.section_at(here.s);
+            let mut none = 0.0;
+            let at_end = !here.is_against();
+            if !here.cross(section, at_end, &mut none, map) {
+                return None;
+            }
+            if here.road == other.road {
+                return Some(metres + (other.s - here.s).abs());
+            }
+        }
+        None
+    }
+}
+
+/// Returns the angle from the direction of a road to the direction of the traffic on one of its lanes.
+pub(super) fn driving_turn(road: &Road, section: usize, lane: i32) -> f64 {
+    let leads = match road.traffic {
+        Traffic::RightHand => lane <= 0,
+        Traffic::LeftHand => lane >= 0,
+    };
+    let reversed = road.sections[section].lane(lane).is_some_and(|lane| lane.direction == Direction::Reversed);
+    if leads != reversed { 0.0 } else { PI }
+}

@@ -1,0 +1,159 @@
+//! An entity at play: where it is, how it moves, and which actions move it.
+
+use crate::opendrive::Map;
+use crate::openscenario::entity::Entity;
+use crate::openscenario::place::Place;
+use nalgebra::Vector2;
+use paracosm_engine::{LedMotion, Pose};
+
+/// The speed in m/s below which an entity stands.
+const STANDING: f64 = 0.01;
+
+/// An entity in a run.
+#[derive(Debug, Clone)]
+pub(in crate::openscenario) struct Actor {
+    pub entity: Entity,
+    pub place: Whereabouts,
+    /// The position of the reference point, and the heading.
+    pub pose: Pose,
+    /// The speed in m/s in the direction of the heading; negative if the entity moves backwards.
+    pub speed: f64,
+    /// The change of the speed over the last tick in m/s².
+    pub acceleration: f64,
+    /// The speed in m/s to the left of the direction of the lane.
+    pub lateral_speed: f64,
+    /// The distance in metres that the entity has travelled.
+    pub travelled: f64,
+    /// The seconds for which the entity has been standing.
+    pub standing: f64,
+    /// The seconds for which the entity has been at the end of its road.
+    pub stuck: f64,
+    /// The actions that move the entity along and aside, by their indices.
+    pub longitudinal: Option<usize>,
+    pub lateral: Option<usize>,
+    /// The motion of this tick, which the actions change.
+    pub step: Step,
+}
+
+/// The place of an entity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::openscenario) enum Whereabouts {
+    /// The entity follows a lane.
+    OnLane(Place),
+    /// The entity is beside all roads, and goes straight on.
+    Free(Pose),
+}
+
+/// The motion of an entity within a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(in crate::openscenario) struct Step {
+    /// The offset from the middle of the lane at the end of the tick.
+    pub offset: Option<f64>,
+    /// The angle from the direction of the lane that the motion aside gives the entity, in radians.
+    pub angle: f64,
+    /// The metres that the entity moves aside, at the cost of its motion along the lane.
+    pub aside: f64,
+    /// The pose at the end of the tick, if an action determines it.
+    pub pose: Option<Pose>,
+}
+
+impl Actor {
+    /// Makes an entity that stands at the origin until it is teleported.
+    pub fn new(entity: Entity) -> Self {
+        let pose = Pose { position: Vector2::zeros(), heading: 0.0 };
+        Self {
+            entity,
+            place: Whereabouts::Free(pose),
+            pose,
+            speed: 0.0,
+            acceleration: 0.0,
+            lateral_speed: 0.0,
+            travelled: 0.0,
+            standing: 0.0,
+            stuck: 0.0,
+            longitudinal: None,
+            lateral: None,
+            step: Step::default(),
+        }
+    }
+
+    /// Puts the entity at a place.
+    pub fn put(&mut self, place: Whereabouts, map: &Map) {
+        self.place = place;
+        self.pose = match place {
+            Whereabouts::OnLane(place) => place.pose(map),
+            Whereabouts::Free(pose) => pose,
+        };
+    }
+
+    /// Returns the place on a lane; `None` beside all roads.
+    pub fn on_lane(&self) -> Option<&Place> {
+        match &self.place {
+            Whereabouts::OnLane(place) => Some(place),
+            Whereabouts::Free(_) => None,
+        }
+    }
+
+    /// Returns the position of the middle of the entity's box, and the entity's heading.
+    pub fn middle(&self) -> Pose {
+        Pose { position: self.pose.position + self.pose.turn_to_plane(self.entity.middle), heading: self.pose.heading }
+    }
+
+    /// Returns the motion of the middle of the entity's box.
+    pub fn motion(&self) -> LedMotion {
+        LedMotion { pose: self.middle(), speed: self.speed }
+    }
+
+    /// Moves the entity on by a tick of `dt` seconds, as its actions say.
+    pub fn advance(&mut self, dt: f64, before: f64, map: &Map) {
+        let from = self.pose;
+        let Step { offset, angle, aside, pose } = std::mem::take(&mut self.step);
+        if let Some(pose) = pose {
+            self.place = Whereabouts::Free(pose);
+            self.pose = pose;
+        } else {
+            let metres = along(self.speed * dt, aside);
+            let arrived = match &mut self.place {
+                Whereabouts::OnLane(place) => {
+                    if let Some(offset) = offset {
+                        place.offset = offset;
+                    }
+                    let moved = place.advance(metres, map);
+                    self.pose = place.pose(map);
+                    self.pose.heading = paracosm_engine::road::wrapped(self.pose.heading + angle);
+                    !moved
+                }
+                Whereabouts::Free(pose) => {
+                    pose.position += pose.forward() * metres;
+                    self.pose = *pose;
+                    false
+                }
+            };
+            self.stuck = if arrived { self.stuck + dt } else { 0.0 };
+        }
+        self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
+        self.finish(dt, before, from);
+    }
+
+    /// Takes over the motion of a car that a driver drives.
+    pub fn follow(&mut self, motion: LedMotion, dt: f64) {
+        let (from, before) = (self.pose, self.speed);
+        let heading = motion.pose.heading;
+        let forward = Pose { position: Vector2::zeros(), heading };
+        let position = motion.pose.position - forward.turn_to_plane(self.entity.middle);
+        self.pose = Pose { position, heading };
+        self.speed = motion.speed;
+        self.finish(dt, before, from);
+    }
+
+    fn finish(&mut self, dt: f64, before: f64, from: Pose) {
+        self.acceleration = (self.speed - before) / dt;
+        self.travelled += (self.pose.position - from.position).norm();
+        self.standing = if self.speed.abs() < STANDING { self.standing + dt } else { 0.0 };
+    }
+}
+
+/// Returns the metres along a lane of an entity that travels `metres` metres, `aside` of them to the side.
+fn along(metres: f64, aside: f64) -> f64 {
+    if aside == 0.0 { metres } else { (metres * metres - aside * aside).max(0.0).sqrt().copysign(metres) }
+}

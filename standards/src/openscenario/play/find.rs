@@ -1,0 +1,141 @@
+//! The places of positions in the world, as it is at the moment.
+
+use super::actor::{Actor, Whereabouts};
+use crate::opendrive::Map;
+use crate::openscenario::place::{Place, driving_turn};
+use crate::openscenario::position::{Position, Turn};
+use nalgebra::Vector2;
+use paracosm_engine::Pose;
+use paracosm_engine::road::wrapped;
+use thiserror::Error;
+
+/// The reason why a position has no place in the world.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(in crate::openscenario) enum Lost {
+    #[error("the map has no road `{road}`{}", paracosm_space::did_you_mean(nearest))]
+    NoRoad { road: String, nearest: Option<String> },
+    #[error("road `{road}` has no lane {lane} at s = {s} m, its lanes are {first} to {last}")]
+    NoLane { road: String, lane: i32, s: f64, first: i32, last: i32 },
+    #[error("road `{road}` has no place at s = {s} m, it is {length} m long")]
+    NoPlace { road: String, s: f64, length: f64 },
+    #[error("the position of `{entity}` is beside all roads, so no place on a road is relative to it")]
+    OffRoad { entity: String },
+}
+
+/// The least distance in metres beyond the end of a road at which a position is not on the road.
+const BEYOND: f64 = 1e-6;
+
+/// Returns the place of a position.
+pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<Whereabouts, Lost> {
+    let on_road = |entity: usize| {
+        let off = || Lost::OffRoad { entity: actors[entity].entity.name.clone() };
+        actors[entity].on_lane().copied().ok_or_else(off)
+    };
+    match position {
+        Position::World { x, y, heading } => {
+            Ok(Whereabouts::Free(Pose { position: Vector2::new(*x, *y), heading: *heading }))
+        }
+        Position::Lane { road, lane, s, offset, turn } => {
+            let (index, s) = road_at(road, *s, map)?;
+            Ok(Whereabouts::OnLane(on_lane(index, *lane, s, *offset, *turn, map)?))
+        }
+        Position::Road { road, s, t, turn } => {
+            let (index, s) = road_at(road, *s, map)?;
+            Ok(Whereabouts::OnLane(beside(index, s, *t, *turn, map)))
+        }
+        Position::RelativeLane { entity, lanes, ds, along_lane, offset, turn } => {
+            let mut place = on_road(*entity)?;
+            place.offset = 0.0;
+            let against = place.is_against();
+            let below = actors[*entity].on_lane().map_or(place.lane, |place| place.lane_below(map));
+            place.lane = neighbour(below, *lanes);
+            if *along_lane {
+                place.advance(*ds, map);
+            } else {
+                let lane = place.lane;
+                place.lane = 0;
+                place.advance(if against { -*ds } else { *ds }, map);
+                place.lane = lane;
+            }
+            Ok(Whereabouts::OnLane(on_lane(place.road, place.lane, place.s, *offset, *turn, map)?))
+        }
+        Position::RelativeRoad { entity, ds, dt, turn } => {
+            let mut place = on_road(*entity)?;
+            let t = place.t(map) + dt;
+            (place.lane, place.offset) = (0, 0.0);
+            place.advance(if place.is_against() { -*ds } else { *ds }, map);
+            Ok(Whereabouts::OnLane(beside(place.road, place.s, t, *turn, map)))
+        }
+        Position::RelativeWorld { entity, dx, dy, turn } => {
+            let from = actors[*entity].pose;
+            Ok(Whereabouts::Free(Pose {
+                position: from.position + Vector2::new(*dx, *dy),
+                heading: turned(from, *turn),
+            }))
+        }
+        Position::RelativeObject { entity, dx, dy, turn } => {
+            let from = actors[*entity].pose;
+            let position = from.position + from.turn_to_plane(Vector2::new(*dx, *dy));
+            Ok(Whereabouts::Free(Pose { position, heading: turned(from, *turn) }))
+        }
+    }
+}
+
+fn turned(from: Pose, turn: Turn) -> f64 {
+    match turn {
+        Turn::Absolute(heading) => heading,
+        Turn::Relative(angle) => wrapped(from.heading + angle),
+    }
+}
+
+/// Returns the number of the lane that is so many lanes to the left. There is no lane 0 to drive on.
+pub(super) fn neighbour(lane: i32, left: i32) -> i32 {
+    let there = lane + left;
+    if lane != 0 && (there == 0 || there.signum() != lane.signum()) { there + left.signum() } else { there }
+}
+
+/// Returns the index of a road, and the place on it.
+fn road_at(id: &str, s: f64, map: &Map) -> Result<(usize, f64), Lost> {
+    let unknown = || {
+        let nearest = paracosm_space::nearest(id, map.roads.iter().map(|road| road.id.as_str())).map(str::to_owned);
+        Lost::NoRoad { road: id.to_owned(), nearest }
+    };
+    let index = map.road(id).ok_or_else(unknown)?;
+    let length = map.roads[index].length;
+    if (0.0..=length + BEYOND).contains(&s) {
+        Ok((index, s.min(length)))
+    } else {
+        Err(Lost::NoPlace { road: id.to_owned(), s, length })
+    }
+}
+
+fn on_lane(index: usize, lane: i32, s: f64, offset: f64, turn: Turn, map: &Map) -> Result<Place, Lost> {
+    let road = &map.roads[index];
+    let section = road.section_at(s);
+    let lanes = &road.sections[section].lanes;
+    if road.sections[section].lane(lane).is_none() {
+        let numbers = [lanes.last(), lanes.first()].map(|lane| lane.map_or(0, |lane| lane.number));
+        return Err(Lost::NoLane { road: road.id.clone(), lane, s, first: numbers[0], last: numbers[1] });
+    }
+    Ok(facing(Place { road: index, s, lane, offset, turn: driving_turn(road, section, lane) }, turn, map))
+}
+
+/// Returns the place `t` metres to the left of the reference line, on the lane that is there.
+fn beside(road: usize, s: f64, t: f64, turn: Turn, map: &Map) -> Place {
+    let mut place = Place { road, s, lane: 0, offset: 0.0, turn: 0.0 };
+    place.offset = t - place.t(map);
+    let lane = place.lane_below(map);
+    place.enter(lane, map);
+    facing(place, turn, map)
+}
+
+/// Turns a place from the direction of its lane, or to a heading in the world.
+fn facing(place: Place, turn: Turn, map: &Map) -> Place {
+    match turn {
+        Turn::Relative(angle) => Place { turn: place.turn + angle, ..place },
+        Turn::Absolute(heading) => {
+            let along = Place { turn: 0.0, ..place }.pose(map).heading;
+            Place { turn: wrapped(heading - along), ..place }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! A storyboard at play: the states of its elements and of its entities, as they change from tick to tick.
+
+mod actor;
+mod find;
+mod measure;
+mod motion;
+mod stage;
+mod start;
+mod track;
+mod watch;
+
+pub(super) use actor::Actor;
+pub(super) use stage::Stage;

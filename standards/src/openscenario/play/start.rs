@@ -1,0 +1,137 @@
+//! The beginning of an action: what it reads from the world at that moment.
+
+use super::actor::{Actor, Whereabouts};
+use super::find::{Lost, find, neighbour};
+use super::motion::Motion;
+use super::stage::Stage;
+use super::track::Track;
+use crate::openscenario::action::{Action, Gap, Lane, Lateral, Target, Trajectory};
+use crate::openscenario::condition::{Metric, MetricKind, System};
+use crate::openscenario::transition::{Dynamics, Extent, Shape};
+
+impl Stage {
+    /// Begins an action of an entity. Returns the motion that goes on; `None` if the action is over at once.
+    pub(super) fn begin(&mut self, entity: usize, action: &Action) -> Result<Option<Motion>, Lost> {
+        Ok(match action {
+            Action::Nothing => None,
+            Action::Activate { lateral, longitudinal } => {
+                if entity == self.ego && *lateral != Some(false) && *longitudinal != Some(false) {
+                    self.lead.hand_over();
+                }
+                None
+            }
+            Action::Teleport(position) => {
+                let place = find(position, &self.actors, &self.map)?;
+                self.actors[entity].put(place, &self.map);
+                None
+            }
+            Action::Speed { dynamics, target } => self.speed(entity, *dynamics, *target),
+            Action::Gap { entity: other, gap, freespace, continuous, ahead, limits } => {
+                let how = Metric { kind: MetricKind::Longitudinal, freespace: *freespace, system: System::Road };
+                let motion = Motion::Gap {
+                    other: *other,
+                    gap: *gap,
+                    how,
+                    continuous: *continuous,
+                    ahead: *ahead,
+                    limits: *limits,
+                };
+                if limits.is_none() && !continuous {
+                    self.close_up(entity, *other, *gap, how, *ahead);
+                    None
+                } else {
+                    Some(motion)
+                }
+            }
+            Action::LaneChange { dynamics, lane, offset } => {
+                let Some(mut place) = self.actors[entity].on_lane().copied() else { return Ok(None) };
+                let lane = match lane {
+                    Lane::Absolute(lane) => *lane,
+                    Lane::Relative { entity: of, lanes } => {
+                        let other = self.actors[*of].on_lane();
+                        let Some(other) = other else { return Ok(None) };
+                        let left = if other.is_against() { -*lanes } else { *lanes };
+                        neighbour(other.lane_below(&self.map), left)
+                    }
+                };
+                place.enter(lane, &self.map);
+                self.actors[entity].place = Whereabouts::OnLane(place);
+                let target = if place.is_against() { -*offset } else { *offset };
+                Some(Motion::LaneChange(dynamics.from(place.offset, target)))
+            }
+            Action::LaneOffset { shape, most_acceleration, target, continuous } => {
+                let Some(place) = self.actors[entity].on_lane().copied() else { return Ok(None) };
+                let target = match target {
+                    Lateral::Absolute(value) => *value,
+                    Lateral::Relative { entity: of, value } => {
+                        self.actors[*of].on_lane().map_or(0.0, |other| other.offset) + value
+                    }
+                };
+                let target = if place.is_against() { -target } else { target };
+                let span = most_acceleration.map_or(0.0, |most| shape.time_within(target - place.offset, most));
+                let shape = if span > 0.0 { *shape } else { Shape::Step };
+                let dynamics = Dynamics { shape, extent: Extent::Time(span) };
+                Some(Motion::LaneOffset { transition: dynamics.from(place.offset, target), continuous: *continuous })
+            }
+            Action::Trajectory(trajectory) => self.trajectory(trajectory)?,
+        })
+    }
+
+    fn speed(&mut self, entity: usize, dynamics: Dynamics, target: Target) -> Option<Motion> {
+        let goal = self.target(target);
+        let transition = dynamics.from(self.actors[entity].speed, goal);
+        let continuous = matches!(target, Target::Relative { continuous: true, .. });
+        if transition.is_over() && !continuous {
+            self.actors[entity].speed = goal;
+            return None;
+        }
+        Some(Motion::Speed { transition, follows: continuous.then_some(target) })
+    }
+
+    /// Returns the present value of the target of a change of speed, in m/s.
+    pub(super) fn target(&self, target: Target) -> f64 {
+        match target {
+            Target::Absolute(speed) => speed,
+            Target::Relative { entity, value, is_factor: true, .. } => self.actors[entity].speed * value,
+            Target::Relative { entity, value, is_factor: false, .. } => self.actors[entity].speed + value,
+        }
+    }
+
+    /// Puts an entity at its distance from another entity, at once.
+    fn close_up(&mut self, entity: usize, other: usize, gap: Gap, how: Metric, ahead: Option<bool>) {
+        let actor = &self.actors[entity];
+        let missing = self.missing(actor, other, gap, how, ahead);
+        let Some(mut place) = actor.on_lane().copied().filter(|_| missing.is_finite()) else { return };
+        place.advance(missing, &self.map);
+        self.actors[entity].put(Whereabouts::OnLane(place), &self.map);
+    }
+
+    /// Returns the metres that an entity has to move forward to have its distance from another entity. `ahead` is `true` if the
+    /// entity is to lead the other entity.
+    pub(super) fn missing(&self, actor: &Actor, other: usize, gap: Gap, how: Metric, ahead: Option<bool>) -> f64 {
+        let to_other = self.distance_to(actor, other, how);
+        let wanted = match gap {
+            Gap::Metres(metres) => metres,
+            Gap::Seconds(seconds) => seconds * actor.speed.abs(),
+        };
+        let leads = ahead.unwrap_or(to_other < 0.0);
+        if leads { to_other + wanted } else { to_other - wanted }
+    }
+
+    fn trajectory(&mut self, trajectory: &Trajectory) -> Result<Option<Motion>, Lost> {
+        let mut vertices = Vec::new();
+        let close = trajectory.vertices.first().filter(|_| trajectory.closed);
+        for vertex in trajectory.vertices.iter().chain(close) {
+            let pose = match find(&vertex.position, &self.actors, &self.map)? {
+                Whereabouts::OnLane(place) => place.pose(&self.map),
+                Whereabouts::Free(pose) => pose,
+            };
+            vertices.push((pose, vertex.time.unwrap_or(0.0)));
+        }
+        let timing = trajectory.timing.map(|timing| {
+            let begin = if timing.is_relative { self.time } else { 0.0 };
+            (timing.scale, timing.offset + begin)
+        });
+        Ok(Track::new(vertices).map(|track| Motion::Trajectory { track, s: trajectory.from, timing }))
+    }
+}

@@ -1,0 +1,251 @@
+//! A scenario of a file as a program: the same world, streams and signals as those of any other program.
+
+use super::catalogs::{CatalogFiles, declare};
+use super::condition::{Check, Measure};
+use super::play::Stage;
+use super::scope::{Node, Scope};
+use super::story::Storyboard;
+use crate::opendrive::Map;
+use crate::xml::{Document, Flaw, ReadError};
+use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
+use paracosm_engine::road::{Path, RoadNetwork};
+use paracosm_engine::vehicle::Vehicle;
+use paracosm_engine::{AutonomousVehicle, Lead, Monitor, Pose, Program, Scenario, Stream};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path as FilePath, PathBuf};
+use std::rc::Rc;
+use std::sync::{Arc, Mutex};
+
+/// The duration in seconds of a scenario whose stop trigger does not come.
+const LONGEST: f64 = 60.0;
+
+/// A scenario of a file, with its catalogs and its roads.
+pub struct Xosc {
+    name: String,
+    folder: PathBuf,
+    document: Document,
+    catalogs: CatalogFiles,
+    roads: Mutex<BTreeMap<PathBuf, Roads>>,
+}
+
+/// A map and its road network.
+#[derive(Clone)]
+struct Roads {
+    map: Arc<Map>,
+    network: Arc<RoadNetwork>,
+}
+
+/// The storyboard that controls all entities, as an object of the world without a body.
+struct Director {
+    stage: Rc<RefCell<Stage>>,
+    conditions: Vec<Input<bool>>,
+    truths: Vec<bool>,
+    measures: Vec<(Measure, Output<f64>)>,
+    stopped: Output<bool>,
+}
+
+/// An entity as an object of the world, which the storyboard moves.
+struct Shown {
+    stage: Rc<RefCell<Stage>>,
+    index: usize,
+    has_body: bool,
+    x: Output<f64>,
+    y: Output<f64>,
+    heading: Output<f64>,
+    speed: Output<f64>,
+}
+
+impl Xosc {
+    /// Reads a scenario, its catalogs and its roads.
+    ///
+    /// # Errors
+    /// A file cannot be read, is not valid, or has an element that is not supported.
+    pub fn read(file: &FilePath) -> Result<Self, ReadError> {
+        let document = Document::open(file)?;
+        let folder = file.parent().unwrap_or(FilePath::new(".")).to_owned();
+        let catalogs = {
+            let tree = document.tree()?;
+            let root = document.root(&tree, "OpenSCENARIO")?;
+            let mut scope = Scope::default();
+            declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
+            CatalogFiles::read(Node { element: root, scope: &scope }.first("CatalogLocations"), &folder)?
+        };
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let read = Self { name, folder, document, catalogs, roads: Mutex::default() };
+        read.board()?;
+        Ok(read)
+    }
+
+    /// Makes the program of the scenario.
+    pub fn program(self) -> Program {
+        let about = format!("a scenario of the file {}.xosc", self.name);
+        let name = self.name.clone();
+        Program::of(name, about, move |s| self.build(s))
+    }
+
+    fn build(&self, s: &mut Scenario) {
+        let (board, roads) = match self.board() {
+            Ok(read) => read,
+            Err(error) => return s.refuse(&error.to_string()),
+        };
+        let ego = ego(&board);
+        let lead = Lead::new();
+        let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
+        let has_stop = board.stop.is_some();
+        let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
+            Ok(stage) => Rc::new(RefCell::new(stage)),
+            Err(lost) => return s.refuse(&lost.to_string()),
+        };
+        s.place(roads.network.clone());
+        let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
+        let mut draft = s.object("storyboard");
+        let stopped = draft.output("stopped");
+        let end: Stream<bool> = stopped.stream();
+        let mut measures = Vec::new();
+        let mut inputs = Vec::new();
+        for condition in &conditions {
+            let Check { measures: all, any, rule, value } = &condition.check;
+            let mut truths = all.iter().map(|measure| {
+                let stream = if *measure == Measure::Time {
+                    Stream::time()
+                } else {
+                    let output = draft.output(&format!("{}.measure", condition.name));
+                    let stream = output.stream();
+                    measures.push((measure.clone(), output));
+                    stream
+                };
+                rule.compare(&stream, *value)
+            });
+            let first = truths.next().unwrap_or(Stream::constant(false));
+            let truth = truths.fold(first, |all, next| if *any { all | next } else { all & next });
+            inputs.push(draft.input(&condition.name, truth.named(&condition.name)));
+        }
+        let truths = vec![false; inputs.len()];
+        draft.geometric(Director { stage: stage.clone(), conditions: inputs, truths, measures, stopped });
+        let count = stage.borrow().actors.len();
+        for index in 0..count {
+            self.show(s, &stage, index, index != ego);
+        }
+        s.duration(LONGEST);
+        s.end(&end);
+        if has_stop {
+            s.premise(&end);
+        }
+        s.monitor(Monitor::no_collision(&car));
+    }
+
+    fn show(&self, s: &mut Scenario, stage: &Rc<RefCell<Stage>>, index: usize, has_body: bool) {
+        let actor = stage.borrow().actors[index].clone();
+        let mut draft = s.object(&actor.entity.name);
+        if has_body {
+            draft.body(actor.entity.body, actor.middle());
+        }
+        let shown = Shown {
+            stage: stage.clone(),
+            index,
+            has_body,
+            x: draft.signal("x"),
+            y: draft.signal("y"),
+            heading: draft.signal("heading"),
+            speed: draft.signal("speed"),
+        };
+        draft.geometric(shown);
+    }
+
+    /// Reads the storyboard and the roads.
+    fn board(&self) -> Result<(Storyboard, Roads), ReadError> {
+        let tree = self.document.tree()?;
+        let root = self.document.root(&tree, "OpenSCENARIO")?;
+        let trees = self.catalogs.trees()?;
+        let catalogs = self.catalogs.catalogs(&trees)?;
+        let mut scope = Scope::default();
+        declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
+        let root = Node { element: root, scope: &scope };
+        let logic = root.child("RoadNetwork")?.child("LogicFile")?;
+        let roads = self.roads_in(&self.folder.join(logic.required("filepath")?.as_ref()), logic)?;
+        Ok((Storyboard::read(root, &catalogs)?, roads))
+    }
+
+    /// Returns the roads of a file, which is read once.
+    fn roads_in(&self, file: &FilePath, logic: Node<'_>) -> Result<Roads, ReadError> {
+        let mut known = self.roads.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some(roads) = known.get(file) {
+            return Ok(roads.clone());
+        }
+        let map = Map::read(file)?;
+        let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
+        let roads = Roads { map: Arc::new(map), network };
+        known.insert(file.to_owned(), roads.clone());
+        Ok(roads)
+    }
+}
+
+/// Returns the index of the entity that the system under test drives: `Ego`, or the first entity with a controller, or the
+/// first entity.
+fn ego(board: &Storyboard) -> usize {
+    let named = board.entities.iter().position(|entity| entity.name == "Ego");
+    named.or_else(|| board.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
+}
+
+/// Returns the ego vehicle, with the way along its lane to the end of the roads.
+fn car(stage: &Stage, ego: usize, network: &Arc<RoadNetwork>) -> AutonomousVehicle {
+    let actor = &stage.actors[ego];
+    let Pose { position, heading } = actor.middle();
+    let pose = Pose { position, heading };
+    let seen = network.project_along(&pose);
+    let way = seen.map(|seen| (network.path(&[seen.lane]), seen.s));
+    let car = match way {
+        Some((way, at)) => AutonomousVehicle::along(way).starting(at),
+        None => AutonomousVehicle::along(Path::straight(position, position + pose.forward())),
+    };
+    let half = actor.entity.half;
+    let vehicle = Vehicle { length: 2.0 * half.x, width: 2.0 * half.y, ..Vehicle::BMW_320I };
+    let vehicle = if vehicle.flaw().is_none() { vehicle } else { Vehicle::BMW_320I };
+    car.vehicle(vehicle).speed(actor.speed.clamp(0.0, vehicle.max_speed))
+}
+
+impl Geometric for Director {
+    fn poses(&self, _: &mut [Option<Pose>]) {}
+
+    fn show(&self, outputs: &mut Outputs<'_>) {
+        let stage = self.stage.borrow();
+        for (measure, output) in &self.measures {
+            outputs.set(output, stage.measure(measure));
+        }
+        outputs.set(&self.stopped, stage.stopped);
+    }
+
+    fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
+        for (truth, input) in self.truths.iter_mut().zip(&self.conditions) {
+            *truth = tick.get(input) == Some(true);
+        }
+        self.stage.borrow_mut().play(&self.truths, tick.dt());
+        Ok(())
+    }
+}
+
+impl Geometric for Shown {
+    fn poses(&self, poses: &mut [Option<Pose>]) {
+        if self.has_body {
+            poses[0] = Some(self.stage.borrow().actors[self.index].middle());
+        }
+    }
+
+    fn begin(&mut self, _: &Tick<'_>, velocities: &mut [nalgebra::Vector2<f64>]) -> Result<(), InputError> {
+        if let Some(velocity) = velocities.first_mut() {
+            let actor = &self.stage.borrow().actors[self.index];
+            *velocity = actor.pose.forward() * actor.speed;
+        }
+        Ok(())
+    }
+
+    fn show(&self, outputs: &mut Outputs<'_>) {
+        let stage = self.stage.borrow();
+        let actor = &stage.actors[self.index];
+        outputs.set(&self.x, actor.pose.position.x);
+        outputs.set(&self.y, actor.pose.position.y);
+        outputs.set(&self.heading, actor.pose.heading);
+        outputs.set(&self.speed, actor.speed);
+    }
+}

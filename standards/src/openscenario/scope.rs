@@ -1,0 +1,185 @@
+//! The parameters that an element sees, and the values of attributes with parameters in them.
+
+use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, Value};
+use paracosm_space::nearest;
+use std::borrow::Cow;
+
+/// The values of the parameters that an element sees, by name. Later values hide earlier values.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Scope(Vec<(String, String)>);
+
+impl Scope {
+    /// Returns the value of a parameter.
+    pub fn get(&self, name: &str) -> Option<&str> {
+        self.0.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+    }
+
+    /// Returns the names of all parameters.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Sets a parameter.
+    pub fn set(&mut self, name: impl Into<String>, value: impl Into<String>) {
+        self.0.push((name.into(), value.into()));
+    }
+
+    fn parameter(&self, name: &str) -> Result<&str, ExpressionFlaw> {
+        let unknown = || {
+            let nearest = nearest(name, self.0.iter().map(|(known, _)| known.as_str())).map(str::to_owned);
+            ExpressionFlaw::NoParameter { name: name.to_owned(), nearest }
+        };
+        self.get(name).ok_or_else(unknown)
+    }
+
+    /// Returns the text of an attribute with the values of its parameters.
+    pub fn resolve<'t>(&self, text: &'t str) -> Result<Cow<'t, str>, ExpressionFlaw> {
+        let Some(name) = text.strip_prefix('$') else { return Ok(Cow::Borrowed(text)) };
+        match name.strip_prefix('{').map(|inside| inside.strip_suffix('}')) {
+            None => Ok(Cow::Owned(self.parameter(name)?.to_owned())),
+            Some(None) => Err(ExpressionFlaw::Unexpected { found: text.to_owned(), expected: "`}` at the end" }),
+            Some(Some(inside)) => {
+                let parameter = |name: &str| self.parameter(name).map(Value::of);
+                Ok(Cow::Owned(Expression::parse(inside)?.value(&parameter)?.to_string()))
+            }
+        }
+    }
+}
+
+/// An element with the parameters that it sees.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node<'a> {
+    pub element: Element<'a, 'a>,
+    pub scope: &'a Scope,
+}
+
+impl<'a> Node<'a> {
+    /// Returns the name of the element.
+    pub fn name(self) -> &'a str {
+        self.element.name()
+    }
+
+    /// Makes an error at the place of the element.
+    pub fn error(self, flaw: Flaw) -> ReadError {
+        self.element.error(flaw)
+    }
+
+    /// Returns all elements directly within this one.
+    pub fn elements(self) -> impl Iterator<Item = Self> {
+        self.element.elements().map(move |element| Self { element, ..self })
+    }
+
+    /// Returns the elements with a name directly within this one.
+    pub fn all(self, name: &'static str) -> impl Iterator<Item = Self> {
+        self.element.all(name).map(move |element| Self { element, ..self })
+    }
+
+    /// Returns the first element with a name directly within this one.
+    pub fn first(self, name: &'static str) -> Option<Self> {
+        self.all(name).next()
+    }
+
+    /// Returns the first element with a name directly within this one, which must exist.
+    pub fn child(self, name: &'static str) -> Result<Self, ReadError> {
+        self.first(name).ok_or_else(|| self.element.lacks(name))
+    }
+
+    /// Returns the only choice of an element that stands for one of several: its first child.
+    pub fn choice(self, expected: &'static str) -> Result<Self, ReadError> {
+        self.elements().next().ok_or_else(|| self.element.lacks(expected))
+    }
+
+    /// Makes the error that this element is not supported.
+    pub fn refused(self, reason: &'static str) -> ReadError {
+        self.error(Flaw::Refused { element: self.name().to_owned(), reason })
+    }
+
+    /// Returns the value of an attribute; `None` if the attribute is absent or empty.
+    pub fn text(self, attribute: &'static str) -> Result<Option<Cow<'a, str>>, ReadError> {
+        let Some(text) = self.element.text(attribute) else { return Ok(None) };
+        let resolved = self.scope.resolve(text).map_err(|flaw| {
+            let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
+            self.error(Flaw::Expression { element, attribute, text: text.to_owned(), flaw })
+        })?;
+        Ok(Some(resolved))
+    }
+
+    /// Returns the value of an attribute, which must exist.
+    pub fn required(self, attribute: &'static str) -> Result<Cow<'a, str>, ReadError> {
+        let missing = || self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute });
+        self.text(attribute)?.ok_or_else(missing)
+    }
+
+    /// Returns the number in an attribute, which must exist and be finite.
+    pub fn number(self, attribute: &'static str) -> Result<f64, ReadError> {
+        self.parsed(attribute, "a finite number", |text| text.parse().ok().filter(|number: &f64| number.is_finite()))
+    }
+
+    /// Returns the number in an attribute; `default` if the attribute is absent.
+    pub fn number_or(self, attribute: &'static str, default: f64) -> Result<f64, ReadError> {
+        if self.element.text(attribute).is_some() { self.number(attribute) } else { Ok(default) }
+    }
+
+    /// Returns the number in an attribute if the attribute is there.
+    pub fn optional(self, attribute: &'static str) -> Result<Option<f64>, ReadError> {
+        self.element.text(attribute).map(|_| self.number(attribute)).transpose()
+    }
+
+    /// Returns the number in an attribute, which must exist and must not be negative.
+    pub fn length(self, attribute: &'static str) -> Result<f64, ReadError> {
+        let sound = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+        self.parsed(attribute, "a number that is not negative", sound)
+    }
+
+    /// Returns the whole number in an attribute, which must exist. A parameter may write it with decimals.
+    pub fn whole(self, attribute: &'static str) -> Result<i32, ReadError> {
+        let whole = |text: &str| {
+            let number = text.parse().ok().filter(|number: &f64| number.fract() == 0.0);
+            number.filter(|number| number.abs() <= f64::from(i32::MAX)).map(|number| number as i32)
+        };
+        self.parsed(attribute, "a whole number", whole)
+    }
+
+    /// Returns the truth in an attribute; `default` if the attribute is absent.
+    pub fn truth_or(self, attribute: &'static str, default: bool) -> Result<bool, ReadError> {
+        let names = [("true", true), ("false", false), ("1", true), ("0", false)];
+        if self.element.text(attribute).is_some() { self.one_of(attribute, &names) } else { Ok(default) }
+    }
+
+    /// Returns the value in an attribute that has one of the given names.
+    pub fn one_of<T: Copy>(self, attribute: &'static str, names: &[(&'static str, T)]) -> Result<T, ReadError> {
+        let text = self.required(attribute)?;
+        names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value).ok_or_else(|| {
+            let all: Vec<_> = names.iter().map(|(name, _)| *name).collect();
+            self.unexpected(attribute, &text, format!("one of {}", all.join(", ")), all)
+        })
+    }
+
+    /// Makes the error that an attribute names something that does not exist. `names` are the existing names.
+    pub fn dangling<'n>(
+        self,
+        attribute: &'static str,
+        kind: &'static str,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> ReadError {
+        let found = self.text(attribute).ok().flatten().unwrap_or_default().into_owned();
+        let nearest = nearest(&found, names).map(str::to_owned);
+        self.error(Flaw::Dangling { element: self.name().to_owned(), attribute, found, kind, nearest })
+    }
+
+    fn parsed<T>(
+        self,
+        attribute: &'static str,
+        expected: &'static str,
+        parse: impl Fn(&str) -> Option<T>,
+    ) -> Result<T, ReadError> {
+        let text = self.required(attribute)?;
+        parse(&text).ok_or_else(|| self.unexpected(attribute, &text, expected.to_owned(), Vec::new()))
+    }
+
+    fn unexpected(self, attribute: &str, found: &str, expected: String, names: Vec<&'static str>) -> ReadError {
+        let nearest = nearest(found, names).map(str::to_owned);
+        let (element, attribute, found) = (self.name().to_owned(), attribute.to_owned(), found.to_owned());
+        self.error(Flaw::Value { element, attribute, found, expected, nearest })
+    }
+}

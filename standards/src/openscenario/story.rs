@@ -1,0 +1,215 @@
+//! The storyboard of a scenario: initial actions, and stories of acts, maneuver groups, maneuvers, events and actions.
+
+use super::action::Action;
+use super::catalogs::{Catalogs, declare};
+use super::condition::{Trigger, trigger};
+use super::entity::Entity;
+use super::position::Names;
+use super::scope::{Node, Scope};
+use crate::xml::ReadError;
+
+/// The storyboard of a scenario, with the entities that act in it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Storyboard {
+    pub entities: Vec<Entity>,
+    /// The initial actions, each with its entity.
+    pub init: Vec<(usize, Action)>,
+    /// All elements of all stories. An element comes before the elements within it.
+    pub items: Vec<Item>,
+    /// The trigger that ends the scenario; `None` if there is none.
+    pub stop: Option<Trigger>,
+}
+
+/// An element of the storyboard.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Item {
+    pub name: String,
+    pub kind: Kind,
+    /// The index of the element that contains this one; `None` for a story.
+    pub parent: Option<usize>,
+    /// The trigger that starts the element; `None` if the element starts with its parent.
+    pub start: Option<Trigger>,
+    /// The trigger that stops the element; `None` if there is none.
+    pub stop: Option<Trigger>,
+    /// The number of times that the element runs at most.
+    pub most_runs: u32,
+}
+
+/// The kind of an element of the storyboard.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Kind {
+    Story,
+    Act,
+    Group,
+    Maneuver,
+    Event(Priority),
+    /// An action, with the entities that carry it out. Each of them has its own copy.
+    Action(Vec<usize>, Action),
+}
+
+/// The effect of an event on the other running events of its maneuver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Priority {
+    /// The event stops the other events.
+    Override,
+    /// The event does not start while another event runs.
+    Skip,
+    /// The event runs beside the other events.
+    Parallel,
+}
+
+/// The state of an element, or the transition that the element has just made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum State {
+    Standby,
+    Running,
+    Complete,
+    StartTransition,
+    EndTransition,
+    StopTransition,
+    SkipTransition,
+}
+
+impl State {
+    pub const NAMES: [(&str, Self); 7] = [
+        ("standbyState", Self::Standby),
+        ("runningState", Self::Running),
+        ("completeState", Self::Complete),
+        ("startTransition", Self::StartTransition),
+        ("endTransition", Self::EndTransition),
+        ("stopTransition", Self::StopTransition),
+        ("skipTransition", Self::SkipTransition),
+    ];
+}
+
+const PRIORITIES: [(&str, Priority); 4] = [
+    ("override", Priority::Override),
+    ("overwrite", Priority::Override),
+    ("skip", Priority::Skip),
+    ("parallel", Priority::Parallel),
+];
+
+impl Kind {
+    /// Returns the name of the kind in conditions.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Story => "story",
+            Self::Act => "act",
+            Self::Group => "maneuverGroup",
+            Self::Maneuver => "maneuver",
+            Self::Event(_) => "event",
+            Self::Action(..) => "action",
+        }
+    }
+}
+
+/// The reader of a storyboard.
+struct Reader<'a> {
+    catalogs: &'a Catalogs<'a>,
+    names: Names<'a>,
+    items: Vec<Item>,
+}
+
+impl Storyboard {
+    /// Reads the entities and the storyboard of a scenario.
+    pub fn read(root: Node<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
+        let entities = Entity::all(root.child("Entities")?, catalogs)?;
+        let names: Vec<_> = entities.iter().map(|entity| entity.name.clone()).collect();
+        let names = Names(&names);
+        let board = root.child("Storyboard")?;
+        let mut init = Vec::new();
+        let actions = board.child("Init")?.child("Actions")?;
+        for actor in actions.elements() {
+            match actor.name() {
+                "Private" => {
+                    let entity = names.entity(actor, "entityRef")?;
+                    for action in actor.all("PrivateAction") {
+                        init.push((entity, Action::private(action, names)?));
+                    }
+                }
+                "GlobalAction" => global(actor)?,
+                _ => return Err(actor.refused("use a Private or a GlobalAction")),
+            }
+        }
+        let mut reader = Reader { catalogs, names, items: Vec::new() };
+        for story in board.all("Story") {
+            reader.story(story)?;
+        }
+        let items = reader.items;
+        let stop = board.first("StopTrigger").map(|stop| trigger(stop, names)).transpose()?;
+        Ok(Self { init, items, stop: stop.filter(|stop| !stop.is_empty()), entities })
+    }
+}
+
+/// Checks an action that concerns no entity: those that are supported have no effect.
+fn global(node: Node<'_>) -> Result<(), ReadError> {
+    let kind = node.choice("a kind of action such as EnvironmentAction")?;
+    match kind.name() {
+        "EnvironmentAction" => Ok(()),
+        _ => Err(kind.refused("use an EnvironmentAction")),
+    }
+}
+
+impl Reader<'_> {
+    fn push(&mut self, node: Node<'_>, kind: Kind, parent: Option<usize>) -> Result<usize, ReadError> {
+        let name = node.text("name")?.unwrap_or_default().into_owned();
+        let most_runs = match node.element.text("maximumExecutionCount") {
+            None => 1,
+            Some(_) => node.whole("maximumExecutionCount")?.max(0) as u32,
+        };
+        let read = |name| node.first(name).map(|found| trigger(found, self.names)).transpose();
+        let (start, stop) = (read("StartTrigger")?, read("StopTrigger")?);
+        self.items.push(Item { name, kind, parent, start, stop, most_runs });
+        Ok(self.items.len() - 1)
+    }
+
+    fn story(&mut self, node: Node<'_>) -> Result<(), ReadError> {
+        let mut scope: Scope = node.scope.clone();
+        declare(node, &mut scope)?;
+        let node = Node { element: node.element, scope: &scope };
+        let story = self.push(node, Kind::Story, None)?;
+        for act in node.all("Act") {
+            let index = self.push(act, Kind::Act, Some(story))?;
+            for group in act.all("ManeuverGroup") {
+                self.group(group, index)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn group(&mut self, node: Node<'_>, act: usize) -> Result<(), ReadError> {
+        let group = self.push(node, Kind::Group, Some(act))?;
+        let actors = node.child("Actors")?;
+        if actors.truth_or("selectTriggeringEntities", false)? {
+            return Err(actors.refused("name the actors, and set selectTriggeringEntities to false"));
+        }
+        let actors = actors.all("EntityRef").map(|actor| self.names.entity(actor, "entityRef"));
+        let actors = actors.collect::<Result<Vec<_>, _>>()?;
+        let catalogs = self.catalogs;
+        for maneuver in node.elements().filter(|node| ["Maneuver", "CatalogReference"].contains(&node.name())) {
+            catalogs.resolved(maneuver, &["Maneuver"], |node| self.maneuver(node, group, &actors))?;
+        }
+        Ok(())
+    }
+
+    fn maneuver(&mut self, node: Node<'_>, group: usize, actors: &[usize]) -> Result<(), ReadError> {
+        let maneuver = self.push(node, Kind::Maneuver, Some(group))?;
+        for event in node.all("Event") {
+            let priority = event.one_of("priority", &PRIORITIES)?;
+            let index = self.push(event, Kind::Event(priority), Some(maneuver))?;
+            for action in event.all("Action") {
+                let inner = action.choice("PrivateAction or GlobalAction")?;
+                let (actors, read) = match inner.name() {
+                    "PrivateAction" => (actors.to_vec(), Action::private(inner, self.names)?),
+                    "GlobalAction" => {
+                        global(inner)?;
+                        (Vec::new(), Action::Nothing)
+                    }
+                    _ => return Err(inner.refused("use a PrivateAction")),
+                };
+                self.push(action, Kind::Action(actors, read), Some(index))?;
+            }
+        }
+        Ok(())
+    }
+}
