@@ -25,6 +25,7 @@ pub use lists::Lists;
 pub use paracosm_campaign::{
     Campaign, Catalogue, Error, Finish, Folder, Log, Observer, Sampling, Study, StudyBuilder, Trial,
 };
+use paracosm_campaign::{Reader, Reason};
 pub use runner::{NothingToLocate, Report, Runner, run_into};
 
 pub use paracosm_analysis as analysis;
@@ -42,10 +43,24 @@ pub use paracosm_scenarios as scenarios;
 pub use paracosm_space as space;
 pub use paracosm_standards as standards;
 
-/// Returns the catalogue of all scenarios that come with the software.
+/// Returns the catalogue of all scenarios that come with the software, which also reads files of OpenSCENARIO.
 pub fn catalogue() -> Catalogue {
-    Catalogue::of(scenarios::ALL)
+    Catalogue::of(scenarios::ALL).reading(Reader {
+        ending: "xosc",
+        about: "scenarios and distributions of parameters of ASAM OpenSCENARIO XML",
+        read: |file| {
+            let scenario = standards::openscenario::Xosc::read(file);
+            scenario.map(|scenario| scenario.program()).map_err(|error| UnreadableScenario(error).into())
+        },
+    })
 }
+
+/// The error that a file of a scenario cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct UnreadableScenario(standards::ReadError);
+
+impl Reason for UnreadableScenario {}
 
 /// Runs the examples of the README as tests.
 #[cfg(doctest)]

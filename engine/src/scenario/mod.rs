@@ -161,6 +161,16 @@ impl Scenario {
         self.declare(name, domain, Some(nominal.into()), Read::level(levels))
     }
 
+    /// Declares a parameter that was described as data, for example in a file. It is open, or it stays at its default until a
+    /// study opens it.
+    pub fn parameter(&mut self, parameter: Parameter, open: bool) -> Param<Value> {
+        let Parameter { name, domain, default, .. } = parameter;
+        let default = if open { default } else { Some(default.unwrap_or(Value::Number(f64::NAN))) };
+        let declared = self.declare(&name, domain, default, Read::value());
+        self.parameters.borrow_mut().last_mut().expect("it was declared").open = open;
+        declared
+    }
+
     fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);

@@ -62,6 +62,12 @@ impl Read<f64> {
     }
 }
 
+impl Read<Value> {
+    pub fn value() -> Self {
+        Self { with: Rc::new(|value: &Value| Some(value.clone())), placeholder: Value::Number(f64::NAN) }
+    }
+}
+
 impl<T: Into<Value> + Clone + 'static> Read<T> {
     /// Makes the conversion of values to the given levels.
     pub fn level<const N: usize>(levels: [T; N]) -> Self {

@@ -19,6 +19,10 @@ impl CatalogFiles {
         for location in locations.into_iter().flat_map(Node::elements) {
             let directory = location.child("Directory")?;
             let path = folder.join(directory.required("path")?.as_ref());
+            // A scenario may name folders that it does not use. A reference to a catalog in them is an error.
+            if !path.exists() {
+                continue;
+            }
             let unreadable = |error| directory.error(Flaw::Folder { folder: path.clone(), error });
             let entries = std::fs::read_dir(&path).map_err(unreadable)?;
             let mut found =
@@ -80,8 +84,8 @@ impl Catalogs<'_> {
         declare(Node { element: entry, scope: node.scope }, &mut scope)?;
         for assignment in node.first("ParameterAssignments").into_iter().flat_map(|all| all.all("ParameterAssignment"))
         {
-            let name = assignment.required("parameterRef")?;
-            let name = name.strip_prefix('$').unwrap_or(&name).to_owned();
+            let name = assignment.element.required("parameterRef")?;
+            let name = name.strip_prefix('$').unwrap_or(name).to_owned();
             scope.set(name, assignment.required("value")?.into_owned());
         }
         read(Node { element: entry, scope: &scope })

@@ -5,6 +5,8 @@ use super::scope::Node;
 use super::story::State;
 use crate::xml::ReadError;
 use paracosm_engine::Stream;
+use paracosm_space::Value;
+use std::cmp::Ordering;
 
 /// Groups of conditions. A trigger is true if all conditions of any of its groups are true.
 pub(super) type Trigger = Vec<Vec<Condition>>;
@@ -162,8 +164,37 @@ const RULES: [(&str, Rule); 6] = [
 ];
 
 impl Rule {
-    fn read(node: Node<'_>) -> Result<Self, ReadError> {
+    /// Reads the attribute `rule`.
+    pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
         node.one_of("rule", &RULES)
+    }
+
+    /// Returns `true` if a value fulfils the rule. Words have no order.
+    pub fn holds(self, value: &Value, limit: &Value) -> bool {
+        let order = match (value, limit) {
+            (Value::Number(value), Value::Number(limit)) => value.partial_cmp(limit),
+            _ => (value == limit).then_some(Ordering::Equal),
+        };
+        match self {
+            Self::Equal => order == Some(Ordering::Equal),
+            Self::NotEqual => order != Some(Ordering::Equal),
+            Self::Greater => order == Some(Ordering::Greater),
+            Self::GreaterOrEqual => order.is_some_and(Ordering::is_ge),
+            Self::Less => order == Some(Ordering::Less),
+            Self::LessOrEqual => order.is_some_and(Ordering::is_le),
+        }
+    }
+
+    /// Returns the rule in words, which a limit follows.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Equal => "equal to",
+            Self::NotEqual => "not equal to",
+            Self::Greater => "greater than",
+            Self::GreaterOrEqual => "at least",
+            Self::Less => "less than",
+            Self::LessOrEqual => "at most",
+        }
     }
 
     /// Returns the stream that is true while a measure fulfils the rule.
@@ -198,8 +229,9 @@ impl Condition {
             "ByValueCondition" => Check::by_value(inner.choice("a condition such as SimulationTimeCondition")?)?,
             _ => Check::by_entity(inner, names)?,
         };
-        let (name, delay) = (node.text("name")?.unwrap_or_default().into_owned(), node.element.text("delay"));
-        let delay = delay.map_or(Ok(0.0), |_| node.length("delay"))?;
+        // Nothing refers to a condition by its name, so the name stays as it is written.
+        let name = node.element.text("name").unwrap_or_default().to_owned();
+        let delay = node.element.text("delay").map_or(Ok(0.0), |_| node.length("delay"))?;
         Ok(Self { name, delay, edge: node.one_of("conditionEdge", &edges)?, check })
     }
 }
@@ -222,8 +254,8 @@ impl Check {
                 Ok(Self::single(measure, Rule::GreaterOrEqual, 1.0))
             }
             "ParameterCondition" => {
-                let name = node.required("parameterRef")?;
-                let name = name.strip_prefix('$').unwrap_or(&name);
+                let name = node.element.required("parameterRef")?;
+                let name = name.strip_prefix('$').unwrap_or(name);
                 let unknown = || node.dangling("parameterRef", "parameter", node.scope.names());
                 let (found, wanted) = (node.scope.get(name).ok_or_else(unknown)?, node.required("value")?);
                 let rule = Rule::read(node)?;

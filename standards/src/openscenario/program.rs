@@ -1,7 +1,8 @@
 //! A scenario of a file as a program: the same world, streams and signals as those of any other program.
 
 use super::catalogs::{CatalogFiles, declare};
-use super::condition::{Check, Measure};
+use super::condition::{Check, Condition, Measure};
+use super::parameters::Distribution;
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
@@ -19,13 +20,16 @@ use std::sync::{Arc, Mutex};
 
 /// The duration in seconds of a scenario whose stop trigger does not come.
 const LONGEST: f64 = 60.0;
+/// The outermost element of a file.
+const ROOT: &str = "OpenSCENARIO";
 
-/// A scenario of a file, with its catalogs and its roads.
+/// A scenario of a file, with its catalogs, its roads, and the distribution of its parameters.
 pub struct Xosc {
     name: String,
     folder: PathBuf,
     document: Document,
     catalogs: CatalogFiles,
+    distribution: Distribution,
     roads: Mutex<BTreeMap<PathBuf, Roads>>,
 }
 
@@ -57,35 +61,58 @@ struct Shown {
 }
 
 impl Xosc {
-    /// Reads a scenario, its catalogs and its roads.
+    /// Reads a scenario, its catalogs and its roads. The file may be that of a distribution of parameters, which names the file
+    /// of its scenario.
     ///
     /// # Errors
     /// A file cannot be read, is not valid, or has an element that is not supported.
     pub fn read(file: &FilePath) -> Result<Self, ReadError> {
+        let name = file.to_string_lossy().into_owned();
         let document = Document::open(file)?;
-        let folder = file.parent().unwrap_or(FilePath::new(".")).to_owned();
+        let folder = folder_of(file);
+        let none = Scope::default();
+        let named = {
+            let tree = document.tree()?;
+            let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
+            let distribution = root.first("ParameterValueDistribution");
+            let named = |node: Node<'_>| {
+                let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
+                Ok((file, Distribution::read(node)?))
+            };
+            distribution.map(named).transpose()?
+        };
+        match named {
+            None => Self::of(name, document, folder, Distribution::default()),
+            Some((file, distribution)) => Self::of(name, Document::open(&file)?, folder_of(&file), distribution),
+        }
+    }
+
+    fn of(name: String, document: Document, folder: PathBuf, distribution: Distribution) -> Result<Self, ReadError> {
         let catalogs = {
             let tree = document.tree()?;
-            let root = document.root(&tree, "OpenSCENARIO")?;
+            let root = document.root(&tree, ROOT)?;
             let mut scope = Scope::default();
             declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
             CatalogFiles::read(Node { element: root, scope: &scope }.first("CatalogLocations"), &folder)?
         };
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let read = Self { name, folder, document, catalogs, roads: Mutex::default() };
-        read.board()?;
+        let read = Self { name, folder, document, catalogs, distribution, roads: Mutex::default() };
+        read.board(&mut |root| {
+            let mut scope = Scope::default();
+            declare(root, &mut scope)?;
+            Ok(scope)
+        })?;
         Ok(read)
     }
 
-    /// Makes the program of the scenario.
+    /// Makes the program of the scenario. Its name is the path of the file.
     pub fn program(self) -> Program {
-        let about = format!("a scenario of the file {}.xosc", self.name);
+        let about = "a scenario of a file".to_owned();
         let name = self.name.clone();
         Program::of(name, about, move |s| self.build(s))
     }
 
     fn build(&self, s: &mut Scenario) {
-        let (board, roads) = match self.board() {
+        let (board, roads) = match self.board(&mut |root| self.distribution.declared(root, s)) {
             Ok(read) => read,
             Err(error) => return s.refuse(&error.to_string()),
         };
@@ -99,30 +126,7 @@ impl Xosc {
         };
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
-        let mut draft = s.object("storyboard");
-        let stopped = draft.output("stopped");
-        let end: Stream<bool> = stopped.stream();
-        let mut measures = Vec::new();
-        let mut inputs = Vec::new();
-        for condition in &conditions {
-            let Check { measures: all, any, rule, value } = &condition.check;
-            let mut truths = all.iter().map(|measure| {
-                let stream = if *measure == Measure::Time {
-                    Stream::time()
-                } else {
-                    let output = draft.output(&format!("{}.measure", condition.name));
-                    let stream = output.stream();
-                    measures.push((measure.clone(), output));
-                    stream
-                };
-                rule.compare(&stream, *value)
-            });
-            let first = truths.next().unwrap_or(Stream::constant(false));
-            let truth = truths.fold(first, |all, next| if *any { all | next } else { all & next });
-            inputs.push(draft.input(&condition.name, truth.named(&condition.name)));
-        }
-        let truths = vec![false; inputs.len()];
-        draft.geometric(Director { stage: stage.clone(), conditions: inputs, truths, measures, stopped });
+        let end = direct(s, &stage, &conditions);
         let count = stage.borrow().actors.len();
         for index in 0..count {
             self.show(s, &stage, index, index != ego);
@@ -153,14 +157,16 @@ impl Xosc {
         draft.geometric(shown);
     }
 
-    /// Reads the storyboard and the roads.
-    fn board(&self) -> Result<(Storyboard, Roads), ReadError> {
+    /// Reads the storyboard and the roads, with the values of parameters that `values` gives.
+    fn board(
+        &self,
+        values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>,
+    ) -> Result<(Storyboard, Roads), ReadError> {
         let tree = self.document.tree()?;
-        let root = self.document.root(&tree, "OpenSCENARIO")?;
+        let root = self.document.root(&tree, ROOT)?;
         let trees = self.catalogs.trees()?;
         let catalogs = self.catalogs.catalogs(&trees)?;
-        let mut scope = Scope::default();
-        declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
+        let scope = values(Node { element: root, scope: &Scope::default() })?;
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;
         let roads = self.roads_in(&self.folder.join(logic.required("filepath")?.as_ref()), logic)?;
@@ -179,6 +185,40 @@ impl Xosc {
         known.insert(file.to_owned(), roads.clone());
         Ok(roads)
     }
+}
+
+fn folder_of(file: &FilePath) -> PathBuf {
+    file.parent().unwrap_or(FilePath::new(".")).to_owned()
+}
+
+/// Adds the storyboard to a world: its conditions as streams, and the object that plays it. Returns the stream that is true once
+/// the stop trigger has come.
+fn direct(s: &mut Scenario, stage: &Rc<RefCell<Stage>>, conditions: &[Condition]) -> Stream<bool> {
+    let mut draft = s.object("storyboard");
+    let stopped = draft.output("stopped");
+    let end = stopped.stream();
+    let mut measures = Vec::new();
+    let mut inputs = Vec::new();
+    for condition in conditions {
+        let Check { measures: all, any, rule, value } = &condition.check;
+        let mut truths = all.iter().map(|measure| {
+            let stream = if *measure == Measure::Time {
+                Stream::time()
+            } else {
+                let output = draft.output(&format!("{}.measure", condition.name));
+                let stream = output.stream();
+                measures.push((measure.clone(), output));
+                stream
+            };
+            rule.compare(&stream, *value)
+        });
+        let first = truths.next().unwrap_or(Stream::constant(false));
+        let truth = truths.fold(first, |all, next| if *any { all | next } else { all & next });
+        inputs.push(draft.input(&condition.name, truth.named(&condition.name)));
+    }
+    let truths = vec![false; inputs.len()];
+    draft.geometric(Director { stage: stage.clone(), conditions: inputs, truths, measures, stopped });
+    end
 }
 
 /// Returns the index of the entity that the system under test drives: `Ego`, or the first entity with a controller, or the

@@ -123,6 +123,12 @@ impl Dynamics {
 }
 
 impl Transition {
+    /// Returns the same transition at a rate of change of at most `most` by the second. A step has no rate.
+    pub fn within(self, most: f64) -> Self {
+        let least = self.shape.steepest() * (self.target - self.start).abs() / most;
+        if self.by_distance || self.shape == Shape::Step { self } else { Self { span: self.span.max(least), ..self } }
+    }
+
     /// Returns the value at the present place of the transition.
     pub fn value(&self) -> f64 {
         if self.is_over() {

@@ -1,6 +1,7 @@
 //! Expressions in attributes: `${$Speed / 3.6}`, with numbers, truths, parameters, operators and functions (OpenSCENARIO 1.1, section
 //! 9.2).
 
+use std::f64::consts::PI;
 use thiserror::Error;
 
 /// The greatest depth of nested expressions.
@@ -28,6 +29,17 @@ pub enum ExpressionFlaw {
         name: String,
         /// The most similar name of a parameter; `None` if no name is similar.
         nearest: Option<String>,
+    },
+    /// There is no function with this name, or its arguments are missing.
+    #[error(
+        "`{name}` was found, expected a number, a parameter such as $Speed, or a function with its arguments{}",
+        paracosm_space::did_you_mean(nearest)
+    )]
+    NoFunction {
+        /// The unknown name.
+        name: String,
+        /// The most similar name of a function; `None` if no name is similar.
+        nearest: Option<&'static str>,
     },
     /// A value has the wrong type for an operator.
     #[error("`{found}` is not {expected}")]
@@ -66,19 +78,31 @@ enum Operator {
     Root,
     Sign,
     Absolute,
+    Sine,
+    Cosine,
+    Tangent,
+    ArcSine,
+    ArcCosine,
+    ArcTangent,
     And,
     Or,
     Not,
 }
 
 /// The functions of the standard, with their numbers of arguments.
-const FUNCTIONS: [(&str, Operator, usize); 9] = [
+const FUNCTIONS: [(&str, Operator, usize); 15] = [
     ("round", Operator::Round, 1),
     ("floor", Operator::Floor, 1),
     ("ceil", Operator::Ceiling, 1),
     ("sqrt", Operator::Root, 1),
     ("sign", Operator::Sign, 1),
     ("abs", Operator::Absolute, 1),
+    ("sin", Operator::Sine, 1),
+    ("cos", Operator::Cosine, 1),
+    ("tan", Operator::Tangent, 1),
+    ("asin", Operator::ArcSine, 1),
+    ("acos", Operator::ArcCosine, 1),
+    ("atan", Operator::ArcTangent, 1),
     ("pow", Operator::Power, 2),
     ("max", Operator::Greatest, 2),
     ("min", Operator::Least, 2),
@@ -184,6 +208,12 @@ impl Operation {
             Operator::Ceiling => number(0)?.ceil(),
             Operator::Root => number(0)?.sqrt(),
             Operator::Absolute => number(0)?.abs(),
+            Operator::Sine => libm::sin(number(0)?),
+            Operator::Cosine => libm::cos(number(0)?),
+            Operator::Tangent => libm::tan(number(0)?),
+            Operator::ArcSine => libm::asin(number(0)?),
+            Operator::ArcCosine => libm::acos(number(0)?),
+            Operator::ArcTangent => libm::atan(number(0)?),
             Operator::Sign => match number(0)? {
                 0.0 => 0.0,
                 other => other.signum(),
@@ -258,6 +288,7 @@ impl Parser<'_> {
         match self.word("a value")?.as_str() {
             "true" => Ok(Expression::Value(Value::Truth(true))),
             "false" => Ok(Expression::Value(Value::Truth(false))),
+            "pi" => Ok(Expression::Value(Value::Number(PI))),
             name => self.call(name),
         }
     }
@@ -265,9 +296,8 @@ impl Parser<'_> {
     fn call(&mut self, name: &str) -> Result<Expression, ExpressionFlaw> {
         let known = FUNCTIONS.iter().find(|(function, ..)| *function == name);
         let Some((_, operator, count)) = known.filter(|_| self.takes("(")) else {
-            let expected = "a number, a parameter such as $Speed, or one of the functions round, floor, ceil, sqrt, sign, \
-                            abs, pow, max, min";
-            return Err(ExpressionFlaw::Unexpected { found: name.to_owned(), expected });
+            let nearest = paracosm_space::nearest(name, FUNCTIONS.iter().map(|(function, ..)| *function));
+            return Err(ExpressionFlaw::NoFunction { name: name.to_owned(), nearest });
         };
         let mut operands = vec![self.nested(Self::disjunction)?];
         while operands.len() < *count {
@@ -373,7 +403,7 @@ mod tests {
         assert_eq!(value("1 +"), Err(ExpressionFlaw::Ends));
         assert!(matches!(value("$Sped"), Err(ExpressionFlaw::NoParameter { .. })));
         assert!(matches!(value("1 + true"), Err(ExpressionFlaw::Type { .. })));
-        assert!(matches!(value("system(1)"), Err(ExpressionFlaw::Unexpected { .. })));
+        assert!(matches!(value("system(1)"), Err(ExpressionFlaw::NoFunction { .. })));
         assert!(matches!(value("1 2"), Err(ExpressionFlaw::Unexpected { .. })));
         assert_eq!(value("pow(10, 400)"), Err(ExpressionFlaw::NotFinite));
         assert_eq!(value(&"(".repeat(100_000)), Err(ExpressionFlaw::TooDeep));

@@ -28,9 +28,6 @@ pub(in crate::openscenario) struct Actor {
     pub standing: f64,
     /// The seconds for which the entity has been at the end of its road.
     pub stuck: f64,
-    /// The actions that move the entity along and aside, by their indices.
-    pub longitudinal: Option<usize>,
-    pub lateral: Option<usize>,
     /// The motion of this tick, which the actions change.
     pub step: Step,
 }
@@ -55,6 +52,8 @@ pub(in crate::openscenario) struct Step {
     pub aside: f64,
     /// The pose at the end of the tick, if an action determines it.
     pub pose: Option<Pose>,
+    /// The place on a lane at the end of the tick, if an action that determines the pose is over.
+    pub landed: Option<Place>,
 }
 
 impl Actor {
@@ -71,8 +70,6 @@ impl Actor {
             travelled: 0.0,
             standing: 0.0,
             stuck: 0.0,
-            longitudinal: None,
-            lateral: None,
             step: Step::default(),
         }
     }
@@ -107,10 +104,9 @@ impl Actor {
     /// Moves the entity on by a tick of `dt` seconds, as its actions say.
     pub fn advance(&mut self, dt: f64, before: f64, map: &Map) {
         let from = self.pose;
-        let Step { offset, angle, aside, pose } = std::mem::take(&mut self.step);
+        let Step { offset, angle, aside, pose, landed } = std::mem::take(&mut self.step);
         if let Some(pose) = pose {
-            self.place = Whereabouts::Free(pose);
-            self.pose = pose;
+            self.put(landed.map_or(Whereabouts::Free(pose), Whereabouts::OnLane), map);
         } else {
             let metres = along(self.speed * dt, aside);
             let arrived = match &mut self.place {
@@ -130,6 +126,9 @@ impl Actor {
                 }
             };
             self.stuck = if arrived { self.stuck + dt } else { 0.0 };
+            if arrived {
+                self.speed = 0.0;
+            }
         }
         self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
         self.finish(dt, before, from);

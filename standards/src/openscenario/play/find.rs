@@ -4,6 +4,7 @@ use super::actor::{Actor, Whereabouts};
 use crate::opendrive::Map;
 use crate::openscenario::place::{Place, driving_turn};
 use crate::openscenario::position::{Position, Turn};
+use crate::openscenario::project::project;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -33,7 +34,8 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
     };
     match position {
         Position::World { x, y, heading } => {
-            Ok(Whereabouts::Free(Pose { position: Vector2::new(*x, *y), heading: *heading }))
+            let pose = Pose { position: Vector2::new(*x, *y), heading: *heading };
+            Ok(project(&pose, map).map_or(Whereabouts::Free(pose), Whereabouts::OnLane))
         }
         Position::Lane { road, lane, s, offset, turn } => {
             let (index, s) = road_at(road, *s, map)?;

@@ -9,5 +9,4 @@ mod start;
 mod track;
 mod watch;
 
-pub(super) use actor::Actor;
 pub(super) use stage::Stage;

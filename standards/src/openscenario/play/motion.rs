@@ -5,6 +5,7 @@ use super::stage::Stage;
 use super::track::Track;
 use crate::openscenario::action::{Gap, Target};
 use crate::openscenario::condition::Metric;
+use crate::openscenario::project::project;
 use crate::openscenario::transition::Transition;
 
 /// An action under way.
@@ -66,13 +67,13 @@ impl Motion {
             Self::LaneChange(transition) => {
                 let actor = &mut stage.actors[entity];
                 let Some(place) = actor.on_lane() else { return true };
-                let (metres, aside) = (actor.speed * dt, transition.value() - place.offset);
+                let metres = actor.speed * dt;
+                transition.advance(dt, metres.abs());
+                let aside = transition.value() - place.offset;
                 let left = if place.is_against() { -aside } else { aside };
                 actor.step.angle = if metres == 0.0 { 0.0 } else { libm::atan2(left, metres.abs()) };
                 (actor.step.offset, actor.step.aside) = (Some(transition.value()), aside);
-                let over = finished(transition, actor);
-                transition.advance(dt, metres.abs());
-                over
+                finished(transition, actor)
             }
             Self::LaneOffset { transition, continuous } => {
                 let actor = &mut stage.actors[entity];
@@ -132,6 +133,11 @@ fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize,
         }
     };
     *s = s.clamp(0.0, track.length());
-    actor.step.pose = Some(track.at(*s));
+    let pose = track.at(*s);
+    actor.step.pose = Some(pose);
+    if over && let Some(place) = project(&pose, &stage.map) {
+        // The entity goes on along the lane that it has come to.
+        actor.step.landed = Some(place);
+    }
     over
 }

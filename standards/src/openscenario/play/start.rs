@@ -79,7 +79,13 @@ impl Stage {
 
     fn speed(&mut self, entity: usize, dynamics: Dynamics, target: Target) -> Option<Motion> {
         let goal = self.target(target);
-        let transition = dynamics.from(self.actors[entity].speed, goal);
+        let actor = &self.actors[entity];
+        let transition = dynamics.from(actor.speed, goal);
+        // The performance of a vehicle limits its changes of speed.
+        let limit = actor.entity.vehicle.map_or(f64::INFINITY, |vehicle| {
+            if goal > actor.speed { vehicle.acceleration } else { vehicle.deceleration }
+        });
+        let transition = transition.within(limit);
         let continuous = matches!(target, Target::Relative { continuous: true, .. });
         if transition.is_over() && !continuous {
             self.actors[entity].speed = goal;
