@@ -1,4 +1,4 @@
-//! Roads and scenarios of others: files of ASAM OpenDRIVE, and later OpenSCENARIO XML.
+//! Roads and scenarios of others: files of ASAM OpenDRIVE and of ASAM OpenSCENARIO XML.
 //!
 //! A file is checked, element by element, against the table of its standard. Elements that are not supported end the reading
 //! with their names and places; elements without an effect are listed as notes.
@@ -7,4 +7,4 @@ pub mod opendrive;
 pub mod openscenario;
 mod xml;
 
-pub use xml::{ExpressionFlaw, Flaw, Malformed, NoEffect, ReadError, Support};
+pub use xml::{ExpressionFlaw, Flaw, Malformed, NoEffect, ReadError, Support, Supported};

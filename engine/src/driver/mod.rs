@@ -5,6 +5,7 @@
 
 mod aeb;
 mod cruise;
+mod default;
 mod expert;
 mod frenet;
 mod lane_camera;
@@ -32,6 +33,12 @@ pub trait Driver: Send {
     /// previous answer stays in effect. Before the first answer the car rolls.
     fn latency(&self) -> f64 {
         0.0
+    }
+
+    /// Returns `true` if the driver takes the car over from a scenario that leads the car. If it is `false`, the scenario leads
+    /// the car throughout, and no contact ends the run.
+    fn takes_over(&self) -> bool {
+        true
     }
 
     /// Resets the driver, because a new run begins. The driver forgets all earlier runs.
@@ -210,6 +217,7 @@ pub enum DriverError {
 pub const ALL: &[&Descriptor] = &[
     &aeb::DESCRIPTOR,
     &cruise::DESCRIPTOR,
+    &default::DESCRIPTOR,
     &expert::DESCRIPTOR,
     &lane_camera::DESCRIPTOR,
     &planner::DESCRIPTOR,

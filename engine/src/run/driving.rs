@@ -24,7 +24,8 @@ impl Run {
         vehicle: impl Into<VehicleSetup>,
         driver: &mut dyn Driver,
     ) -> Result<Self, Box<Outcome>> {
-        let setup = Setup { vehicle: vehicle.into(), ..Setup::asking_every(driver.period()) };
+        let (vehicle, takes_over) = (vehicle.into(), driver.takes_over());
+        let setup = Setup { vehicle, takes_over, ..Setup::asking_every(driver.period()) };
         let mut run = match Self::new(program, test, setup) {
             Ok(run) => run,
             Err(error @ ProgramError::World { .. }) => return Err(Box::new(Outcome::broken(Invalid::World(error)))),

@@ -1,6 +1,6 @@
 //! The elements of ASAM OpenDRIVE 1.4 to 1.8, and how each is supported.
 
-use crate::xml::{Row, Schema, Support, no_effect, read, refused};
+use crate::xml::{Row, Schema, Supported, no_effect, read, refused};
 
 const FLAT: &str = "the world is flat";
 const RAILWAY: &str = "there are no railways";
@@ -101,22 +101,7 @@ pub(super) fn schema() -> Schema {
     Schema::new(ROWS, ONCE)
 }
 
-/// An element of OpenDRIVE within another element, and how it is supported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Supported {
-    /// The name of the containing element; `*` if any element can contain it.
-    pub parent: &'static str,
-    /// The name of the element.
-    pub name: &'static str,
-    /// The way in which the element is supported.
-    pub support: Support,
-}
-
 /// Returns all elements of OpenDRIVE, without the contents of elements that have no effect.
 pub fn elements() -> impl Iterator<Item = Supported> {
-    ROWS.iter().flat_map(|row| {
-        let within =
-            move |parent| row.names.split('|').map(move |name| Supported { parent, name, support: row.support });
-        row.parents.split('|').flat_map(within)
-    })
+    ROWS.iter().flat_map(Row::each)
 }

@@ -38,7 +38,7 @@ mod table;
 mod write;
 
 pub use cubics::{Cubic, Cubics};
-pub use elements::{Supported, elements};
+pub use elements::elements;
 pub use junction::{Connection, Junction, JunctionKind};
 pub use map::Map;
 pub use note::Note;

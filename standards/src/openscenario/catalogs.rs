@@ -1,5 +1,6 @@
 //! The catalogs of a scenario: entries of other files that a scenario refers to by name.
 
+use super::elements::schema;
 use super::scope::{Node, Scope};
 use crate::xml::{Document, Element, Flaw, ReadError};
 use std::collections::BTreeMap;
@@ -80,6 +81,7 @@ impl Catalogs<'_> {
         let entry = entries().find(|entry| entry.text("name") == Some(entry_name.as_ref())).ok_or_else(|| {
             node.dangling("entryName", "entry of the catalog", entries().filter_map(|entry| entry.text("name")))
         })?;
+        schema().check(entry)?;
         let mut scope = node.scope.clone();
         declare(Node { element: entry, scope: node.scope }, &mut scope)?;
         for assignment in node.first("ParameterAssignments").into_iter().flat_map(|all| all.all("ParameterAssignment"))

@@ -3,6 +3,7 @@
 mod action;
 mod catalogs;
 mod condition;
+mod elements;
 mod entity;
 mod parameters;
 mod place;
@@ -14,4 +15,5 @@ mod scope;
 mod story;
 mod transition;
 
+pub use elements::elements;
 pub use program::Xosc;

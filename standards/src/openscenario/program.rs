@@ -2,12 +2,13 @@
 
 use super::catalogs::{CatalogFiles, declare};
 use super::condition::{Check, Condition, Measure};
+use super::elements::schema;
 use super::parameters::Distribution;
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
 use crate::opendrive::Map;
-use crate::xml::{Document, Flaw, ReadError};
+use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
 use paracosm_engine::vehicle::Vehicle;
@@ -30,6 +31,7 @@ pub struct Xosc {
     document: Document,
     catalogs: CatalogFiles,
     distribution: Distribution,
+    notes: Vec<NoEffect>,
     roads: Mutex<BTreeMap<PathBuf, Roads>>,
 }
 
@@ -74,6 +76,7 @@ impl Xosc {
         let named = {
             let tree = document.tree()?;
             let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
+            schema().check(root.element)?;
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
                 let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
@@ -88,14 +91,15 @@ impl Xosc {
     }
 
     fn of(name: String, document: Document, folder: PathBuf, distribution: Distribution) -> Result<Self, ReadError> {
-        let catalogs = {
+        let (catalogs, notes) = {
             let tree = document.tree()?;
             let root = document.root(&tree, ROOT)?;
+            let notes = schema().check(root)?;
             let mut scope = Scope::default();
             declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
-            CatalogFiles::read(Node { element: root, scope: &scope }.first("CatalogLocations"), &folder)?
+            (CatalogFiles::read(Node { element: root, scope: &scope }.first("CatalogLocations"), &folder)?, notes)
         };
-        let read = Self { name, folder, document, catalogs, distribution, roads: Mutex::default() };
+        let read = Self { name, folder, document, catalogs, distribution, notes, roads: Mutex::default() };
         read.board(&mut |root| {
             let mut scope = Scope::default();
             declare(root, &mut scope)?;
@@ -104,9 +108,18 @@ impl Xosc {
         Ok(read)
     }
 
+    /// Returns the parts of the scenario file that have no effect.
+    pub fn notes(&self) -> &[NoEffect] {
+        &self.notes
+    }
+
     /// Makes the program of the scenario. Its name is the path of the file.
     pub fn program(self) -> Program {
-        let about = "a scenario of a file".to_owned();
+        let without: Vec<_> = self.notes.iter().map(|note| note.name.as_str()).collect();
+        let about = match without.as_slice() {
+            [] => "a scenario of a file".to_owned(),
+            names => format!("a scenario of a file; without effect in it: {}", names.join(", ")),
+        };
         let name = self.name.clone();
         Program::of(name, about, move |s| self.build(s))
     }
@@ -249,6 +262,7 @@ impl Geometric for Director {
     fn poses(&self, _: &mut [Option<Pose>]) {}
 
     fn show(&self, outputs: &mut Outputs<'_>) {
+        self.stage.borrow_mut().catch_up();
         let stage = self.stage.borrow();
         for (measure, output) in &self.measures {
             outputs.set(output, stage.measure(measure));

@@ -14,6 +14,6 @@ pub(crate) use element::Element;
 pub use error::{Flaw, Malformed, ReadError};
 pub use expression::ExpressionFlaw;
 pub(crate) use expression::{Expression, Value};
-pub use schema::{NoEffect, Support};
+pub use schema::{NoEffect, Support, Supported};
 pub(crate) use schema::{Row, Schema, no_effect, read, refused};
 pub(crate) use writer::Writer;

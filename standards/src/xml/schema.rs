@@ -31,6 +31,26 @@ pub(crate) struct Row {
     pub support: Support,
 }
 
+/// An element of a standard within another element, and how it is supported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Supported {
+    /// The name of the containing element; `*` if any element can contain it.
+    pub parent: &'static str,
+    /// The name of the element.
+    pub name: &'static str,
+    /// The way in which the element is supported.
+    pub support: Support,
+}
+
+impl Row {
+    /// Returns each element of the row within each of its parents.
+    pub fn each(&self) -> impl Iterator<Item = Supported> + use<'_> {
+        let Self { names, support, .. } = *self;
+        let within = move |parent| names.split('|').map(move |name| Supported { parent, name, support });
+        self.parents.split('|').flat_map(within)
+    }
+}
+
 /// Describes an element that is read.
 pub(crate) const fn read(parents: &'static str, names: &'static str, attributes: &'static str) -> Row {
     Row { parents, names, attributes, support: Support::Read }

@@ -1,7 +1,7 @@
 //! Positions, headings and speeds of all entities in concrete scenarios of others, against esmini's.
 
 use super::others::{files_of_others, with_ending};
-use paracosm_engine::{Control, Run, Setup, Step};
+use super::worlds::led;
 use paracosm_standards::openscenario::Xosc;
 use std::path::{Path, PathBuf};
 
@@ -29,15 +29,7 @@ fn scenario(folder: &Path, name: &str) -> PathBuf {
 /// Runs a scenario with its default controllers and compares it with its reference.
 fn compared(folder: &Path, name: &str) -> Result<Difference, String> {
     let program = Xosc::read(&scenario(folder, name)).map_err(|error| error.to_string())?.program();
-    let nominal = program.declare().map_err(|error| error.to_string())?.nominal();
-    let setup = Setup { takes_over: false, ..Setup::asking_every(0.1) };
-    let mut run = Run::new(&program, &nominal, setup).map_err(|error| error.to_string())?;
-    let outcome = loop {
-        match run.advance() {
-            Step::Need(_) => run.supply(Control::default()),
-            Step::Done(outcome) => break outcome,
-        }
-    };
+    let outcome = led(&program).map_err(|error| error.to_string())?;
     let Some(trace) = outcome.trace else { return Err(format!("{:?}", outcome.ending)) };
     let text = std::fs::read_to_string(folder.join("golden").join(format!("{name}.csv"))).unwrap();
     let mut greatest = Difference::default();
@@ -58,17 +50,45 @@ fn compared(folder: &Path, name: &str) -> Result<Difference, String> {
     Ok(greatest)
 }
 
+/// The greatest differences in heading (rad) and in speed (m/s).
+const HEADING: f64 = 0.01;
+const SPEED: f64 = 0.02;
+
+/// Scenarios of esmini that are read and whose entities move as in esmini, and the greatest distance in metres. The other
+/// scenarios of esmini and of Euro NCAP have elements that are refused, or differ; docs/openscenario.md lists them.
+const OTHERS: [&str; 3] =
+    ["esmini__slow-lead-vehicle", "esmini__straight_500m", "esmini__left-hand-traffic_using_road_rule"];
+const DISTANCE_OF_OTHERS: f64 = 0.1;
+
 #[test]
-fn entities_move_as_in_esmini() {
+fn entities_of_the_regulation_move_as_in_esmini() {
     let Some(folder) = files_of_others() else { return };
-    let files = with_ending(&folder.join("golden"), "csv");
-    let names = files.iter().map(|file| file.file_stem().unwrap().to_string_lossy().into_owned());
-    for name in names {
+    let mut count = 0;
+    for file in with_ending(&folder.join("golden"), "csv") {
+        let name = file.file_stem().unwrap().to_string_lossy().into_owned();
+        let most = match name.as_str() {
+            name if name.starts_with("alks") => 0.0201,
+            name if OTHERS.contains(&name) => DISTANCE_OF_OTHERS,
+            _ => continue,
+        };
+        let found = compared(&folder, &name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(found.metres <= most, "{name}: {found:?}");
+        assert!(found.heading <= HEADING && found.speed <= SPEED, "{name}: {found:?}");
+        assert!(found.samples >= 100, "{name}: {found:?}");
+        count += 1;
+    }
+    assert_eq!(count, 8 + OTHERS.len());
+}
+
+/// Prints the differences in all scenarios with reference trajectories.
+#[test]
+#[ignore = "a table to look at"]
+fn table_of_all_scenarios() {
+    let Some(folder) = files_of_others() else { return };
+    for file in with_ending(&folder.join("golden"), "csv") {
+        let name = file.file_stem().unwrap().to_string_lossy().into_owned();
         match compared(&folder, &name) {
-            Ok(found) => println!(
-                "{name}: {:.4} m at {:.1} s, {:.4} rad, {:.4} m/s, {} samples",
-                found.metres, found.at, found.heading, found.speed, found.samples
-            ),
+            Ok(found) => println!("{name}: {found:?}"),
             Err(error) => println!("{name}: {error}"),
         }
     }

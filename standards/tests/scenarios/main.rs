@@ -1,5 +1,7 @@
-//! Scenarios of files, against the trajectories that esmini computed for them.
+//! Scenarios of files: our own small files, and scenarios of others with the trajectories that esmini computed for them.
 
+mod bad;
 mod golden;
 #[path = "../roads/others.rs"]
 mod others;
+mod worlds;

@@ -21,6 +21,8 @@ pub(in crate::openscenario) struct Stage {
     pub lead: Lead,
     /// The seconds since the run began.
     pub(super) time: f64,
+    /// The seconds of the last tick, if the driver's motion during the tick is not known yet.
+    behind: Option<f64>,
     /// `true` once the stop trigger has come.
     pub stopped: bool,
     /// The reason why an action could not begin.
@@ -64,6 +66,7 @@ impl Stage {
             ego,
             lead,
             time: 0.0,
+            behind: None,
             stopped: false,
             lost: None,
         };
@@ -103,9 +106,6 @@ impl Stage {
 
     /// Plays a tick of `dt` seconds. `truths` are the values of all conditions at its beginning.
     pub fn play(&mut self, truths: &[bool], dt: f64) {
-        if let Some(motion) = self.lead.driven() {
-            self.actors[self.ego].follow(motion, dt);
-        }
         let time = self.time;
         self.stopped |= self.stop.as_mut().is_some_and(|stop| stop.check(time, truths));
         self.items.iter_mut().for_each(|playing| playing.transition = None);
@@ -124,6 +124,14 @@ impl Stage {
         }
         self.lead.to(self.actors[self.ego].motion());
         self.time += dt;
+        self.behind = Some(dt);
+    }
+
+    /// Takes over the motion of the ego vehicle during the last tick if a driver drives it. The car moves after the storyboard.
+    pub fn catch_up(&mut self) {
+        if let (Some(dt), Some(motion)) = (self.behind.take(), self.lead.driven()) {
+            self.actors[self.ego].follow(motion, dt);
+        }
     }
 
     /// Starts an element, or stops it, if its triggers say so.

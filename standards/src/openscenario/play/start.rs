@@ -87,11 +87,11 @@ impl Stage {
         });
         let transition = transition.within(limit);
         let continuous = matches!(target, Target::Relative { continuous: true, .. });
-        if transition.is_over() && !continuous {
+        if transition.is_over() {
             self.actors[entity].speed = goal;
-            return None;
         }
-        Some(Motion::Speed { transition, follows: continuous.then_some(target) })
+        (continuous || !transition.is_over())
+            .then_some(Motion::Speed { transition, follows: continuous.then_some(target) })
     }
 
     /// Returns the present value of the target of a change of speed, in m/s.

@@ -1,0 +1,112 @@
+//! Files with mistakes: each is refused with its file, its line and what to do.
+
+use super::worlds::file;
+use paracosm_standards::openscenario::{Xosc, elements};
+use paracosm_standards::{Flaw, Support};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// Returns the messages about a scenario in which a text is replaced by another text.
+fn messages(found: &str, by: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("catalogs")).unwrap();
+    for name in ["straight.xodr", "catalogs/entities.xosc"] {
+        fs::copy(file(name), folder.path().join(name)).unwrap();
+    }
+    let text = fs::read_to_string(file("slow-leader.xosc")).unwrap();
+    assert!(text.contains(found), "{found}");
+    let path = folder.path().join("bad.xosc");
+    fs::write(&path, text.replacen(found, by, 1)).unwrap();
+    match Xosc::read(&path) {
+        Err(error) => {
+            assert!(error.file.starts_with(folder.path()), "{error}");
+            format!("{}: {}", error.line.map_or("file".to_owned(), |line| line.to_string()), error.flaw)
+        }
+        Ok(scenario) => scenario.program().declare().map_or_else(|error| error.to_string(), |_| "none".to_owned()),
+    }
+}
+
+#[test]
+fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
+    for (found, by, expected) in [
+        (
+            "entityRef=\"Leader\"",
+            "entityRef=\"Leadr\"",
+            "names a entity that the file does not have (did you mean `Leader`?)",
+        ),
+        ("entryName=\"car\"/>", "entryName=\"cat\"/>", "did you mean `car`?"),
+        ("catalogName=\"entities\"", "catalogName=\"entitys\"", "did you mean `entities`?"),
+        ("$gap + 10", "$gat + 10", "there is no parameter `gat` (did you mean `gap`?)"),
+        ("$gap + 10", "$gap / 0", "it divides by zero"),
+        ("$gap + 10", "$gap +", "it ends where a value was expected"),
+        (
+            "value=\"$speed\"",
+            "value=\"fast\"",
+            "`value=\"fast\"` of <AbsoluteTargetSpeed> is not allowed, expected a finite number",
+        ),
+        ("value=\"$speed\"", "value=\"NaN\"", "expected a finite number"),
+        ("straight.xodr", "strait.xodr", "the file cannot be read"),
+        ("roadId=\"1\" laneId=\"-1\" s=\"10\"", "roadId=\"7\" laneId=\"-1\" s=\"10\"", "the map has no road `7`"),
+        ("laneId=\"-1\" s=\"10\"", "laneId=\"-3\" s=\"10\"", "has no lane -3 at s = 10 m, its lanes are -2 to 2"),
+        ("laneId=\"-1\" s=\"10\"", "laneId=\"-1\" s=\"2000\"", "no place at s = 2000 m, it is 1000 m long"),
+        ("<SpeedAction>", "<SpedAction/><SpeedAction>", "did you mean `SpeedAction`?"),
+        ("dynamicsShape=\"step\"", "dynamicsShape=\"stepp\"", "did you mean `step`?"),
+        ("priority=\"override\"", "", "has no attribute `priority`"),
+        ("name=\"Leader\"", "name=\"Ego\"", "is taken"),
+        (
+            "rule=\"greaterThan\" value=\"0\"",
+            "rule=\"greaterThan\" value=\"40\"",
+            "expected a value that is greater than 40 and at most 50",
+        ),
+        ("</OpenSCENARIO>", "", "not well-formed XML"),
+        ("<OpenSCENARIO>", "<!DOCTYPE a [<!ENTITY b \"c\">]><OpenSCENARIO>", "document type"),
+    ] {
+        let message = messages(found, by);
+        assert!(message.contains(expected), "{by}: {message}");
+    }
+}
+
+/// Returns a file in which an element stands within all its ancestors.
+fn nested(path: &[&str]) -> String {
+    let open: String = path.iter().map(|name| format!("<{name}>")).collect();
+    let close: String = path.iter().rev().map(|name| format!("</{name}>")).collect();
+    open + &close
+}
+
+#[test]
+fn every_refused_element_is_refused_by_its_name() {
+    // The ways from the outermost element to each element that is read.
+    let mut ways: BTreeMap<&str, Vec<&str>> = BTreeMap::from([("OpenSCENARIO", vec!["OpenSCENARIO"])]);
+    let read: Vec<_> = elements().filter(|element| element.support == Support::Read).collect();
+    loop {
+        let known = ways.len();
+        for element in &read {
+            if let Some(way) = ways.get(element.parent).cloned() {
+                ways.entry(element.name).or_insert_with(|| way.into_iter().chain([element.name]).collect());
+            }
+        }
+        if ways.len() == known {
+            break;
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("refused.xosc");
+    let mut count = 0;
+    for element in elements() {
+        let Support::Refused(reason) = element.support else { continue };
+        let Some(way) = ways.get(element.parent) else { continue };
+        let all: Vec<&str> = way.iter().copied().chain([element.name]).collect();
+        fs::write(&path, nested(&all)).unwrap();
+        let error = Xosc::read(&path).err().expect("it is refused");
+        let Flaw::Refused { element: named, reason: given } = &*error.flaw else { panic!("{error}") };
+        assert_eq!((named.as_str(), *given), (element.name, reason), "{all:?}");
+        count += 1;
+    }
+    assert!(count >= 40, "{count} elements");
+}
+
+#[test]
+fn a_folder_is_no_scenario() {
+    assert!(Xosc::read(Path::new(env!("CARGO_MANIFEST_DIR"))).is_err());
+}

@@ -1,0 +1,109 @@
+//! Small scenarios of our own: how entities move, who drives the ego vehicle, and which tests a distribution makes.
+
+use paracosm_engine::driver::find;
+use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::{Control, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate};
+use paracosm_oracles::Trace;
+use paracosm_space::{Domain, Value};
+use paracosm_standards::openscenario::Xosc;
+use std::path::{Path, PathBuf};
+
+/// Returns a file of our own.
+pub fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenarios/files").join(name)
+}
+
+fn program(name: &str) -> Program {
+    Xosc::read(&file(name)).unwrap_or_else(|error| panic!("{error}")).program()
+}
+
+/// Runs a scenario with nominal values, in which the scenario leads the ego vehicle throughout.
+pub fn led(program: &Program) -> Result<Outcome, ProgramError> {
+    let setup = Setup { takes_over: false, ..Setup::asking_every(0.1) };
+    let mut run = Run::new(program, &program.declare()?.nominal(), setup)?;
+    loop {
+        match run.advance() {
+            Step::Need(_) => run.supply(Control::default()),
+            Step::Done(outcome) => return Ok(*outcome),
+        }
+    }
+}
+
+fn driven_by(driver: &str, program: &Program) -> Outcome {
+    let descriptor = find(driver).unwrap();
+    let mut driver = (descriptor.make)(&descriptor.settings(&[]).unwrap());
+    let nominal = program.declare().unwrap().nominal();
+    simulate(program, &nominal, VehicleModel::SingleTrack, driver.as_mut())
+}
+
+/// Returns the value of a signal at a time in seconds.
+fn at(trace: &Trace, signal: &str, seconds: f64) -> f64 {
+    let mut values = trace.signal(signal).unwrap_or_else(|| panic!("no signal {signal}"));
+    values.nth((seconds / trace.dt()).round() as usize).unwrap()
+}
+
+#[test]
+fn a_leader_slows_down_at_the_rate_of_its_maneuver() {
+    let trace = led(&program("slow-leader.xosc")).unwrap().trace.unwrap();
+    for (seconds, speed) in [(0.0, 30.0), (5.0, 30.0), (6.0, 28.0), (14.0, 12.0), (15.0, 10.0), (19.0, 10.0)] {
+        assert!((at(&trace, "Leader.speed", seconds) - speed).abs() < 1e-9, "at {seconds} s");
+    }
+    // 150 m at 30 m/s, then 1000 ticks of which each is 0.02 m/s slower than the one before.
+    assert!((at(&trace, "Leader.x", 15.0) - (60.0 + 150.0 + 300.0 - 100.1)).abs() < 1e-6);
+    assert_eq!(at(&trace, "Leader.y", 15.0), -1.75);
+}
+
+#[test]
+fn a_scenario_ends_with_its_stop_trigger() {
+    let trace = led(&program("slow-leader.xosc")).unwrap().trace.unwrap();
+    let end = (trace.len() - 1) as f64 * trace.dt();
+    assert!((end - 20.0).abs() < 0.03, "it ended at {end} s");
+}
+
+#[test]
+fn no_contact_ends_the_run_of_the_default_driver() {
+    let outcome = driven_by("default", &program("slow-leader.xosc"));
+    assert_eq!(outcome.ending, Ending::Fail);
+    let trace = outcome.trace.unwrap();
+    assert_eq!(at(&trace, "Ego.speed", 19.0), 30.0);
+    assert!((trace.len() as f64 * trace.dt()) > 19.9);
+}
+
+#[test]
+fn a_driver_gets_the_car_when_the_scenario_activates_its_controller() {
+    let program = program("slow-leader.xosc");
+    let trace = driven_by("aeb", &program).trace.unwrap();
+    let led = led(&program).unwrap().trace.unwrap();
+    for seconds in [0.0, 0.5, 0.99] {
+        assert_eq!(at(&trace, "Ego.x", seconds), at(&led, "Ego.x", seconds));
+    }
+    let last = trace.signal("Ego.speed").unwrap().next_back().unwrap();
+    assert!(last < 15.0, "the driver did not brake: {last} m/s");
+    // The reference point is the middle of the rear axle, 1.4 m behind the middle of the car.
+    assert!((at(&trace, "car.x", 10.0) - at(&trace, "Ego.x", 10.0) - 1.4).abs() < 1e-6);
+}
+
+#[test]
+fn a_distribution_opens_its_parameters() {
+    let declaration = program("slow-leader-variation.xosc").declare().unwrap();
+    let parameter = |name: &str| declaration.parameters.iter().find(|one| one.parameter.name == name).unwrap();
+    let numbers = |all: &[f64]| Domain::Choice(all.iter().map(|number| Value::Number(*number)).collect());
+    assert_eq!(parameter("speed").parameter.domain, numbers(&[20.0, 30.0, 40.0, 50.0, 60.0]));
+    assert_eq!(parameter("gap").parameter.domain, numbers(&[20.0, 50.0]));
+    assert!(declaration.parameters.iter().all(|declared| declared.open));
+    let nominal = declaration.nominal();
+    assert_eq!(nominal.get("speed"), Some(&Value::Number(30.0)));
+    assert_eq!(nominal.get("gap"), Some(&Value::Number(50.0)));
+    assert_eq!(nominal.get("start"), None, "it follows from the gap");
+}
+
+#[test]
+fn a_test_that_breaks_a_constraint_is_invalid() {
+    let program = program("slow-leader-variation.xosc");
+    let mut test = program.declare().unwrap().nominal();
+    test.set("speed", Value::Number(50.0));
+    program.check(&test).unwrap();
+    test.set("speed", Value::Number(60.0));
+    let error = program.check(&test).unwrap_err().to_string();
+    assert!(error.contains("`speed` is 60, expected a value that is greater than 0 and at most 50"), "{error}");
+}
