@@ -1,5 +1,6 @@
 //! Actions as a scenario describes them.
 
+use super::catalogs::Catalogs;
 use super::position::{Names, Position};
 use super::scope::Node;
 use super::transition::{Dynamics, SHAPES, Shape};
@@ -111,14 +112,14 @@ pub(super) struct Timing {
 
 impl Action {
     /// Reads an element `PrivateAction`.
-    pub fn private(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+    pub fn private(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
         let kind = node.choice("a kind of action such as LongitudinalAction")?;
         let inner = || kind.choice("a kind of action");
         match kind.name() {
             "TeleportAction" => Ok(Self::Teleport(Position::read(kind.child("Position")?, names)?)),
             "LongitudinalAction" => Self::longitudinal(inner()?, names),
             "LateralAction" => Self::lateral(inner()?, names),
-            "RoutingAction" => Self::routing(inner()?, names),
+            "RoutingAction" => Self::routing(inner()?, names, catalogs),
             "ControllerAction" => {
                 let mut actions = kind.elements().filter(|action| action.name() == "ActivateControllerAction");
                 actions.next().map_or(Ok(Self::Nothing), Self::activate)
@@ -210,17 +211,21 @@ impl Action {
         }
     }
 
-    fn routing(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+    fn routing(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
         if node.name() != "FollowTrajectoryAction" {
             return Err(node.refused("use a FollowTrajectoryAction"));
         }
         let given = match node.first("TrajectoryRef") {
             Some(reference) => reference.choice("Trajectory")?,
-            None => node.child("Trajectory")?,
+            None => node
+                .elements()
+                .find(|inner| ["Trajectory", "CatalogReference"].contains(&inner.name()))
+                .ok_or_else(|| node.element.lacks("Trajectory"))?,
         };
-        if given.name() != "Trajectory" {
-            return Err(given.refused("write the Trajectory in its place"));
-        }
+        catalogs.resolved(given, &["Trajectory"], |given| Self::trajectory(node, given, names))
+    }
+
+    fn trajectory(node: Node<'_>, given: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let shape = given.child("Shape")?.choice("Polyline")?;
         if shape.name() != "Polyline" {
             return Err(shape.refused("use a Polyline"));

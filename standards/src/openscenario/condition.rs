@@ -3,7 +3,7 @@
 use super::position::{Names, Position};
 use super::scope::Node;
 use super::story::State;
-use crate::xml::ReadError;
+use crate::xml::{self, ReadError};
 use paracosm_engine::Stream;
 use paracosm_space::Value;
 use std::cmp::Ordering;
@@ -58,6 +58,10 @@ pub(super) enum Measure {
     Time,
     /// A number that never changes.
     Constant(f64),
+    /// The number in a variable.
+    Variable(usize),
+    /// 1 while a variable has a value, otherwise 0.
+    VariableIs(usize, xml::Value),
     /// 1 while an element of the storyboard with this name is in the state, otherwise 0.
     State {
         element: String,
@@ -226,7 +230,7 @@ impl Condition {
         ];
         let inner = node.choice("ByEntityCondition or ByValueCondition")?;
         let check = match inner.name() {
-            "ByValueCondition" => Check::by_value(inner.choice("a condition such as SimulationTimeCondition")?)?,
+            "ByValueCondition" => Check::by_value(inner.choice("a condition such as SimulationTimeCondition")?, names)?,
             _ => Check::by_entity(inner, names)?,
         };
         // Nothing refers to a condition by its name, so the name stays as it is written.
@@ -241,7 +245,7 @@ impl Check {
         Self { measures: vec![measure], any: true, rule, value }
     }
 
-    fn by_value(node: Node<'_>) -> Result<Self, ReadError> {
+    fn by_value(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         match node.name() {
             "SimulationTimeCondition" => Ok(Self::single(Measure::Time, Rule::read(node)?, node.number("value")?)),
             "StoryboardElementStateCondition" => {
@@ -252,6 +256,13 @@ impl Check {
                     state: node.one_of("state", &State::NAMES)?,
                 };
                 Ok(Self::single(measure, Rule::GreaterOrEqual, 1.0))
+            }
+            "VariableCondition" => {
+                let (variable, rule) = (names.variable(node, "variableRef")?, Rule::read(node)?);
+                Ok(match xml::Value::of(&node.required("value")?) {
+                    xml::Value::Number(number) => Self::single(Measure::Variable(variable), rule, number),
+                    other => Self::single(Measure::VariableIs(variable, other), rule, 1.0),
+                })
             }
             "ParameterCondition" => {
                 let name = node.element.required("parameterRef")?;

@@ -12,7 +12,7 @@ const SWARMS: &str = "there are no swarms of vehicles yet; name the entities one
 const TRAILERS: &str = "there are no trailers: vehicles drive without them";
 const ROUTES: &str = "there are no routes yet; use a FollowTrajectoryAction, or a LanePosition";
 const CURVES: &str = "use a Polyline";
-const VARIABLES: &str = "there are no variables yet; use a StoryboardElementStateCondition, or a parameter";
+const PARAMETERS: &str = "parameters do not change during a run; use a VariableAction";
 const COMMANDS: &str = "no file runs a command";
 const NAMED: &str = "name the entities one by one";
 const CONTROL: &str = "use an ActivateControllerAction";
@@ -39,10 +39,7 @@ pub(super) const ROWS: &[Row] = &[
     read("ParameterDeclarations", "ParameterDeclaration", "name parameterType value"),
     read("ParameterDeclaration", "ConstraintGroup", ""),
     read("ConstraintGroup", "ValueConstraint", "rule value"),
-    refused("OpenSCENARIO", "VariableDeclarations", VARIABLES),
-    refused("VariableDeclarations", "VariableDeclaration", VARIABLES),
     no_effect("OpenSCENARIO", "MonitorDeclarations", OTHERS),
-    refused("MonitorDeclarations", "MonitorDeclaration", VARIABLES),
     read("OpenSCENARIO", "CatalogLocations|RoadNetwork|Entities|Storyboard|ParameterValueDistribution", ""),
     read(
         "CatalogLocations",
@@ -146,10 +143,6 @@ pub(super) const ROWS: &[Row] = &[
     refused("GlobalAction", "InfrastructureAction", SIGNALS),
     refused("InfrastructureAction", "TrafficSignalAction", SIGNALS),
     refused("TrafficSignalAction", "TrafficSignalControllerAction|TrafficSignalStateAction", SIGNALS),
-    refused("GlobalAction", "SetMonitorAction|ParameterAction|VariableAction", VARIABLES),
-    refused("ParameterAction|VariableAction", "SetAction|ModifyAction", VARIABLES),
-    refused("ModifyAction", "Rule", VARIABLES),
-    refused("Rule", "AddValue|MultiplyByValue", VARIABLES),
     refused("GlobalAction", "TrafficAction", SWARMS),
     refused(
         "TrafficAction",
@@ -278,7 +271,6 @@ pub(super) const ROWS: &[Row] = &[
     read("ByValueCondition", "StoryboardElementStateCondition", "storyboardElementRef state storyboardElementType"),
     refused("ByValueCondition", "UserDefinedValueCondition", COMMANDS),
     refused("ByValueCondition", "TrafficSignalCondition|TrafficSignalControllerCondition", SIGNALS),
-    refused("ByValueCondition", "VariableCondition", VARIABLES),
     read("Act|Storyboard", "StopTrigger", ""),
     read("OpenSCENARIO", "Catalog", "name"),
     read("ParameterValueDistribution", "ScenarioFile", "filepath"),
@@ -302,6 +294,17 @@ pub(super) const ROWS: &[Row] = &[
     ),
     refused("ProbabilityDistributionSet", "Element", CHANCE),
     refused("Histogram", "Bin", CHANCE),
+    read("OpenSCENARIO", "VariableDeclarations", ""),
+    read("VariableDeclarations", "VariableDeclaration", "name variableType value"),
+    read("GlobalAction", "VariableAction", "variableRef"),
+    read("VariableAction", "SetAction", "value"),
+    read("VariableAction", "ModifyAction", ""),
+    read("ModifyAction", "Rule", ""),
+    read("Rule", "AddValue", "value"),
+    read("Rule", "MultiplyByValue", "value"),
+    read("ByValueCondition", "VariableCondition", "variableRef rule value"),
+    refused("GlobalAction", "ParameterAction", PARAMETERS),
+    refused("GlobalAction", "SetMonitorAction", OTHERS),
 ];
 
 /// The elements that occur at most once within their parent.

@@ -14,6 +14,7 @@ mod project;
 mod scope;
 mod story;
 mod transition;
+mod variable;
 
 pub use elements::elements;
 pub use program::Xosc;

@@ -31,16 +31,27 @@ pub(super) enum Turn {
     Relative(f64),
 }
 
-/// The entities of a scenario by name, in their order.
+/// The names that a scenario declares, in their order.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Names<'a>(pub &'a [String]);
+pub(super) struct Names<'a> {
+    pub entities: &'a [String],
+    pub variables: &'a [String],
+}
 
 impl Names<'_> {
     /// Returns the index of the entity that an attribute names.
     pub fn entity(self, node: Node<'_>, attribute: &'static str) -> Result<usize, ReadError> {
         let name = node.required(attribute)?;
-        let index = self.0.iter().position(|known| *known == name);
-        index.ok_or_else(|| node.dangling(attribute, "entity", self.0.iter().map(String::as_str)))
+        let index = self.entities.iter().position(|known| *known == name);
+        index.ok_or_else(|| node.dangling(attribute, "entity", self.entities.iter().map(String::as_str)))
+    }
+
+    /// Returns the index of the variable that an attribute names.
+    pub fn variable(self, node: Node<'_>, attribute: &'static str) -> Result<usize, ReadError> {
+        let name = node.element.required(attribute)?;
+        let name = name.strip_prefix('$').unwrap_or(name);
+        let index = self.variables.iter().position(|known| known == name);
+        index.ok_or_else(|| node.dangling(attribute, "variable", self.variables.iter().map(String::as_str)))
     }
 }
 

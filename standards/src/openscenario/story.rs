@@ -6,12 +6,14 @@ use super::condition::{Trigger, trigger};
 use super::entity::Entity;
 use super::position::Names;
 use super::scope::{Node, Scope};
+use super::variable::{Change, Variable};
 use crate::xml::ReadError;
 
 /// The storyboard of a scenario, with the entities that act in it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Storyboard {
     pub entities: Vec<Entity>,
+    pub variables: Vec<Variable>,
     /// The initial actions, each with its entity.
     pub init: Vec<(usize, Action)>,
     /// All elements of all stories. An element comes before the elements within it.
@@ -43,8 +45,10 @@ pub(super) enum Kind {
     Group,
     Maneuver,
     Event(Priority),
-    /// An action, with the entities that carry it out. Each of them has its own copy.
+    /// An action, with the entities that carry it out. Each entity has its own copy.
     Action(Vec<usize>, Action),
+    /// A change of the variable with this index.
+    Change(usize, Change),
 }
 
 /// The effect of an event on the other running events of its maneuver.
@@ -98,7 +102,7 @@ impl Kind {
             Self::Group => "maneuverGroup",
             Self::Maneuver => "maneuver",
             Self::Event(_) => "event",
-            Self::Action(..) => "action",
+            Self::Action(..) | Self::Change(..) => "action",
         }
     }
 }
@@ -114,8 +118,10 @@ impl Storyboard {
     /// Reads the entities and the storyboard of a scenario.
     pub fn read(root: Node<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
         let entities = Entity::all(root.child("Entities")?, catalogs)?;
-        let names: Vec<_> = entities.iter().map(|entity| entity.name.clone()).collect();
-        let names = Names(&names);
+        let mut variables = Variable::all(root)?;
+        let entity_names: Vec<_> = entities.iter().map(|entity| entity.name.clone()).collect();
+        let variable_names: Vec<_> = variables.iter().map(|variable| variable.name.clone()).collect();
+        let names = Names { entities: &entity_names, variables: &variable_names };
         let board = root.child("Storyboard")?;
         let mut init = Vec::new();
         let actions = board.child("Init")?.child("Actions")?;
@@ -124,10 +130,13 @@ impl Storyboard {
                 "Private" => {
                     let entity = names.entity(actor, "entityRef")?;
                     for action in actor.all("PrivateAction") {
-                        init.push((entity, Action::private(action, names)?));
+                        init.push((entity, Action::private(action, names, catalogs)?));
                     }
                 }
-                "GlobalAction" => global(actor)?,
+                "GlobalAction" => match global(actor, names)? {
+                    Kind::Change(variable, change) => change.apply(&mut variables[variable].value),
+                    _ => (),
+                },
                 _ => return Err(actor.refused("use a Private or a GlobalAction")),
             }
         }
@@ -137,16 +146,17 @@ impl Storyboard {
         }
         let items = reader.items;
         let stop = board.first("StopTrigger").map(|stop| trigger(stop, names)).transpose()?;
-        Ok(Self { init, items, stop: stop.filter(|stop| !stop.is_empty()), entities })
+        Ok(Self { init, items, stop: stop.filter(|stop| !stop.is_empty()), entities, variables })
     }
 }
 
-/// Checks an action that concerns no entity: those that are supported have no effect.
-fn global(node: Node<'_>) -> Result<(), ReadError> {
-    let kind = node.choice("a kind of action such as EnvironmentAction")?;
+/// Reads an action that concerns no entity.
+fn global(node: Node<'_>, names: Names<'_>) -> Result<Kind, ReadError> {
+    let kind = node.choice("a kind of action such as VariableAction")?;
     match kind.name() {
-        "EnvironmentAction" => Ok(()),
-        _ => Err(kind.refused("use an EnvironmentAction")),
+        "EnvironmentAction" => Ok(Kind::Action(Vec::new(), Action::Nothing)),
+        "VariableAction" => Change::read(kind, names).map(|(variable, change)| Kind::Change(variable, change)),
+        _ => Err(kind.refused("use a VariableAction or an EnvironmentAction")),
     }
 }
 
@@ -199,15 +209,14 @@ impl Reader<'_> {
             let index = self.push(event, Kind::Event(priority), Some(maneuver))?;
             for action in event.all("Action") {
                 let inner = action.choice("PrivateAction or GlobalAction")?;
-                let (actors, read) = match inner.name() {
-                    "PrivateAction" => (actors.to_vec(), Action::private(inner, self.names)?),
-                    "GlobalAction" => {
-                        global(inner)?;
-                        (Vec::new(), Action::Nothing)
+                let kind = match inner.name() {
+                    "PrivateAction" => {
+                        Kind::Action(actors.to_vec(), Action::private(inner, self.names, self.catalogs)?)
                     }
-                    _ => return Err(inner.refused("use a PrivateAction")),
+                    "GlobalAction" => global(inner, self.names)?,
+                    _ => return Err(inner.refused("use a PrivateAction or a GlobalAction")),
                 };
-                self.push(action, Kind::Action(actors, read), Some(index))?;
+                self.push(action, kind, Some(index))?;
             }
         }
         Ok(())

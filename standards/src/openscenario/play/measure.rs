@@ -4,6 +4,7 @@ use super::actor::{Actor, Whereabouts};
 use super::find::find;
 use super::stage::Stage;
 use crate::openscenario::condition::{Direction, Goal, Measure, Metric, MetricKind, System};
+use crate::xml::Value;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 
@@ -23,6 +24,12 @@ impl Stage {
         match measure {
             Measure::Time => self.time,
             Measure::Constant(number) => *number,
+            Measure::Variable(index) => match &self.variables[*index].value {
+                Value::Number(number) => *number,
+                Value::Truth(truth) => f64::from(u8::from(*truth)),
+                Value::Text(_) => f64::INFINITY,
+            },
+            Measure::VariableIs(index, value) => f64::from(u8::from(self.variables[*index].value == *value)),
             Measure::State { element, kind, state } => f64::from(u8::from(self.is_in(element, kind, *state))),
             Measure::Speed { entity, direction } => speed(actor(*entity), *direction),
             Measure::Acceleration { entity, direction } => match direction {

@@ -7,6 +7,7 @@ use super::watch::Watch;
 use crate::opendrive::Map;
 use crate::openscenario::condition::{Condition, Trigger};
 use crate::openscenario::story::{Item, Kind, Priority, State, Storyboard};
+use crate::openscenario::variable::Variable;
 use paracosm_engine::Lead;
 use std::sync::Arc;
 
@@ -14,6 +15,7 @@ use std::sync::Arc;
 pub(in crate::openscenario) struct Stage {
     pub(super) map: Arc<Map>,
     pub actors: Vec<Actor>,
+    pub(super) variables: Vec<Variable>,
     items: Vec<Playing>,
     stop: Option<Watch>,
     /// The index of the entity that the system under test drives.
@@ -45,7 +47,7 @@ struct Playing {
 impl Stage {
     /// Sets the stage: all entities are where the initial actions put them.
     pub fn new(board: Storyboard, map: Arc<Map>, ego: usize, lead: Lead) -> Result<Self, Lost> {
-        let Storyboard { entities, init, items, stop } = board;
+        let Storyboard { entities, variables, init, items, stop } = board;
         let mut inputs = 0..;
         let mut watch = |trigger: &Option<Trigger>| trigger.as_ref().map(|trigger| Watch::new(trigger, &mut inputs));
         let playing = |item: Item| Playing {
@@ -60,6 +62,7 @@ impl Stage {
         let items = items.into_iter().map(playing).collect();
         let mut stage = Self {
             map,
+            variables,
             actors: entities.into_iter().map(Actor::new).collect(),
             items,
             stop: None,
@@ -184,6 +187,9 @@ impl Stage {
                 inner.start.iter_mut().chain(&mut inner.stop).for_each(Watch::reset);
             }
         }
+        if let Kind::Change(variable, change) = &self.items[index].item.kind {
+            change.apply(&mut self.variables[*variable].value);
+        }
         if let Kind::Action(actors, action) = self.items[index].item.kind.clone() {
             for entity in actors {
                 match self.begin(entity, &action) {
@@ -242,7 +248,7 @@ impl Stage {
             return;
         }
         let over = match self.items[index].item.kind {
-            Kind::Action(..) => self.items[index].motions.is_empty(),
+            Kind::Action(..) | Kind::Change(..) => self.items[index].motions.is_empty(),
             _ => {
                 let mut inner = self.items[index + 1..].iter().filter(|inner| inner.item.parent == Some(index));
                 inner.all(|inner| inner.state == State::Complete)

@@ -1,0 +1,60 @@
+//! Variables of a scenario: values that actions change during a run, and that conditions read.
+
+use super::position::Names;
+use super::scope::Node;
+use crate::xml::{ReadError, Value};
+
+/// A variable with its value.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Variable {
+    pub name: String,
+    pub value: Value,
+}
+
+/// A change of a variable.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Change {
+    Set(Value),
+    Add(f64),
+    Multiply(f64),
+}
+
+impl Variable {
+    /// Reads the variables that a scenario declares.
+    pub fn all(root: Node<'_>) -> Result<Vec<Self>, ReadError> {
+        let declarations = root.first("VariableDeclarations");
+        let declared = declarations.into_iter().flat_map(|all| all.all("VariableDeclaration"));
+        let read = |declaration: Node<'_>| {
+            let value = Value::of(&declaration.text("value")?.unwrap_or_default());
+            Ok(Self { name: declaration.required("name")?.into_owned(), value })
+        };
+        declared.map(read).collect()
+    }
+}
+
+impl Change {
+    /// Reads an element `VariableAction`: the index of the variable and the change.
+    pub fn read(node: Node<'_>, names: Names<'_>) -> Result<(usize, Self), ReadError> {
+        let variable = names.variable(node, "variableRef")?;
+        let kind = node.choice("SetAction or ModifyAction")?;
+        let change = match kind.name() {
+            "SetAction" => Self::Set(Value::of(&kind.required("value")?)),
+            _ => {
+                let rule = kind.child("Rule")?.choice("AddValue or MultiplyByValue")?;
+                let by = rule.number("value")?;
+                if rule.name() == "AddValue" { Self::Add(by) } else { Self::Multiply(by) }
+            }
+        };
+        Ok((variable, change))
+    }
+
+    /// Changes a value. A value that is not a number stays as it is if a number is added to it.
+    pub fn apply(&self, value: &mut Value) {
+        match (self, value) {
+            (Self::Set(new), value) => *value = new.clone(),
+            (Self::Add(by), Value::Number(number)) => *number += by,
+            (Self::Multiply(by), Value::Number(number)) => *number *= by,
+            (Self::Add(_) | Self::Multiply(_), _) => (),
+        }
+    }
+}
