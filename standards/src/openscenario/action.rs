@@ -35,6 +35,7 @@ pub(super) enum Action {
         continuous: bool,
     },
     Trajectory(Box<Trajectory>),
+    Synchronize(Box<Synchronization>),
     /// Hands the entity over to its controller.
     Activate {
         lateral: Option<bool>,
@@ -94,6 +95,18 @@ pub(super) struct Trajectory {
     pub from: f64,
 }
 
+/// The arrival of an entity at a place when another entity, the master, arrives at another place.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Synchronization {
+    pub master: usize,
+    pub master_target: Position,
+    pub target: Position,
+    /// The speed at the arrival in m/s; `None` if it does not matter.
+    pub final_speed: Option<f64>,
+    /// The distance in metres before the target from which on the entity has its final speed.
+    pub steady: f64,
+}
+
 /// A vertex of a way, with the time in seconds at which the entity is there.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Vertex {
@@ -120,6 +133,7 @@ impl Action {
             "LongitudinalAction" => Self::longitudinal(inner()?, names),
             "LateralAction" => Self::lateral(inner()?, names),
             "RoutingAction" => Self::routing(inner()?, names, catalogs),
+            "SynchronizeAction" => Self::synchronize(kind, names, catalogs),
             "ControllerAction" => {
                 let mut actions = kind.elements().filter(|action| action.name() == "ActivateControllerAction");
                 actions.next().map_or(Ok(Self::Nothing), Self::activate)
@@ -128,6 +142,24 @@ impl Action {
             "VisibilityAction" | "AppearanceAction" => Ok(Self::Nothing),
             _ => Err(kind.refused("use a longitudinal, lateral, routing, teleport or controller action")),
         }
+    }
+
+    fn synchronize(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
+        let absolute = node.first("FinalSpeed").map(|speed| speed.child("AbsoluteSpeed")).transpose()?;
+        let final_speed = absolute.map(|speed| speed.length("value")).transpose()?;
+        let steady = absolute.and_then(|speed| speed.elements().next());
+        let steady = match (steady, final_speed) {
+            (Some(steady), _) if steady.name() == "TargetDistanceSteadyState" => steady.length("distance")?,
+            (Some(steady), Some(speed)) => steady.length("time")? * speed,
+            _ => 0.0,
+        };
+        Ok(Self::Synchronize(Box::new(Synchronization {
+            master: names.entity(node, "masterEntityRef")?,
+            master_target: Position::read_with(node.child("TargetPositionMaster")?, names, catalogs)?,
+            target: Position::read_with(node.child("TargetPosition")?, names, catalogs)?,
+            final_speed,
+            steady,
+        })))
     }
 
     fn activate(node: Node<'_>) -> Result<Self, ReadError> {

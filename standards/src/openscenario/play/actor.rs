@@ -28,6 +28,8 @@ pub(in crate::openscenario) struct Actor {
     pub standing: f64,
     /// The seconds for which the entity has been at the end of its road.
     pub stuck: f64,
+    /// The metres that the entity has covered on the way that it follows; `None` if it follows none.
+    pub on_track: Option<f64>,
     /// The motion of this tick, which the actions change.
     pub step: Step,
 }
@@ -70,6 +72,7 @@ impl Actor {
             travelled: 0.0,
             standing: 0.0,
             stuck: 0.0,
+            on_track: None,
             step: Step::default(),
         }
     }

@@ -1,6 +1,7 @@
 //! The places of positions in the world, as it is at the moment.
 
 use super::actor::{Actor, Whereabouts};
+use super::track::Track;
 use crate::opendrive::Map;
 use crate::openscenario::place::{Place, driving_turn};
 use crate::openscenario::position::{Position, Turn};
@@ -68,6 +69,11 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             place.advance(if place.is_against() { -*ds } else { *ds }, map);
             Ok(Whereabouts::OnLane(beside(place.road, place.s, t, *turn, map)))
         }
+        Position::Along { way, s, t } => {
+            let track = track(way.iter().map(|position| (position, 0.0)), actors, map)?;
+            let here = track.map_or(Pose { position: Vector2::zeros(), heading: 0.0 }, |track| track.at(*s));
+            Ok(Whereabouts::Free(Pose { position: here.position + here.left() * *t, ..here }))
+        }
         Position::RelativeWorld { entity, dx, dy, turn } => {
             let from = actors[*entity].pose;
             Ok(Whereabouts::Free(Pose {
@@ -81,6 +87,21 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             Ok(Whereabouts::Free(Pose { position, heading: turned(from, *turn) }))
         }
     }
+}
+
+/// Returns the way through positions with their times; `None` without positions.
+pub(super) fn track<'p>(
+    vertices: impl Iterator<Item = (&'p Position, f64)>,
+    actors: &[Actor],
+    map: &Map,
+) -> Result<Option<Track>, Lost> {
+    let pose = |(position, time)| {
+        Ok(match find(position, actors, map)? {
+            Whereabouts::OnLane(place) => (place.pose(map), time),
+            Whereabouts::Free(pose) => (pose, time),
+        })
+    };
+    Ok(Track::new(vertices.map(pose).collect::<Result<Vec<_>, Lost>>()?))
 }
 
 fn turned(from: Pose, turn: Turn) -> f64 {

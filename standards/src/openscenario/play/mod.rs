@@ -6,6 +6,7 @@ mod measure;
 mod motion;
 mod stage;
 mod start;
+mod synchronize;
 mod track;
 mod watch;
 

@@ -2,8 +2,9 @@
 
 use super::actor::Actor;
 use super::stage::Stage;
+use super::synchronize::synchronize;
 use super::track::Track;
-use crate::openscenario::action::{Gap, Target};
+use crate::openscenario::action::{Gap, Synchronization, Target};
 use crate::openscenario::condition::Metric;
 use crate::openscenario::project::project;
 use crate::openscenario::transition::Transition;
@@ -28,6 +29,7 @@ pub(super) enum Motion {
         ahead: Option<bool>,
         limits: Option<[f64; 3]>,
     },
+    Synchronize(Box<Synchronization>),
     /// `timing` is the factor and the offset of the times of the vertices.
     Trajectory {
         track: Track,
@@ -45,7 +47,7 @@ impl Motion {
     /// Returns `true` if the action moves its entity along, and `true` if it moves the entity aside.
     pub fn domains(&self) -> (bool, bool) {
         match self {
-            Self::Speed { .. } | Self::Gap { .. } => (true, false),
+            Self::Speed { .. } | Self::Gap { .. } | Self::Synchronize(_) => (true, false),
             Self::LaneChange(_) | Self::LaneOffset { .. } => (false, true),
             // An entity that keeps its speed on its way can still be accelerated.
             Self::Trajectory { timing, .. } => (timing.is_some(), true),
@@ -93,6 +95,7 @@ impl Motion {
                 actor.speed = approach(actor.speed, theirs, missing, limits.unwrap_or([f64::INFINITY; 3]), dt);
                 !*continuous && missing.abs() < CLOSE && (actor.speed - theirs).abs() < CLOSE
             }
+            Self::Synchronize(sync) => synchronize(sync, entity, stage, dt),
             Self::Trajectory { track, s, timing } => follow(track, s, *timing, entity, stage, dt),
         }
     }
@@ -135,6 +138,7 @@ fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize,
     *s = s.clamp(0.0, track.length());
     let pose = track.at(*s);
     actor.step.pose = Some(pose);
+    actor.on_track = (!over).then_some(*s);
     if over && let Some(place) = project(&pose, &stage.map) {
         // The entity goes on along the lane that it has come to.
         actor.step.landed = Some(place);

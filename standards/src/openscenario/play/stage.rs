@@ -137,6 +137,11 @@ impl Stage {
         }
     }
 
+    /// Returns the metres that an entity has covered on the way that it follows; `None` if it follows none.
+    pub(super) fn along_track(&self, entity: usize) -> Option<f64> {
+        self.actors[entity].on_track
+    }
+
     /// Starts an element, or stops it, if its triggers say so.
     fn update(&mut self, index: usize, truths: &[bool]) {
         let time = self.time;

@@ -1,10 +1,9 @@
 //! The beginning of an action: what it reads from the world at that moment.
 
 use super::actor::{Actor, Whereabouts};
-use super::find::{Lost, find, neighbour};
+use super::find::{Lost, find, neighbour, track};
 use super::motion::Motion;
 use super::stage::Stage;
-use super::track::Track;
 use crate::openscenario::action::{Action, Gap, Lane, Lateral, Target, Trajectory};
 use crate::openscenario::condition::{Metric, MetricKind, System};
 use crate::openscenario::transition::{Dynamics, Extent, Shape};
@@ -73,7 +72,14 @@ impl Stage {
                 let dynamics = Dynamics { shape, extent: Extent::Time(span) };
                 Some(Motion::LaneOffset { transition: dynamics.from(place.offset, target), continuous: *continuous })
             }
-            Action::Trajectory(trajectory) => self.trajectory(trajectory)?,
+            Action::Trajectory(trajectory) => {
+                let motion = self.trajectory(trajectory)?;
+                if let Some(Motion::Trajectory { track, s, .. }) = &motion {
+                    self.actors[entity].put(Whereabouts::Free(track.at(*s)), &self.map);
+                }
+                motion
+            }
+            Action::Synchronize(sync) => Some(Motion::Synchronize(sync.clone())),
         })
     }
 
@@ -125,19 +131,14 @@ impl Stage {
     }
 
     fn trajectory(&mut self, trajectory: &Trajectory) -> Result<Option<Motion>, Lost> {
-        let mut vertices = Vec::new();
         let close = trajectory.vertices.first().filter(|_| trajectory.closed);
-        for vertex in trajectory.vertices.iter().chain(close) {
-            let pose = match find(&vertex.position, &self.actors, &self.map)? {
-                Whereabouts::OnLane(place) => place.pose(&self.map),
-                Whereabouts::Free(pose) => pose,
-            };
-            vertices.push((pose, vertex.time.unwrap_or(0.0)));
-        }
+        let vertices = trajectory.vertices.iter().chain(close);
+        let vertices = vertices.map(|vertex| (&vertex.position, vertex.time.unwrap_or(0.0)));
+        let track = track(vertices, &self.actors, &self.map)?;
         let timing = trajectory.timing.map(|timing| {
             let begin = if timing.is_relative { self.time } else { 0.0 };
             (timing.scale, timing.offset + begin)
         });
-        Ok(Track::new(vertices).map(|track| Motion::Trajectory { track, s: trajectory.from, timing }))
+        Ok(track.map(|track| Motion::Trajectory { track, s: trajectory.from, timing }))
     }
 }
