@@ -1,6 +1,7 @@
 //! `paracosm-fuzz list`: shows everything that has a name.
 
 mod markdown;
+mod standards;
 
 use super::output::{digits, domain_words, json, value_words};
 use super::{Failure, Status, print};
@@ -10,9 +11,11 @@ use crate::engine::driver::Setting;
 use crate::engine::sensor::CameraSetting;
 use crate::engine::{Declaration, Declared, Program};
 use crate::space::Parameter;
+use crate::standards::{opendrive, openscenario};
 use clap::{Args, ValueEnum};
 use markdown::{markdown, named};
 use serde_json::json;
+use standards::standard;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
 
@@ -53,14 +56,27 @@ enum ListKind {
     Sensors,
     /// Settings of cameras
     Cameras,
+    /// Elements of files of roads, ASAM OpenDRIVE (only if it is named)
+    Opendrive,
+    /// Elements of files of scenarios, ASAM OpenSCENARIO XML (only if it is named)
+    Openscenario,
+}
+
+impl ListKind {
+    /// The kinds of things that have a name in this software.
+    const NAMED: [Self; 6] =
+        [Self::Scenarios, Self::Strategies, Self::Drivers, Self::Measures, Self::Sensors, Self::Cameras];
 }
 
 impl Options {
     pub fn execute(&self) -> Result<Status, Failure> {
         let lists = Lists::of_this_software();
-        let kinds = self.kind.map_or_else(|| ListKind::value_variants().to_vec(), |kind| vec![kind]);
+        let kinds = self.kind.map_or_else(|| ListKind::NAMED.to_vec(), |kind| vec![kind]);
         let fitting = if io::stdout().is_terminal() { Form::Table } else { Form::Json };
-        let text = match self.format.unwrap_or(fitting) {
+        let form = self.format.unwrap_or(fitting);
+        let text = match form {
+            form if self.kind == Some(ListKind::Opendrive) => standard(opendrive::elements(), form),
+            form if self.kind == Some(ListKind::Openscenario) => standard(openscenario::elements(), form),
             Form::Table => table(&lists, &kinds)?,
             Form::Json => json(&as_json(&lists, &kinds)?),
             Form::Markdown => markdown(&lists, &kinds)?,
@@ -77,7 +93,7 @@ fn table(lists: &Lists, kinds: &[ListKind]) -> Result<String, Failure> {
         match kind {
             ListKind::Scenarios => scenarios(lists, &mut text)?,
             ListKind::Drivers => drivers(lists, &mut text)?,
-            ListKind::Strategies | ListKind::Measures | ListKind::Sensors | ListKind::Cameras => {
+            _ => {
                 for (name, about) in named(lists, *kind) {
                     writeln!(text, "  {name:<22}{about}")?;
                 }
@@ -149,9 +165,7 @@ fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failu
             ListKind::Scenarios => lists.scenarios.iter().map(scenario).collect::<Result<_, Failure>>()?,
             ListKind::Drivers => lists.drivers.iter().map(driver).collect(),
             ListKind::Cameras => lists.cameras.iter().map(camera).collect(),
-            ListKind::Strategies | ListKind::Measures | ListKind::Sensors => {
-                named(lists, *kind).into_iter().map(|(name, about)| json!({"name": name, "about": about})).collect()
-            }
+            _ => named(lists, *kind).into_iter().map(|(name, about)| json!({"name": name, "about": about})).collect(),
         };
         all.insert(key(*kind), list.into());
     }

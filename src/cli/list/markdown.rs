@@ -29,7 +29,7 @@ pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Fail
             }
             ListKind::Drivers => settings(lists, &mut text)?,
             ListKind::Cameras => cameras(lists, &mut text)?,
-            ListKind::Strategies | ListKind::Measures | ListKind::Sensors => {}
+            _ => {}
         }
     }
     Ok(text)
@@ -44,6 +44,8 @@ pub(super) fn named(lists: &Lists, kind: ListKind) -> Vec<(&str, &str)> {
         ListKind::Measures => lists.measures.iter().map(|it| (it.name(), it.descriptor().about)).collect(),
         ListKind::Sensors => lists.sensors.iter().map(|it| (it.name, it.about)).collect(),
         ListKind::Cameras => lists.cameras.iter().map(|it| (it.name, it.about)).collect(),
+        // The elements of standards have lists of their own form.
+        ListKind::Opendrive | ListKind::Openscenario => Vec::new(),
     }
 }
 

@@ -54,30 +54,43 @@ fn compared(folder: &Path, name: &str) -> Result<Difference, String> {
 const HEADING: f64 = 0.01;
 const SPEED: f64 = 0.02;
 
-/// Scenarios of esmini that are read and whose entities move as in esmini, and the greatest distance in metres. The other
-/// scenarios of esmini and of Euro NCAP have elements that are refused, or differ; docs/openscenario.md lists them.
-const OTHERS: [&str; 3] =
-    ["esmini__slow-lead-vehicle", "esmini__straight_500m", "esmini__left-hand-traffic_using_road_rule"];
-const DISTANCE_OF_OTHERS: f64 = 0.1;
+/// The greatest distances in metres, by the beginnings of names. The scenarios that are not named here are refused, or differ by
+/// more; docs/openscenario.md lists them. In 4.4_1 a trigger comes one tick later than in esmini, because esmini rounds the
+/// values of expressions: 2 m/s to the side are 0.02 m.
+const DISTANCES: [(&str, f64); 15] = [
+    ("alks__alks_scenario_4_1_1", 0.02),
+    ("alks__alks_scenario_4_1_2", 0.02),
+    ("alks__alks_scenario_4_2_1", 0.02),
+    ("alks__alks_scenario_4_2_3", 0.02),
+    ("alks__alks_scenario_4_3_1", 0.02),
+    ("alks__alks_scenario_4_4_1", 0.0201),
+    ("alks__alks_scenario_4_5_1", 0.02),
+    ("alks__alks_scenario_4_6_1", 0.02),
+    ("ncap__AEB_C2C_2023__NCAP_AEB_C2C_CCFhos", 0.05),
+    ("ncap__AEB_C2C_2023__NCAP_AEB_C2C_CCR_", 0.05),
+    ("ncap__AEB_VRU_2023__NCAP_AEB_VRU_CBLA", 0.05),
+    ("ncap__AEB_VRU_2023__NCAP_AEB_VRU_CPN", 0.1),
+    ("esmini__slow-lead-vehicle", 0.1),
+    ("esmini__straight_500m", 0.1),
+    ("esmini__left-hand-traffic", 0.1),
+];
 
 #[test]
-fn entities_of_the_regulation_move_as_in_esmini() {
+fn entities_move_as_in_esmini() {
     let Some(folder) = files_of_others() else { return };
     let mut count = 0;
     for file in with_ending(&folder.join("golden"), "csv") {
         let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-        let most = match name.as_str() {
-            name if name.starts_with("alks") => 0.0201,
-            name if OTHERS.contains(&name) => DISTANCE_OF_OTHERS,
-            _ => continue,
-        };
+        let Some((_, most)) = DISTANCES.iter().find(|(beginning, _)| name.starts_with(beginning)) else { continue };
         let found = compared(&folder, &name).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert!(found.metres <= most, "{name}: {found:?}");
-        assert!(found.heading <= HEADING && found.speed <= SPEED, "{name}: {found:?}");
+        // The standard leaves the speed of a synchronized entity open on its way.
+        let speed = if *most == 0.1 { 0.05 } else { SPEED };
+        assert!(found.metres <= *most, "{name}: {found:?}");
+        assert!(found.heading <= HEADING && found.speed <= speed, "{name}: {found:?}");
         assert!(found.samples >= 100, "{name}: {found:?}");
         count += 1;
     }
-    assert_eq!(count, 8 + OTHERS.len());
+    assert_eq!(count, 16);
 }
 
 /// Prints the differences in all scenarios with reference trajectories.

@@ -4,4 +4,5 @@ mod bad;
 mod golden;
 #[path = "../roads/others.rs"]
 mod others;
+mod page;
 mod worlds;

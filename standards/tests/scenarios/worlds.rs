@@ -107,3 +107,34 @@ fn a_test_that_breaks_a_constraint_is_invalid() {
     let error = program.check(&test).unwrap_err().to_string();
     assert!(error.contains("`speed` is 60, expected a value that is greater than 0 and at most 50"), "{error}");
 }
+
+#[test]
+fn tuples_of_values_are_one_choice() {
+    let program = program("slow-leader-tuples.xosc");
+    let declaration = program.declare().unwrap();
+    let names: Vec<_> = declaration.parameters.iter().map(|declared| declared.parameter.name.as_str()).collect();
+    assert_eq!(names, ["speed|gap"]);
+    assert_eq!(declaration.nominal().get("speed|gap"), Some(&Value::from("30|50")));
+    let mut test = declaration.nominal();
+    test.set("speed|gap", Value::from("20|20"));
+    program.check(&test).unwrap();
+}
+
+#[test]
+fn a_scenario_with_every_element_is_played_to_its_end() {
+    let trace = led(&program("everything.xosc")).unwrap().trace.unwrap();
+    assert!((trace.len() as f64 * trace.dt() - 20.0).abs() < 0.05);
+    // B changes to the lane of the ego vehicle and back.
+    assert!((at(&trace, "B.y", 0.5) + 5.25).abs() < 1e-9);
+    assert!((at(&trace, "B.y", 3.0) + 1.75).abs() < 0.05, "{}", at(&trace, "B.y", 3.0));
+    assert!((at(&trace, "B.y", 8.0) + 5.25).abs() < 1e-6, "{}", at(&trace, "B.y", 8.0));
+    // The ego vehicle moves aside, and then to the offset of B, which is on its way then.
+    assert!(at(&trace, "Ego.y", 0.9) > -1.74);
+    // The pedestrian walks 4 m, and then goes on along the lane at its speed.
+    assert!((at(&trace, "Person.y", 0.1) - 8.25).abs() < 1e-9);
+    assert!(at(&trace, "Person.y", 8.0) < 4.3);
+    // C starts late enough to be at 230 m when the ego vehicle is at 200 m, which is after 10 s.
+    assert_eq!(at(&trace, "C.speed", 1.0), 0.0);
+    assert!((at(&trace, "C.x", 10.0) - 230.0).abs() < 0.2, "{}", at(&trace, "C.x", 10.0));
+    assert_eq!(at(&trace, "Box.x", 19.0), 170.0);
+}
