@@ -50,7 +50,7 @@ pub fn catalogue() -> Catalogue {
         about: "scenarios and distributions of parameters of ASAM OpenSCENARIO XML",
         read: |file| {
             let scenario = standards::openscenario::Xosc::read(file);
-            scenario.map(|scenario| scenario.program()).map_err(|error| UnreadableScenario(error).into())
+            scenario.map(standards::openscenario::Xosc::program).map_err(|error| UnreadableScenario(error).into())
         },
     })
 }

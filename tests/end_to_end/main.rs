@@ -41,6 +41,7 @@ mod races;
 mod reference_drivers;
 mod requirements;
 mod roads;
+mod scenario_files;
 mod signals;
 mod spec;
 mod strength;

@@ -24,7 +24,7 @@ pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
             other_speed: touched.velocity.norm(),
         }
     });
-    Measurements { travelled: car.travelled, contact, triggered }
+    Measurements { travelled: scene.ego.travelled(), contact, triggered }
 }
 
 /// Returns the motion of the car at a contact.

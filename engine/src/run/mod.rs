@@ -320,7 +320,7 @@ impl Run {
         self.observation.others.extend(others);
         self.observation.time = self.time();
         self.observation.speed = self.scene.ego.dynamics().state().speed();
-        self.observation.travelled = self.scene.ego.dynamics().state().travelled;
+        self.observation.travelled = self.scene.ego.travelled();
         self.observation.odometry = self.scene.ego.odometry();
         self.observation.way = self.scene.ego.way();
     }

@@ -156,17 +156,10 @@ impl VehicleSetup {
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
-        self.build_after(0.0, vehicle, start, speed)
-    }
-
-    /// Makes the same car after it has travelled the given number of metres.
-    pub(crate) fn build_after(self, travelled: f64, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
         let resistance = self.resistance;
         match self.model {
-            VehicleModel::SingleTrack => {
-                Box::new(SingleTrack::new(vehicle, start, speed).against(resistance).after(travelled))
-            }
-            VehicleModel::Jointed => Box::new(Jointed::new(vehicle, start, speed).against(resistance).after(travelled)),
+            VehicleModel::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed).against(resistance)),
+            VehicleModel::Jointed => Box::new(Jointed::new(vehicle, start, speed).against(resistance)),
         }
     }
 }

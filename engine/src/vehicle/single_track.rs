@@ -76,12 +76,6 @@ impl SingleTrack {
         Self { resistance, ..self }
     }
 
-    /// Sets the distance in metres that the car has travelled before.
-    pub(super) fn after(mut self, travelled: f64) -> Self {
-        self.state.travelled = travelled;
-        self
-    }
-
     /// Returns `true` if the car goes straight ahead and will continue to do so.
     fn is_straight(&self, steering: f64) -> bool {
         let state = &self.state;

@@ -11,7 +11,7 @@ pub(super) fn standard(elements: impl Iterator<Item = Supported>, form: Form) ->
     match form {
         Form::Json => {
             let row = |(element, (support, reason)): &(Supported, (&str, Option<&str>))| json!({"element": element.name, "within": element.parent, "support": support, "reason": reason});
-            json(&rows.iter().map(row).collect::<Vec<_>>().into())
+            json(&rows.iter().map(row).collect::<Vec<_>>())
         }
         Form::Table => {
             let widest = |of: fn(&Supported) -> &'static str| {

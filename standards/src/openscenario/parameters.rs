@@ -5,6 +5,7 @@ use super::scope::{Node, Scope};
 use crate::xml::{Flaw, ReadError};
 use paracosm_engine::Scenario;
 use paracosm_space::{Domain, Parameter, Value};
+use std::borrow::Cow;
 
 /// The greatest number of values that a range with a step may list.
 const MOST_LEVELS: f64 = 10_000.0;
@@ -57,12 +58,7 @@ impl Distribution {
         for opened in &self.0 {
             let levels = opened.levels.iter().map(|level| parsed(&level.join(&JOINT.to_string()))).collect();
             let mut parameter = Parameter::new(opened.names.join(&JOINT.to_string()), Domain::Choice(levels));
-            // The values of the declarations are the nominal values, if the distribution has them.
-            let declared: Vec<Option<Value>> = opened.names.iter().map(|name| nominal(root, name)).collect();
-            let is_declared =
-                |level: &&Vec<String>| level.iter().map(|value| Some(parsed(value))).eq(declared.iter().cloned());
-            parameter.default =
-                opened.levels.iter().find(is_declared).map(|level| parsed(&level.join(&JOINT.to_string())));
+            parameter.default = opened.nominal(root);
             let value = s.parameter(parameter, true).value();
             let index = opened.levels.iter().position(|level| parsed(&level.join(&JOINT.to_string())) == value);
             let Some(level) = index.or((!opened.levels.is_empty()).then_some(0)) else { continue };
@@ -96,6 +92,20 @@ impl Distribution {
 }
 
 impl Opened {
+    /// Returns the tuple of values that is nearest to the values of the declarations: the same words, and the nearest numbers.
+    fn nominal(&self, root: Node<'_>) -> Option<Value> {
+        let declared: Vec<Option<Value>> = self.names.iter().map(|name| nominal(root, name)).collect();
+        let distance = |level: &&Vec<String>| -> f64 {
+            let apart = |(value, declared): (&String, &Option<Value>)| match (parsed(value), declared) {
+                (Value::Number(value), Some(Value::Number(declared))) => (value - declared).abs(),
+                (value, declared) => f64::from(u8::from(Some(&value) != declared.as_ref())),
+            };
+            level.iter().zip(&declared).map(apart).sum()
+        };
+        let nearest = self.levels.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        Some(parsed(&nearest.join(&JOINT.to_string())))
+    }
+
     fn tuples(kind: Node<'_>) -> Result<Self, ReadError> {
         let mut names: Vec<String> = Vec::new();
         let mut levels = Vec::new();
@@ -117,7 +127,7 @@ impl Opened {
 }
 
 fn name(node: Node<'_>) -> Result<String, ReadError> {
-    node.required("parameterName").map(|name| name.into_owned())
+    node.required("parameterName").map(Cow::into_owned)
 }
 
 /// Returns the values of a range with a step.

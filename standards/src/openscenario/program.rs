@@ -17,10 +17,14 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path as FilePath, PathBuf};
 use std::rc::Rc;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// The duration in seconds of a scenario whose stop trigger does not come.
+/// The least duration in seconds of a scenario whose stop trigger does not come.
 const LONGEST: f64 = 60.0;
+/// The seconds that a scenario goes on after the latest time in its stop trigger.
+const BEYOND: f64 = 1.0;
+/// The greatest duration in seconds of a run.
+const LATEST: f64 = 3600.0;
 /// The outermost element of a file.
 const ROOT: &str = "OpenSCENARIO";
 
@@ -133,6 +137,7 @@ impl Xosc {
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
+        let longest = longest(&board);
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
             Ok(stage) => Rc::new(RefCell::new(stage)),
             Err(lost) => return s.refuse(&lost.to_string()),
@@ -144,7 +149,7 @@ impl Xosc {
         for index in 0..count {
             self.show(s, &stage, index, index != ego);
         }
-        s.duration(LONGEST);
+        s.duration(longest);
         s.end(&end);
         if has_stop {
             s.premise(&end);
@@ -188,7 +193,7 @@ impl Xosc {
 
     /// Returns the roads of a file, which is read once.
     fn roads_in(&self, file: &FilePath, logic: Node<'_>) -> Result<Roads, ReadError> {
-        let mut known = self.roads.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut known = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(roads) = known.get(file) {
             return Ok(roads.clone());
         }
@@ -202,6 +207,14 @@ impl Xosc {
 
 fn folder_of(file: &FilePath) -> PathBuf {
     file.parent().unwrap_or(FilePath::new(".")).to_owned()
+}
+
+/// Returns the duration in seconds of a run in which the stop trigger does not come: time enough for a trigger at a time.
+fn longest(board: &Storyboard) -> f64 {
+    let conditions = board.stop.iter().flatten().flatten();
+    let at_time = conditions.filter(|condition| condition.check.measures == [Measure::Time]);
+    let latest = at_time.map(|condition| condition.check.value + condition.delay + BEYOND);
+    latest.fold(LONGEST, f64::max).min(LATEST)
 }
 
 /// Adds the storyboard to a world: its conditions as streams, and the object that plays it. Returns the stream that is true once

@@ -133,10 +133,11 @@ impl Storyboard {
                         init.push((entity, Action::private(action, names, catalogs)?));
                     }
                 }
-                "GlobalAction" => match global(actor, names)? {
-                    Kind::Change(variable, change) => change.apply(&mut variables[variable].value),
-                    _ => (),
-                },
+                "GlobalAction" => {
+                    if let Kind::Change(variable, change) = global(actor, names)? {
+                        change.apply(&mut variables[variable].value);
+                    }
+                }
                 _ => return Err(actor.refused("use a Private or a GlobalAction")),
             }
         }

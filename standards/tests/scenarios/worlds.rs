@@ -77,6 +77,9 @@ fn a_driver_gets_the_car_when_the_scenario_activates_its_controller() {
     for seconds in [0.0, 0.5, 0.99] {
         assert_eq!(at(&trace, "Ego.x", seconds), at(&led, "Ego.x", seconds));
     }
+    // The car goes on from its place at the handing over.
+    assert!((at(&trace, "Ego.x", 1.02) - at(&led, "Ego.x", 1.02)).abs() < 0.01);
+    assert!((at(&trace, "car.travelled", 1.02) - 30.6).abs() < 0.01);
     let last = trace.signal("Ego.speed").unwrap().next_back().unwrap();
     assert!(last < 15.0, "the driver did not brake: {last} m/s");
     // The reference point is the middle of the rear axle, 1.4 m behind the middle of the car.

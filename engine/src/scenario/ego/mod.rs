@@ -82,6 +82,8 @@ pub(crate) struct Ego {
     dynamics: Box<dyn Dynamics>,
     /// The lead of the scenario, and the motion that it gives the car; `None` if the driver has the car.
     led: Option<(Lead, Led)>,
+    /// The distance in metres over which the scenario led the car before the driver got it.
+    led_metres: f64,
     pub control: Control,
     /// The car's position along its way, in metres.
     at: f64,
@@ -295,7 +297,7 @@ impl Ego {
         let dynamics = vehicle.build(&car.vehicle, car.start(), car.speed);
         let led = car.lead.clone().map(|lead| (lead, Led::new(LedMotion { pose: car.start(), speed: car.speed })));
         let (at, control) = (car.start, Control::default());
-        Self { at, car, shown, setup: vehicle, dynamics, led, control, jerk: 0.0, standing: 0.0 }
+        Self { at, car, shown, setup: vehicle, dynamics, led, led_metres: 0.0, control, jerk: 0.0, standing: 0.0 }
     }
 
     /// Returns the briefing of the car's driver, with the map of the given roads.
@@ -356,6 +358,11 @@ impl Ego {
         lanes.map(move |lane| (lane, network.project_onto(lane, pose.position).s))
     }
 
+    /// Returns the distance that the car has travelled, in metres.
+    pub fn travelled(&self) -> f64 {
+        self.led_metres + self.dynamics().state().travelled
+    }
+
     /// Returns the car's pose as seen from its start.
     pub fn odometry(&self) -> Pose {
         self.car.start().relative(&self.pose())
@@ -383,7 +390,7 @@ impl Ego {
         outputs.set(&self.shown.acceleration, state.acceleration.x);
         outputs.set(&self.shown.throttle, self.control.throttle);
         outputs.set(&self.shown.steering, self.control.steering);
-        outputs.set(&self.shown.travelled, state.travelled);
+        outputs.set(&self.shown.travelled, self.travelled());
         outputs.set(&self.shown.clearance, clearance);
         self.shown.asked.show(self, bodies, network, outputs);
     }
@@ -422,7 +429,8 @@ impl Ego {
         if let Some((_, led)) = self.led.take_if(|(lead, _)| lead.is_handed_over()) {
             let state = led.state();
             let (pose, speed) = (state.pose(), state.velocity.x.max(0.0));
-            self.dynamics = self.setup.build_after(state.travelled, &self.car.vehicle, pose, speed);
+            self.led_metres = state.travelled;
+            self.dynamics = self.setup.build(&self.car.vehicle, pose, speed);
         }
     }
 

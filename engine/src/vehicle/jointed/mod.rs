@@ -105,12 +105,6 @@ impl Jointed {
         Self { resistance, ..self }
     }
 
-    /// Sets the distance in metres that the car has travelled before.
-    pub(super) fn after(mut self, travelled: f64) -> Self {
-        self.state.travelled = travelled;
-        self
-    }
-
     /// Turns the front wheels, each so that both roll about the same point on the line of the rear axle (Ackermann).
     fn steer(&mut self, steering: f64, dt: f64) {
         let before = self.state.steering_angle;

@@ -5,6 +5,7 @@ use super::find::Lost;
 use super::motion::Motion;
 use super::watch::Watch;
 use crate::opendrive::Map;
+use crate::openscenario::action::Action;
 use crate::openscenario::condition::{Condition, Trigger};
 use crate::openscenario::story::{Item, Kind, Priority, State, Storyboard};
 use crate::openscenario::variable::Variable;
@@ -75,7 +76,7 @@ impl Stage {
         };
         stage.stop = stop.map(|stop| Watch::new(&stop, &mut inputs));
         // The initial actions are an action of a story that has begun.
-        let kind = Kind::Action(Vec::new(), crate::openscenario::action::Action::Nothing);
+        let kind = Kind::Action(Vec::new(), Action::Nothing);
         let item = Item { name: String::new(), kind, parent: None, start: None, stop: None, most_runs: 1 };
         let mut motions = Vec::new();
         for (entity, action) in &init {
@@ -90,8 +91,15 @@ impl Stage {
                 stage.actors[index].put(super::actor::Whereabouts::OnLane(place), &stage.map);
             }
         }
-        let ego = &stage.actors[ego];
-        stage.lead.to(ego.motion());
+        let activates = |playing: &Playing| match &playing.item.kind {
+            Kind::Action(actors, Action::Activate { .. }) => actors.contains(&ego),
+            _ => false,
+        };
+        // If nothing activates the controller of the ego vehicle, the controller is active from the beginning.
+        if !stage.items.iter().any(activates) {
+            stage.lead.hand_over();
+        }
+        stage.lead.to(stage.actors[ego].motion());
         Ok(stage)
     }
 
@@ -147,19 +155,16 @@ impl Stage {
         let time = self.time;
         let runs = self.items[index].item.parent.is_none_or(|parent| self.items[parent].state == State::Running);
         let playing = &mut self.items[index];
-        match playing.state {
-            State::Standby if runs => {
-                let fires = playing.start.as_mut().is_none_or(|start| start.check(time, truths));
-                // The stop trigger of an act is checked once the act runs.
-                if fires {
-                    self.start(index);
-                }
-            }
-            State::Running => {
-                if playing.stop.as_mut().is_some_and(|stop| stop.check(time, truths)) {
-                    self.halt(index);
-                }
-            }
+        let state = playing.state;
+        let check = |watch: &mut Watch| watch.check(time, truths);
+        let fires = match state {
+            State::Standby if runs => playing.start.as_mut().is_none_or(check),
+            State::Running => playing.stop.as_mut().is_some_and(check),
+            _ => false,
+        };
+        match state {
+            State::Standby if fires => self.start(index),
+            State::Running if fires => self.halt(index),
             _ => (),
         }
     }

@@ -1,0 +1,117 @@
+//! Scenarios of files (ASAM OpenSCENARIO): campaigns over their parameters, replays, descriptions, and files with mistakes.
+
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// Returns a folder with the scenarios of our own and their catalogs.
+fn folder() -> TempDir {
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests/scenarios/files");
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::create_dir(dir.path().join("catalogs")).expect("it is writable");
+    for name in ["straight.xodr", "slow-leader.xosc", "slow-leader-variation.xosc", "catalogs/entities.xosc"] {
+        fs::copy(from.join(name), dir.path().join(name)).expect("it is there");
+    }
+    dir
+}
+
+/// Returns the trials of a campaign.
+fn trials(dir: &Path, folder: &str) -> Vec<serde_json::Value> {
+    let text = fs::read_to_string(dir.join(folder).join("trials.jsonl")).expect("a log");
+    text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
+}
+
+#[test]
+fn a_distribution_of_parameters_is_a_campaign_and_its_trials_are_replayed() {
+    let dir = folder();
+    let arguments =
+        ["slow-leader-variation.xosc", "--driver", "aeb", "--strategy", "random", "--budget", "30", "--out", "c"];
+    let output = fuzz(dir.path(), &arguments);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(&output));
+    let trials = trials(dir.path(), "c");
+    assert!(trials.len() >= 5, "{} trials", trials.len());
+    for trial in &trials {
+        let speed = trial["test"]["speed"].as_f64().expect("a speed");
+        // A constraint of the scenario allows at most 50 m/s.
+        assert_eq!(trial["verdict"] == "invalid", speed > 50.0, "{trial}");
+        assert_ne!(trial["verdict"], "error", "{trial}");
+    }
+    let valid = trials.iter().find(|trial| trial["verdict"] != "invalid").expect("a valid test");
+    let index = valid["index"].to_string();
+    let replayed = stdout(&fuzz(dir.path(), &["replay", "c", &index]));
+    assert!(replayed.contains(valid["trace_hash"].as_str().expect("a hash")), "{replayed}");
+}
+
+#[test]
+fn closed_parameters_of_a_scenario_can_be_set_and_opened() {
+    let dir = folder();
+    let arguments = [
+        "slow-leader.xosc",
+        "--driver",
+        "cruise",
+        "--open",
+        "gap=5..100",
+        "--set",
+        "speed=20",
+        "--budget",
+        "8",
+        "--out",
+        "c",
+    ];
+    let output = fuzz(dir.path(), &arguments);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(&output));
+    for trial in trials(dir.path(), "c") {
+        let gap = trial["test"]["gap"].as_f64().expect("a gap");
+        assert!((5.0..=100.0).contains(&gap), "{trial}");
+    }
+}
+
+#[test]
+fn the_default_driver_leaves_the_car_to_the_scenario() {
+    let dir = folder();
+    let arguments = ["slow-leader.xosc", "--driver", "default", "--open", "gap=40..60", "--budget", "2", "--out", "c"];
+    assert_eq!(fuzz(dir.path(), &arguments).status.code(), Some(1));
+    // The ego vehicle drives into its slow leader, and the run goes on to the stop trigger after 20 s.
+    for trial in trials(dir.path(), "c") {
+        assert_eq!(trial["verdict"], "fail");
+        assert!(trial["ticks"].as_u64().expect("ticks") > 1990, "{trial}");
+    }
+}
+
+#[test]
+fn a_scenario_of_a_file_is_described_with_its_graph_of_streams() {
+    let dir = folder();
+    let text = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc", "--format", "table"])));
+    for part in ["speed", "gap", "no-collision", "a scenario of a file"] {
+        assert!(text.contains(part), "`{part}` is missing in: {text}");
+    }
+    let dot = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc", "--dot"])));
+    assert!(dot.contains("storyboard") && dot.contains("at 5 s"), "{dot}");
+}
+
+#[test]
+fn a_scenario_with_a_mistake_is_refused_with_its_line_and_nothing_is_written() {
+    let dir = folder();
+    let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");
+    fs::write(dir.path().join("bad.xosc"), text.replacen("entryName=\"car\"", "entryName=\"cat\"", 1))
+        .expect("it is writable");
+    let message = stderr(&refused(fuzz(dir.path(), &["bad.xosc", "--driver", "aeb", "--out", "c"])));
+    assert!(message.contains("bad.xosc:19:") && message.contains("did you mean `car`?"), "{message}");
+    let message = stderr(&refused(fuzz(dir.path(), &["absent.xosc", "--driver", "aeb", "--out", "c"])));
+    assert!(message.contains("absent.xosc: the file cannot be read"), "{message}");
+    assert!(!dir.path().join("c").exists());
+}
+
+#[test]
+fn the_elements_of_the_standards_are_listed() {
+    let dir = tempfile::tempdir().expect("a folder");
+    for (standard, element) in [("openscenario", "LaneChangeAction"), ("opendrive", "geometry")] {
+        let table = stdout(&succeeds(fuzz(dir.path(), &["list", standard, "--format", "table"])));
+        let line = table.lines().find(|line| line.starts_with(element)).expect("it is listed");
+        assert!(line.ends_with("read"), "{line}");
+        let json = stdout(&succeeds(fuzz(dir.path(), &["list", standard, "--format", "json"])));
+        let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
+        assert!(json.as_array().is_some_and(|rows| rows.iter().any(|row| row["support"] == "refused")));
+    }
+}
