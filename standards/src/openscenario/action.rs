@@ -4,6 +4,7 @@ use super::catalogs::Catalogs;
 use super::position::{Names, Position};
 use super::scope::Node;
 use super::transition::{Dynamics, SHAPES, Shape};
+use super::way::Way;
 use crate::xml::ReadError;
 
 /// An action of one entity.
@@ -87,8 +88,7 @@ pub(super) enum Lateral {
 /// A way that an entity follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Trajectory {
-    pub vertices: Vec<Vertex>,
-    pub closed: bool,
+    pub way: Way,
     /// The scale and the offset of the times of the vertices; `None` if the entity keeps its speed.
     pub timing: Option<Timing>,
     /// The metres along the way at which the entity begins.
@@ -105,13 +105,6 @@ pub(super) struct Synchronization {
     pub final_speed: Option<f64>,
     /// The distance in metres before the target from which on the entity has its final speed.
     pub steady: f64,
-}
-
-/// A vertex of a way, with the time in seconds at which the entity is there.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Vertex {
-    pub position: Position,
-    pub time: Option<f64>,
 }
 
 /// The times of a way.
@@ -258,18 +251,9 @@ impl Action {
     }
 
     fn trajectory(node: Node<'_>, given: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
-        let shape = given.child("Shape")?.choice("Polyline")?;
-        if shape.name() != "Polyline" {
-            return Err(shape.refused("use a Polyline"));
-        }
-        let vertex = |vertex: Node<'_>| {
-            let position = Position::read(vertex.child("Position")?, names)?;
-            Ok(Vertex { position, time: vertex.optional("time")? })
-        };
-        let vertices = shape.all("Vertex").map(vertex).collect::<Result<Vec<_>, ReadError>>()?;
         let timing = node.child("TimeReference")?.first("Timing").map(Timing::read).transpose()?;
         let from = node.number_or("initialDistanceOffset", 0.0)?;
-        Ok(Self::Trajectory(Box::new(Trajectory { vertices, closed: given.truth_or("closed", false)?, timing, from })))
+        Ok(Self::Trajectory(Box::new(Trajectory { way: Way::read(given, names)?, timing, from })))
     }
 }
 

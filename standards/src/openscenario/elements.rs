@@ -11,7 +11,7 @@ const SIGNALS: &str = "there are no traffic signals yet";
 const SWARMS: &str = "there are no swarms of vehicles yet; name the entities one by one";
 const TRAILERS: &str = "there are no trailers: vehicles drive without them";
 const ROUTES: &str = "there are no routes yet; use a FollowTrajectoryAction, or a LanePosition";
-const CURVES: &str = "use a Polyline";
+const CURVES: &str = "use a Polyline, a Clothoid or a ClothoidSpline";
 const PARAMETERS: &str = "parameters do not change during a run; use a VariableAction";
 const COMMANDS: &str = "no file runs a command";
 const NAMED: &str = "name the entities one by one";
@@ -74,7 +74,6 @@ pub(super) const ROWS: &[Row] = &[
     read("Trajectory", "Shape", ""),
     read("Shape", "Polyline", ""),
     read("Polyline", "Vertex", "time"),
-    refused("Shape", "Clothoid|ClothoidSpline|Nurbs", CURVES),
     read(
         "EnvironmentAction|FollowTrajectoryAction|ManeuverGroup|ObjectController|ScenarioObject|TrajectoryRef",
         "CatalogReference",
@@ -236,7 +235,14 @@ pub(super) const ROWS: &[Row] = &[
     read("AbsoluteSpeed", "TargetTimeSteadyState", "time"),
     refused("FinalSpeed", "RelativeSpeedToMaster", "use an AbsoluteSpeed"),
     read("TargetPosition|TargetPositionMaster", "TrajectoryPosition", "s t"),
-    refused("Position", "TrajectoryPosition", CURVES),
+    read("Shape", "Clothoid", "curvature curvaturePrime curvatureDot length startTime stopTime"),
+    read("Clothoid", "Position", ""),
+    read("Shape", "ClothoidSpline", "timeEnd"),
+    read("ClothoidSpline", "ClothoidSplineSegment", "curvatureStart curvatureEnd length hOffset timeStart"),
+    read("ClothoidSplineSegment", "PositionStart", ""),
+    read("PositionStart", "WorldPosition|LanePosition|RoadPosition", "x y z h p r roadId laneId s t offset"),
+    refused("Shape", "Nurbs", CURVES),
+    refused("Position", "TrajectoryPosition", "use a LanePosition or a WorldPosition"),
 ];
 
 /// The elements that occur at most once within their parent.

@@ -15,6 +15,7 @@ mod scope;
 mod story;
 mod transition;
 mod variable;
+mod way;
 
 pub use elements::elements;
 pub use program::Xosc;

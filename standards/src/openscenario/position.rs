@@ -2,6 +2,7 @@
 
 use super::catalogs::Catalogs;
 use super::scope::Node;
+use super::way::Way;
 use crate::xml::ReadError;
 
 /// A position, in the ways in which a file describes it.
@@ -18,7 +19,7 @@ pub(super) enum Position {
     /// A place `ds` metres further along the road than an entity, and `dt` metres to its left.
     RelativeRoad { entity: usize, ds: f64, dt: f64, turn: Turn },
     /// A place `s` metres along a way, and `t` metres to its left.
-    Along { way: Vec<Self>, s: f64, t: f64 },
+    Along { way: Box<Way>, s: f64, t: f64 },
     /// A place that differs from an entity's place by a vector of the world.
     RelativeWorld { entity: usize, dx: f64, dy: f64, turn: Turn },
     /// A place that differs from an entity's place by a vector as the entity sees it.
@@ -79,10 +80,8 @@ impl Position {
             return Self::read(node, names);
         }
         let given = kind.child("TrajectoryRef")?.choice("Trajectory or CatalogReference")?;
-        let way = catalogs.resolved(given, &["Trajectory"], |given| {
-            let vertices = given.child("Shape")?.child("Polyline")?;
-            vertices.all("Vertex").map(|vertex| Self::read(vertex.child("Position")?, names)).collect()
-        })?;
+        let way = catalogs.resolved(given, &["Trajectory"], |given| Way::read(given, names))?;
+        let way = Box::new(way);
         Ok(Self::Along { way, s: kind.number("s")?, t: kind.number_or("t", 0.0)? })
     }
 

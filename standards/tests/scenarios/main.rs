@@ -5,4 +5,5 @@ mod golden;
 #[path = "../roads/others.rs"]
 mod others;
 mod page;
+mod parameters;
 mod worlds;

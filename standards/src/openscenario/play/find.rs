@@ -6,6 +6,7 @@ use crate::opendrive::Map;
 use crate::openscenario::place::{Place, driving_turn};
 use crate::openscenario::position::{Position, Turn};
 use crate::openscenario::project::project;
+use crate::openscenario::way::Way;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -70,7 +71,7 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             Ok(Whereabouts::OnLane(beside(place.road, place.s, t, *turn, map)))
         }
         Position::Along { way, s, t } => {
-            let track = track(way.iter().map(|position| (position, 0.0)), actors, map)?;
+            let track = track(way, None, actors, map)?;
             let here = track.map_or(Pose { position: Vector2::zeros(), heading: 0.0 }, |track| track.at(*s));
             Ok(Whereabouts::Free(Pose { position: here.position + here.left() * *t, ..here }))
         }
@@ -89,19 +90,25 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
     }
 }
 
-/// Returns the way through positions with their times; `None` without positions.
-pub(super) fn track<'p>(
-    vertices: impl Iterator<Item = (&'p Position, f64)>,
-    actors: &[Actor],
-    map: &Map,
-) -> Result<Option<Track>, Lost> {
-    let pose = |(position, time)| {
+/// Returns a way that an entity at the pose `from` follows; `None` for a way without a beginning.
+pub(super) fn track(way: &Way, from: Option<Pose>, actors: &[Actor], map: &Map) -> Result<Option<Track>, Lost> {
+    let pose = |position: &Position| {
         Ok(match find(position, actors, map)? {
-            Whereabouts::OnLane(place) => (place.pose(map), time),
-            Whereabouts::Free(pose) => (pose, time),
+            Whereabouts::OnLane(place) => place.pose(map),
+            Whereabouts::Free(pose) => pose,
         })
     };
-    Ok(Track::new(vertices.map(pose).collect::<Result<Vec<_>, Lost>>()?))
+    match way {
+        Way::Polyline { vertices, closed } => {
+            let again = vertices.first().filter(|_| *closed);
+            let all = vertices.iter().chain(again).map(|vertex| Ok((pose(&vertex.position)?, vertex.time)));
+            Ok(Track::polyline(all.collect::<Result<Vec<_>, Lost>>()?))
+        }
+        Way::Clothoids { start, segments, end } => {
+            let start = start.as_deref().map(pose).transpose()?.or(from);
+            Ok(start.map(|start| Track::clothoids(start, segments, *end)))
+        }
+    }
 }
 
 fn turned(from: Pose, turn: Turn) -> f64 {

@@ -89,7 +89,9 @@ impl Stage {
         let Some(mark) = mark else { return f64::INFINITY };
         let local = from.pose.to_local(mark.pose.position);
         let boxes = || gaps(from, mark);
-        match (how.kind, how.system) {
+        // Beside all roads there are no lanes: the entity's own axes replace them.
+        let is_on_roads = from.on_lane().is_some() && matches!(mark.at, Whereabouts::OnLane(_));
+        match (how.kind, if is_on_roads { how.system } else { System::Entity }) {
             (MetricKind::Straight, _) if how.freespace => boxes().map(|gap| gap.max(0.0)).norm(),
             (MetricKind::Straight, _) => local.norm(),
             (MetricKind::Longitudinal, System::Entity) if how.freespace => signed(boxes().x, local.x),

@@ -90,9 +90,15 @@ impl Motion {
             Self::Gap { other, gap, how, continuous, ahead, limits } => {
                 let actor = &stage.actors[entity];
                 let missing = stage.missing(actor, *other, *gap, *how, *ahead);
+                if !missing.is_finite() {
+                    return false;
+                }
                 let theirs = stage.actors[*other].speed;
                 let actor = &mut stage.actors[entity];
-                actor.speed = approach(actor.speed, theirs, missing, limits.unwrap_or([f64::INFINITY; 3]), dt);
+                actor.speed = match limits {
+                    Some(limits) => approach(actor.speed, theirs, missing, *limits, dt),
+                    None => theirs + missing / dt,
+                };
                 !*continuous && missing.abs() < CLOSE && (actor.speed - theirs).abs() < CLOSE
             }
             Self::Synchronize(sync) => synchronize(sync, entity, stage, dt),

@@ -35,12 +35,11 @@ impl Stage {
                     ahead: *ahead,
                     limits: *limits,
                 };
-                if limits.is_none() && !continuous {
+                // Without limits the entity is where it is to be at once.
+                if limits.is_none() {
                     self.close_up(entity, *other, *gap, how, *ahead);
-                    None
-                } else {
-                    Some(motion)
                 }
+                (limits.is_some() || *continuous).then_some(motion)
             }
             Action::LaneChange { dynamics, lane, offset } => {
                 let Some(mut place) = self.actors[entity].on_lane().copied() else { return Ok(None) };
@@ -73,7 +72,7 @@ impl Stage {
                 Some(Motion::LaneOffset { transition: dynamics.from(place.offset, target), continuous: *continuous })
             }
             Action::Trajectory(trajectory) => {
-                let motion = self.trajectory(trajectory)?;
+                let motion = self.trajectory(entity, trajectory)?;
                 if let Some(Motion::Trajectory { track, s, .. }) = &motion {
                     self.actors[entity].put(Whereabouts::Free(track.at(*s)), &self.map);
                 }
@@ -130,11 +129,9 @@ impl Stage {
         if leads { to_other + wanted } else { to_other - wanted }
     }
 
-    fn trajectory(&mut self, trajectory: &Trajectory) -> Result<Option<Motion>, Lost> {
-        let close = trajectory.vertices.first().filter(|_| trajectory.closed);
-        let vertices = trajectory.vertices.iter().chain(close);
-        let vertices = vertices.map(|vertex| (&vertex.position, vertex.time.unwrap_or(0.0)));
-        let track = track(vertices, &self.actors, &self.map)?;
+    fn trajectory(&mut self, entity: usize, trajectory: &Trajectory) -> Result<Option<Motion>, Lost> {
+        let from = self.actors[entity].pose;
+        let track = track(&trajectory.way, Some(from), &self.actors, &self.map)?;
         let timing = trajectory.timing.map(|timing| {
             let begin = if timing.is_relative { self.time } else { 0.0 };
             (timing.scale, timing.offset + begin)
