@@ -23,6 +23,10 @@ impl Driver for Late {
         self.latency + self.driver.latency()
     }
 
+    fn takes_over(&self) -> bool {
+        self.driver.takes_over()
+    }
+
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
         self.driver.reset(briefing)
     }

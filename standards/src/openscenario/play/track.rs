@@ -41,7 +41,10 @@ impl Track {
             for i in 0..count as usize {
                 let s = i as f64 * step;
                 let middle = Pose { heading: heading(s + 0.5 * step), ..here };
-                here = Pose { position: here.position + middle.forward() * step, heading: heading(s + step) };
+                // The chord of an arc is shorter than the arc.
+                let bend = (curvature + rate * (s + 0.5 * step)) * step;
+                let chord = step * (1.0 - bend * bend / 24.0);
+                here = Pose { position: here.position + middle.forward() * chord, heading: heading(s + step) };
                 all.push((here, time + (next - time) * (i + 1) as f64 / count));
             }
         }
