@@ -4,7 +4,7 @@ use super::catalogs::Catalogs;
 use super::position::{Names, Position};
 use super::scope::Node;
 use super::transition::{Dynamics, SHAPES, Shape};
-use super::way::Way;
+use super::way::{self, Way};
 use crate::xml::ReadError;
 
 /// An action of one entity.
@@ -99,8 +99,8 @@ pub(super) struct Trajectory {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Synchronization {
     pub master: usize,
-    pub master_target: Position,
-    pub target: Position,
+    pub master_target: way::Target,
+    pub target: way::Target,
     /// The speed at the arrival in m/s; `None` if it does not matter.
     pub final_speed: Option<f64>,
     /// The distance in metres before the target from which on the entity has its final speed.
@@ -148,8 +148,8 @@ impl Action {
         };
         Ok(Self::Synchronize(Box::new(Synchronization {
             master: names.entity(node, "masterEntityRef")?,
-            master_target: Position::read_with(node.child("TargetPositionMaster")?, names, catalogs)?,
-            target: Position::read_with(node.child("TargetPosition")?, names, catalogs)?,
+            master_target: way::Target::read(node.child("TargetPositionMaster")?, names, catalogs)?,
+            target: way::Target::read(node.child("TargetPosition")?, names, catalogs)?,
             final_speed,
             steady,
         })))

@@ -2,7 +2,7 @@
 
 use super::position::{Names, Position};
 use super::scope::Node;
-use super::story::State;
+use super::state::State;
 use crate::xml::{self, ReadError};
 use paracosm_engine::Stream;
 use paracosm_space::Value;

@@ -12,6 +12,7 @@ mod position;
 mod program;
 mod project;
 mod scope;
+mod state;
 mod story;
 mod transition;
 mod variable;

@@ -1,8 +1,6 @@
 //! Positions as a scenario describes them. A position is found in the world when an action or a condition needs it.
 
-use super::catalogs::Catalogs;
 use super::scope::Node;
-use super::way::Way;
 use crate::xml::ReadError;
 
 /// A position, in the ways in which a file describes it.
@@ -18,8 +16,6 @@ pub(super) enum Position {
     RelativeLane { entity: usize, lanes: i32, ds: f64, along_lane: bool, offset: f64, turn: Turn },
     /// A place `ds` metres further along the road than an entity, and `dt` metres to its left.
     RelativeRoad { entity: usize, ds: f64, dt: f64, turn: Turn },
-    /// A place `s` metres along a way, and `t` metres to its left.
-    Along { way: Box<Way>, s: f64, t: f64 },
     /// A place that differs from an entity's place by a vector of the world.
     RelativeWorld { entity: usize, dx: f64, dy: f64, turn: Turn },
     /// A place that differs from an entity's place by a vector as the entity sees it.
@@ -72,19 +68,6 @@ impl Turn {
 }
 
 impl Position {
-    /// Reads an element `Position`, or another element with the same content. The way of a `TrajectoryPosition` may lie in a
-    /// catalog.
-    pub fn read_with(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
-        let kind = node.choice("a kind of position such as LanePosition")?;
-        if kind.name() != "TrajectoryPosition" {
-            return Self::read(node, names);
-        }
-        let given = kind.child("TrajectoryRef")?.choice("Trajectory or CatalogReference")?;
-        let way = catalogs.resolved(given, &["Trajectory"], |given| Way::read(given, names))?;
-        let way = Box::new(way);
-        Ok(Self::Along { way, s: kind.number("s")?, t: kind.number_or("t", 0.0)? })
-    }
-
     /// Reads an element `Position`, or another element with the same content.
     pub fn read(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let kind = node.choice("a kind of position such as LanePosition")?;

@@ -145,7 +145,7 @@ impl Xosc {
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
         let end = direct(s, &stage, &conditions);
-        let count = stage.borrow().actors.len();
+        let count = stage.borrow().cast.actors.len();
         for index in 0..count {
             self.show(s, &stage, index, index != ego);
         }
@@ -158,7 +158,7 @@ impl Xosc {
     }
 
     fn show(&self, s: &mut Scenario, stage: &Rc<RefCell<Stage>>, index: usize, has_body: bool) {
-        let actor = stage.borrow().actors[index].clone();
+        let actor = stage.borrow().cast.actors[index].clone();
         let mut draft = s.object(&actor.entity.name);
         if has_body {
             draft.body(actor.entity.body, actor.middle());
@@ -256,7 +256,7 @@ fn ego(board: &Storyboard) -> usize {
 
 /// Returns the ego vehicle, with the way along its lane to the end of the roads.
 fn car(stage: &Stage, ego: usize, network: &Arc<RoadNetwork>) -> AutonomousVehicle {
-    let actor = &stage.actors[ego];
+    let actor = &stage.cast.actors[ego];
     let Pose { position, heading } = actor.middle();
     let pose = Pose { position, heading };
     let seen = network.project_along(&pose);
@@ -295,13 +295,13 @@ impl Geometric for Director {
 impl Geometric for Shown {
     fn poses(&self, poses: &mut [Option<Pose>]) {
         if self.has_body {
-            poses[0] = Some(self.stage.borrow().actors[self.index].middle());
+            poses[0] = Some(self.stage.borrow().cast.actors[self.index].middle());
         }
     }
 
     fn begin(&mut self, _: &Tick<'_>, velocities: &mut [nalgebra::Vector2<f64>]) -> Result<(), InputError> {
         if let Some(velocity) = velocities.first_mut() {
-            let actor = &self.stage.borrow().actors[self.index];
+            let actor = &self.stage.borrow().cast.actors[self.index];
             *velocity = actor.pose.forward() * actor.speed;
         }
         Ok(())
@@ -309,7 +309,7 @@ impl Geometric for Shown {
 
     fn show(&self, outputs: &mut Outputs<'_>) {
         let stage = self.stage.borrow();
-        let actor = &stage.actors[self.index];
+        let actor = &stage.cast.actors[self.index];
         outputs.set(&self.x, actor.pose.position.x);
         outputs.set(&self.y, actor.pose.position.y);
         outputs.set(&self.heading, actor.pose.heading);

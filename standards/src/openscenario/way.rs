@@ -1,5 +1,6 @@
 //! Ways through the world as a scenario describes them: polylines and clothoids.
 
+use super::catalogs::Catalogs;
 use super::position::{Names, Position};
 use super::scope::Node;
 use crate::xml::ReadError;
@@ -11,6 +12,18 @@ pub(super) enum Way {
     Polyline { vertices: Vec<Vertex>, closed: bool },
     /// Clothoids, each of which begins where the one before ends. Without a start, the way begins at the entity that follows it.
     Clothoids { start: Option<Box<Position>>, segments: Vec<Clothoid>, end: f64 },
+}
+
+/// A place that an entity is to reach.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Target {
+    At(Position),
+    /// A place `s` metres along a way, and `t` metres to its left.
+    Along {
+        way: Way,
+        s: f64,
+        t: f64,
+    },
 }
 
 /// A vertex of a polyline, with the time in seconds at which the entity is there.
@@ -70,6 +83,19 @@ impl Way {
             }
             _ => Err(shape.refused("use a Polyline, a Clothoid or a ClothoidSpline")),
         }
+    }
+}
+
+impl Target {
+    /// Reads an element with the content of a `Position`. The way of a `TrajectoryPosition` may lie in a catalog.
+    pub fn read(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
+        let kind = node.choice("a kind of position such as LanePosition")?;
+        if kind.name() != "TrajectoryPosition" {
+            return Ok(Self::At(Position::read(node, names)?));
+        }
+        let given = kind.child("TrajectoryRef")?.choice("Trajectory or CatalogReference")?;
+        let way = catalogs.resolved(given, &["Trajectory"], |given| Way::read(given, names))?;
+        Ok(Self::Along { way, s: kind.number("s")?, t: kind.number_or("t", 0.0)? })
     }
 }
 

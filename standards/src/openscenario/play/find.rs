@@ -6,7 +6,7 @@ use crate::opendrive::Map;
 use crate::openscenario::place::{Place, driving_turn};
 use crate::openscenario::position::{Position, Turn};
 use crate::openscenario::project::project;
-use crate::openscenario::way::Way;
+use crate::openscenario::way::{Target, Way};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -70,11 +70,6 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             place.advance(if place.is_against() { -*ds } else { *ds }, map);
             Ok(Whereabouts::OnLane(beside(place.road, place.s, t, *turn, map)))
         }
-        Position::Along { way, s, t } => {
-            let track = track(way, None, actors, map)?;
-            let here = track.map_or(Pose { position: Vector2::zeros(), heading: 0.0 }, |track| track.at(*s));
-            Ok(Whereabouts::Free(Pose { position: here.position + here.left() * *t, ..here }))
-        }
         Position::RelativeWorld { entity, dx, dy, turn } => {
             let from = actors[*entity].pose;
             Ok(Whereabouts::Free(Pose {
@@ -86,6 +81,18 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             let from = actors[*entity].pose;
             let position = from.position + from.turn_to_plane(Vector2::new(*dx, *dy));
             Ok(Whereabouts::Free(Pose { position, heading: turned(from, *turn) }))
+        }
+    }
+}
+
+/// Returns the place of a target.
+pub(super) fn find_target(target: &Target, actors: &[Actor], map: &Map) -> Result<Whereabouts, Lost> {
+    match target {
+        Target::At(position) => find(position, actors, map),
+        Target::Along { way, s, t } => {
+            let track = track(way, None, actors, map)?;
+            let here = track.map_or(Pose { position: Vector2::zeros(), heading: 0.0 }, |track| track.at(*s));
+            Ok(Whereabouts::Free(Pose { position: here.position + here.left() * *t, ..here }))
         }
     }
 }

@@ -1,9 +1,10 @@
 //! The numbers that conditions compare, as the world is at the moment.
 
 use super::actor::{Actor, Whereabouts};
+use super::cast::Cast;
 use super::find::find;
-use super::stage::Stage;
 use crate::openscenario::condition::{Direction, Goal, Measure, Metric, MetricKind, System};
+use crate::openscenario::state::State;
 use crate::xml::Value;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
@@ -17,9 +18,10 @@ struct Mark {
     velocity: Vector2<f64>,
 }
 
-impl Stage {
-    /// Returns the value of a measure. A distance that does not exist is infinite.
-    pub fn measure(&self, measure: &Measure) -> f64 {
+impl Cast {
+    /// Returns the value of a measure. A distance that does not exist is infinite. `is_in` tells whether an element with a name and of
+    /// a kind is in a state.
+    pub fn measure(&self, measure: &Measure, is_in: impl Fn(&str, &str, State) -> bool) -> f64 {
         let actor = |index: usize| &self.actors[index];
         match measure {
             Measure::Time => self.time,
@@ -30,7 +32,7 @@ impl Stage {
                 Value::Text(_) => f64::INFINITY,
             },
             Measure::VariableIs(index, value) => f64::from(u8::from(self.variables[*index].value == *value)),
-            Measure::State { element, kind, state } => f64::from(u8::from(self.is_in(element, kind, *state))),
+            Measure::State { element, kind, state } => f64::from(u8::from(is_in(element, kind, *state))),
             Measure::Speed { entity, direction } => speed(actor(*entity), *direction),
             Measure::Acceleration { entity, direction } => match direction {
                 Direction::Lateral => 0.0,

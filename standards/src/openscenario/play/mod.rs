@@ -1,6 +1,7 @@
 //! A storyboard at play: the states of its elements and of its entities, as they change from tick to tick.
 
 mod actor;
+mod cast;
 mod find;
 mod measure;
 mod motion;

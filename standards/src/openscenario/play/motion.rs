@@ -1,7 +1,7 @@
 //! Actions that take time: the share of each in the motion of its entity within a tick.
 
 use super::actor::Actor;
-use super::stage::Stage;
+use super::cast::Cast;
 use super::synchronize::synchronize;
 use super::track::Track;
 use crate::openscenario::action::{Gap, Synchronization, Target};
@@ -55,19 +55,19 @@ impl Motion {
     }
 
     /// Carries the action out for a tick of `dt` seconds. Returns `true` if the action is over.
-    pub fn carry_out(&mut self, entity: usize, stage: &mut Stage, dt: f64) -> bool {
+    pub fn carry_out(&mut self, entity: usize, cast: &mut Cast, dt: f64) -> bool {
         match self {
             Self::Speed { transition, follows } => {
-                let travelled = stage.actors[entity].speed.abs() * dt;
+                let travelled = cast.actors[entity].speed.abs() * dt;
                 transition.advance(dt, travelled);
                 if let Some(target) = follows {
-                    transition.target = stage.target(*target);
+                    transition.target = cast.target(*target);
                 }
-                stage.actors[entity].speed = transition.value();
+                cast.actors[entity].speed = transition.value();
                 transition.is_over() && follows.is_none()
             }
             Self::LaneChange(transition) => {
-                let actor = &mut stage.actors[entity];
+                let actor = &mut cast.actors[entity];
                 let Some(place) = actor.on_lane() else { return true };
                 let metres = actor.speed * dt;
                 transition.advance(dt, metres.abs());
@@ -78,7 +78,7 @@ impl Motion {
                 finished(transition, actor)
             }
             Self::LaneOffset { transition, continuous } => {
-                let actor = &mut stage.actors[entity];
+                let actor = &mut cast.actors[entity];
                 let Some(place) = actor.on_lane() else { return true };
                 let rate = if place.is_against() { -transition.rate() } else { transition.rate() };
                 actor.step.angle = if actor.speed == 0.0 { 0.0 } else { libm::atan2(rate, actor.speed.abs()) };
@@ -88,21 +88,21 @@ impl Motion {
                 over && !*continuous
             }
             Self::Gap { other, gap, how, continuous, ahead, limits } => {
-                let actor = &stage.actors[entity];
-                let missing = stage.missing(actor, *other, *gap, *how, *ahead);
+                let actor = &cast.actors[entity];
+                let missing = cast.missing(actor, *other, *gap, *how, *ahead);
                 if !missing.is_finite() {
                     return false;
                 }
-                let theirs = stage.actors[*other].speed;
-                let actor = &mut stage.actors[entity];
+                let theirs = cast.actors[*other].speed;
+                let actor = &mut cast.actors[entity];
                 actor.speed = match limits {
                     Some(limits) => approach(actor.speed, theirs, missing, *limits, dt),
                     None => theirs + missing / dt,
                 };
                 !*continuous && missing.abs() < CLOSE && (actor.speed - theirs).abs() < CLOSE
             }
-            Self::Synchronize(sync) => synchronize(sync, entity, stage, dt),
-            Self::Trajectory { track, s, timing } => follow(track, s, *timing, entity, stage, dt),
+            Self::Synchronize(sync) => synchronize(sync, entity, cast, dt),
+            Self::Trajectory { track, s, timing } => follow(track, s, *timing, entity, cast, dt),
         }
     }
 }
@@ -125,9 +125,9 @@ fn approach(speed: f64, theirs: f64, missing: f64, limits: [f64; 3], dt: f64) ->
 }
 
 /// Moves an entity along a way for a tick. Returns `true` at the end of the way.
-fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize, stage: &mut Stage, dt: f64) -> bool {
-    let now = stage.time + dt;
-    let actor = &mut stage.actors[entity];
+fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize, cast: &mut Cast, dt: f64) -> bool {
+    let now = cast.time + dt;
+    let actor = &mut cast.actors[entity];
     let before = *s;
     let over = match timing {
         None => {
@@ -145,7 +145,7 @@ fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize,
     let pose = track.at(*s);
     actor.step.pose = Some(pose);
     actor.on_track = (!over).then_some(*s);
-    if over && let Some(place) = project(&pose, &stage.map) {
+    if over && let Some(place) = project(&pose, &cast.map) {
         // The entity goes on along the lane that it has come to.
         actor.step.landed = Some(place);
     }

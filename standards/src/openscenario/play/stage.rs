@@ -1,29 +1,23 @@
 //! The state machine of a storyboard: which elements start, run and end at a tick (OpenSCENARIO XML 1.3, section 6.6).
 
 use super::actor::Actor;
+use super::cast::Cast;
 use super::find::Lost;
 use super::motion::Motion;
 use super::watch::Watch;
 use crate::opendrive::Map;
 use crate::openscenario::action::Action;
-use crate::openscenario::condition::{Condition, Trigger};
-use crate::openscenario::story::{Item, Kind, Priority, State, Storyboard};
-use crate::openscenario::variable::Variable;
+use crate::openscenario::condition::{Condition, Measure, Trigger};
+use crate::openscenario::state::State;
+use crate::openscenario::story::{Item, Kind, Priority, Storyboard};
 use paracosm_engine::Lead;
 use std::sync::Arc;
 
 /// A storyboard at play.
 pub(in crate::openscenario) struct Stage {
-    pub(super) map: Arc<Map>,
-    pub actors: Vec<Actor>,
-    pub(super) variables: Vec<Variable>,
+    pub cast: Cast,
     items: Vec<Playing>,
     stop: Option<Watch>,
-    /// The index of the entity that the system under test drives.
-    pub(super) ego: usize,
-    pub lead: Lead,
-    /// The seconds since the run began.
-    pub(super) time: f64,
     /// The seconds of the last tick, if the driver's motion during the tick is not known yet.
     behind: Option<f64>,
     /// `true` once the stop trigger has come.
@@ -61,15 +55,11 @@ impl Stage {
             item,
         };
         let items = items.into_iter().map(playing).collect();
+        let actors = entities.into_iter().map(Actor::new).collect();
         let mut stage = Self {
-            map,
-            variables,
-            actors: entities.into_iter().map(Actor::new).collect(),
+            cast: Cast { map, actors, variables, ego, lead, time: 0.0 },
             items,
             stop: None,
-            ego,
-            lead,
-            time: 0.0,
             behind: None,
             stopped: false,
             lost: None,
@@ -80,15 +70,15 @@ impl Stage {
         let item = Item { name: String::new(), kind, parent: None, start: None, stop: None, most_runs: 1 };
         let mut motions = Vec::new();
         for (entity, action) in &init {
-            if let Some(motion) = stage.begin(*entity, action)? {
+            if let Some(motion) = stage.cast.begin(*entity, action)? {
                 motions.push((*entity, motion));
             }
         }
         let (state, transition) = (State::Running, None);
         stage.items.push(Playing { item, state, transition, runs: 0, start: None, stop: None, motions });
-        for index in 0..stage.actors.len() {
-            if let Some(place) = stage.actors[index].on_lane().copied() {
-                stage.actors[index].put(super::actor::Whereabouts::OnLane(place), &stage.map);
+        for index in 0..stage.cast.actors.len() {
+            if let Some(place) = stage.cast.actors[index].on_lane().copied() {
+                stage.cast.actors[index].put(super::actor::Whereabouts::OnLane(place), &stage.cast.map);
             }
         }
         let activates = |playing: &Playing| match &playing.item.kind {
@@ -97,9 +87,9 @@ impl Stage {
         };
         // If nothing activates the controller of the ego vehicle, the controller is active from the beginning.
         if !stage.items.iter().any(activates) {
-            stage.lead.hand_over();
+            stage.cast.lead.hand_over();
         }
-        stage.lead.to(stage.actors[ego].motion());
+        stage.cast.lead.to(stage.cast.actors[ego].motion());
         Ok(stage)
     }
 
@@ -110,17 +100,22 @@ impl Stage {
     }
 
     /// Returns `true` if an element with a name and of a kind is in a state, or has just made a transition.
-    pub(super) fn is_in(&self, name: &str, kind: &str, state: State) -> bool {
+    fn is_in(&self, name: &str, kind: &str, state: State) -> bool {
         let named = self.items.iter().filter(|playing| playing.item.name == name && playing.item.kind.name() == kind);
         named.into_iter().any(|playing| playing.state == state || playing.transition == Some(state))
     }
 
+    /// Returns the value of a measure.
+    pub fn measure(&self, measure: &Measure) -> f64 {
+        self.cast.measure(measure, |name, kind, state| self.is_in(name, kind, state))
+    }
+
     /// Plays a tick of `dt` seconds. `truths` are the values of all conditions at its beginning.
     pub fn play(&mut self, truths: &[bool], dt: f64) {
-        let time = self.time;
+        let time = self.cast.time;
         self.stopped |= self.stop.as_mut().is_some_and(|stop| stop.check(time, truths));
         self.items.iter_mut().for_each(|playing| playing.transition = None);
-        let before: Vec<f64> = self.actors.iter().map(|actor| actor.speed).collect();
+        let before: Vec<f64> = self.cast.actors.iter().map(|actor| actor.speed).collect();
         for index in 0..self.items.len() {
             self.update(index, truths);
         }
@@ -129,30 +124,25 @@ impl Stage {
             self.complete(index);
         }
         for (index, before) in before.into_iter().enumerate() {
-            if index != self.ego || self.lead.driven().is_none() {
-                self.actors[index].advance(dt, before, &self.map);
+            if index != self.cast.ego || self.cast.lead.driven().is_none() {
+                self.cast.actors[index].advance(dt, before, &self.cast.map);
             }
         }
-        self.lead.to(self.actors[self.ego].motion());
-        self.time += dt;
+        self.cast.lead.to(self.cast.actors[self.cast.ego].motion());
+        self.cast.time += dt;
         self.behind = Some(dt);
     }
 
     /// Takes over the motion of the ego vehicle during the last tick if a driver drives it. The car moves after the storyboard.
     pub fn catch_up(&mut self) {
-        if let (Some(dt), Some(motion)) = (self.behind.take(), self.lead.driven()) {
-            self.actors[self.ego].follow(motion, dt);
+        if let (Some(dt), Some(motion)) = (self.behind.take(), self.cast.lead.driven()) {
+            self.cast.actors[self.cast.ego].follow(motion, dt);
         }
-    }
-
-    /// Returns the metres that an entity has covered on the way that it follows; `None` if it follows none.
-    pub(super) fn along_track(&self, entity: usize) -> Option<f64> {
-        self.actors[entity].on_track
     }
 
     /// Starts an element, or stops it, if its triggers say so.
     fn update(&mut self, index: usize, truths: &[bool]) {
-        let time = self.time;
+        let time = self.cast.time;
         let runs = self.items[index].item.parent.is_none_or(|parent| self.items[parent].state == State::Running);
         let playing = &mut self.items[index];
         let state = playing.state;
@@ -198,11 +188,11 @@ impl Stage {
             }
         }
         if let Kind::Change(variable, change) = &self.items[index].item.kind {
-            change.apply(&mut self.variables[*variable].value);
+            change.apply(&mut self.cast.variables[*variable].value);
         }
         if let Kind::Action(actors, action) = self.items[index].item.kind.clone() {
             for entity in actors {
-                match self.begin(entity, &action) {
+                match self.cast.begin(entity, &action) {
                     Ok(Some(motion)) => self.take_over(index, entity, motion),
                     Ok(None) => (),
                     Err(lost) => self.lost = Some(lost),
@@ -247,7 +237,7 @@ impl Stage {
     fn carry_out(&mut self, dt: f64) {
         for index in 0..self.items.len() {
             let mut motions = std::mem::take(&mut self.items[index].motions);
-            motions.retain_mut(|(entity, motion)| !motion.carry_out(*entity, self, dt));
+            motions.retain_mut(|(entity, motion)| !motion.carry_out(*entity, &mut self.cast, dt));
             self.items[index].motions = motions;
         }
     }

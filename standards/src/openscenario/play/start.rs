@@ -1,14 +1,14 @@
 //! The beginning of an action: what it reads from the world at that moment.
 
 use super::actor::{Actor, Whereabouts};
+use super::cast::Cast;
 use super::find::{Lost, find, neighbour, track};
 use super::motion::Motion;
-use super::stage::Stage;
 use crate::openscenario::action::{Action, Gap, Lane, Lateral, Target, Trajectory};
 use crate::openscenario::condition::{Metric, MetricKind, System};
 use crate::openscenario::transition::{Dynamics, Extent, Shape};
 
-impl Stage {
+impl Cast {
     /// Begins an action of an entity. Returns the motion that goes on; `None` if the action is over at once.
     pub(super) fn begin(&mut self, entity: usize, action: &Action) -> Result<Option<Motion>, Lost> {
         Ok(match action {

@@ -4,28 +4,28 @@
 //! to its target in time with its final speed.
 
 use super::actor::Whereabouts;
-use super::find::find;
-use super::stage::Stage;
+use super::cast::Cast;
+use super::find::find_target;
 use crate::openscenario::action::Synchronization;
-use crate::openscenario::position::Position;
+use crate::openscenario::way::Target;
 
 /// The least time in seconds and the least distance in metres before an arrival.
 const CLOSE: f64 = 1e-6;
 
 /// Sets the speed of an entity for a tick of `dt` seconds. Returns `true` if the entity or its master has arrived.
-pub(super) fn synchronize(sync: &Synchronization, entity: usize, stage: &mut Stage, dt: f64) -> bool {
+pub(super) fn synchronize(sync: &Synchronization, entity: usize, cast: &mut Cast, dt: f64) -> bool {
     let (Some(theirs), Some(ours)) =
-        (distance(sync.master, &sync.master_target, stage), distance(entity, &sync.target, stage))
+        (distance(sync.master, &sync.master_target, cast), distance(entity, &sync.target, cast))
     else {
         return true;
     };
-    let master = stage.actors[sync.master].speed;
+    let master = cast.actors[sync.master].speed;
     let time = if master > 0.0 { theirs / master } else { f64::INFINITY };
     if time <= CLOSE || ours <= CLOSE {
         return true;
     }
-    let speed = stage.actors[entity].speed;
-    stage.actors[entity].speed = match sync.final_speed {
+    let speed = cast.actors[entity].speed;
+    cast.actors[entity].speed = match sync.final_speed {
         Some(last) if last > 0.0 => {
             let steady = sync.steady.min(ours);
             faster(speed, last, ours - steady, time - steady / last, dt)
@@ -57,14 +57,14 @@ fn faster(speed: f64, last: f64, metres: f64, seconds: f64, dt: f64) -> f64 {
 }
 
 /// Returns the distance of an entity to a target along its way, or in a straight line without a way. `None` if there is no target.
-fn distance(entity: usize, target: &Position, stage: &Stage) -> Option<f64> {
-    let actor = &stage.actors[entity];
-    if let (Position::Along { s, .. }, Some(done)) = (target, stage.along_track(entity)) {
+fn distance(entity: usize, target: &Target, cast: &Cast) -> Option<f64> {
+    let actor = &cast.actors[entity];
+    if let (Target::Along { s, .. }, Some(done)) = (target, actor.on_track) {
         return Some(s - done);
     }
-    match (find(target, &stage.actors, &stage.map).ok()?, actor.on_lane()) {
-        (Whereabouts::OnLane(there), Some(here)) => here.distance_to(&there, &stage.map),
-        (Whereabouts::OnLane(there), None) => Some((there.pose(&stage.map).position - actor.pose.position).norm()),
+    match (find_target(target, &cast.actors, &cast.map).ok()?, actor.on_lane()) {
+        (Whereabouts::OnLane(there), Some(here)) => here.distance_to(&there, &cast.map),
+        (Whereabouts::OnLane(there), None) => Some((there.pose(&cast.map).position - actor.pose.position).norm()),
         (Whereabouts::Free(pose), _) => Some((pose.position - actor.pose.position).norm()),
     }
 }

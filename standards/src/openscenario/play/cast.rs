@@ -1,0 +1,19 @@
+//! The entities of a scenario on their map, with the variables and the time: everything that actions change and conditions read.
+
+use super::actor::Actor;
+use crate::opendrive::Map;
+use crate::openscenario::variable::Variable;
+use paracosm_engine::Lead;
+use std::sync::Arc;
+
+/// The entities of a scenario.
+pub(in crate::openscenario) struct Cast {
+    pub(super) map: Arc<Map>,
+    pub actors: Vec<Actor>,
+    pub(super) variables: Vec<Variable>,
+    /// The index of the entity that the system under test drives.
+    pub(super) ego: usize,
+    pub lead: Lead,
+    /// The seconds since the run began.
+    pub(super) time: f64,
+}
