@@ -39,11 +39,11 @@ fn compared(folder: &Path, name: &str) -> Result<Difference, String> {
         let tick = (number(0) / 0.01).round() as usize;
         let of = |signal: &str| trace.signal(&format!("{}.{signal}", cells[1]))?.nth(tick);
         let [Some(x), Some(y), Some(heading), Some(speed)] = ["x", "y", "heading", "speed"].map(of) else { continue };
-        let metres = (x - number(2)).hypot(y - number(3));
+        let metres = libm::hypot(x - number(2), y - number(3));
         if metres > greatest.metres {
             (greatest.metres, greatest.at) = (metres, number(0));
         }
-        greatest.heading = greatest.heading.max((heading - number(4)).sin().abs());
+        greatest.heading = greatest.heading.max(libm::sin(heading - number(4)).abs());
         greatest.speed = greatest.speed.max((speed - number(5)).abs());
         greatest.samples += 1;
     }
