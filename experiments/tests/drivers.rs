@@ -127,9 +127,13 @@ fn the_tables_of_the_page_are_those_of_the_csv_and_every_large_number_has_a_reas
 #[test]
 fn every_driver_drives_every_scenario_and_the_counts_add_up() {
     let cells = cells();
-    // The images of a driver with a camera would take hours.
-    let sees = |driver: &driver::Descriptor| !driver.build(&[]).unwrap().equipment().cameras.all.is_empty();
-    let drivers: Vec<&str> = driver::ALL.iter().filter(|driver| !sees(driver)).map(|driver| driver.name).collect();
+    // The images of a driver with a camera would take hours, and the driver `default` leaves the car to the scenario.
+    let is_tested = |driver: &driver::Descriptor| {
+        let mut built = driver.build(&[]).unwrap();
+        built.takes_over() && built.equipment().cameras.all.is_empty()
+    };
+    let drivers = driver::ALL.iter().filter(|driver| is_tested(driver));
+    let drivers: Vec<&str> = drivers.map(|driver| driver.name).collect();
     let scenarios: Vec<&str> = paracosm::scenarios::ALL.iter().map(|program| program.name()).collect();
     assert_eq!(names(&cells, |cell| &cell.driver), drivers);
     assert_eq!(names(&cells, |cell| &cell.scenario), scenarios);
