@@ -16,6 +16,30 @@ use std::path::Path;
 const TESTS: usize = 200;
 const VERDICTS: [Verdict; 5] = [Verdict::Pass, Verdict::Fail, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
 
+/// Runs the study and writes `drivers.csv` to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let scenarios: Vec<&str> = paracosm::scenarios::ALL.iter().map(|program| program.name()).collect();
+    let drivers: Vec<_> = driver::ALL.iter().filter(|driver| is_tested(driver)).collect();
+    bar.set_length((scenarios.len() * drivers.len() * TESTS) as u64);
+    let header =
+        ["driver", "scenario"].map(str::to_owned).into_iter().chain(VERDICTS.map(|verdict| verdict.to_string()));
+    let header = header.chain(["preventable", "violated"].map(str::to_owned));
+    let mut rows: Vec<Vec<String>> = vec![header.collect()];
+    for name in scenarios {
+        let mut logs = Vec::new();
+        for driver in &drivers {
+            let study = scenario(name)?.driver(driver.name).strategy(Strategy::HALTON).budget(TESTS).build()?;
+            logs.push((driver.name, logged(&study, bar)?));
+        }
+        rows.extend(logs.iter().map(|(driver, log)| row(driver, name, log, &logs)));
+    }
+    bar.finish_and_clear();
+    write_csv(&out.join("drivers.csv"), &rows)?;
+    let lines =
+        rows.iter().skip(1).map(|row| format!("{:<12} {:<20} {:>3} fail  {}\n", row[0], row[1], row[3], row[8]));
+    print(&lines.collect::<String>())
+}
+
 /// Returns `true` if the study tests a driver: it drives the car itself, without images, which would take hours.
 fn is_tested(driver: &driver::Descriptor) -> bool {
     let mut built = driver.build(&[]).expect("the default settings of a driver are in their ranges");
