@@ -40,7 +40,8 @@ impl Track {
             let heading = |s: f64| first + (curvature + 0.5 * rate * s) * s;
             for i in 0..count as usize {
                 let s = i as f64 * step;
-                let middle = Pose { heading: heading(s + 0.5 * step), ..here };
+                // The mean heading of the step, whose heading is a parabola.
+                let middle = Pose { heading: heading(s + 0.5 * step) + rate * step * step / 24.0, ..here };
                 // The chord of an arc is shorter than the arc.
                 let bend = (curvature + rate * (s + 0.5 * step)) * step;
                 let chord = step * (1.0 - bend * bend / 24.0);
