@@ -93,7 +93,12 @@ fn table(lists: &Lists, kinds: &[ListKind]) -> Result<String, Failure> {
         match kind {
             ListKind::Scenarios => scenarios(lists, &mut text)?,
             ListKind::Drivers => drivers(lists, &mut text)?,
-            _ => {
+            ListKind::Strategies
+            | ListKind::Measures
+            | ListKind::Sensors
+            | ListKind::Cameras
+            | ListKind::Opendrive
+            | ListKind::Openscenario => {
                 for (name, about) in named(lists, *kind) {
                     writeln!(text, "  {name:<22}{about}")?;
                 }
@@ -165,7 +170,13 @@ fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failu
             ListKind::Scenarios => lists.scenarios.iter().map(scenario).collect::<Result<_, Failure>>()?,
             ListKind::Drivers => lists.drivers.iter().map(driver).collect(),
             ListKind::Cameras => lists.cameras.iter().map(camera).collect(),
-            _ => named(lists, *kind).into_iter().map(|(name, about)| json!({"name": name, "about": about})).collect(),
+            ListKind::Strategies
+            | ListKind::Measures
+            | ListKind::Sensors
+            | ListKind::Opendrive
+            | ListKind::Openscenario => {
+                named(lists, *kind).into_iter().map(|(name, about)| json!({"name": name, "about": about})).collect()
+            }
         };
         all.insert(key(*kind), list.into());
     }

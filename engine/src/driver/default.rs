@@ -11,12 +11,12 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "default",
     about: "leaves the car to the scenario of a file, and keeps its speed and its way in other scenarios; no contact ends a run",
     settings: &[],
-    make: |_: &Settings| Box::new(Default(Cruise::default())),
+    make: |_: &Settings| Box::new(Passenger(Cruise::default())),
 };
 
-struct Default(Cruise);
+struct Passenger(Cruise);
 
-impl Driver for Default {
+impl Driver for Passenger {
     fn period(&self) -> f64 {
         PERIOD
     }

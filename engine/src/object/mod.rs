@@ -93,6 +93,16 @@ pub enum InputError {
         /// The name of the input, as `object.input`.
         input: String,
     },
+    /// The object cannot do what it is told.
+    #[error("{object}: `{action}` is impossible: {reason}")]
+    Impossible {
+        /// The name of the object.
+        object: String,
+        /// The name of the action.
+        action: String,
+        /// The reason.
+        reason: String,
+    },
     /// The value of an input is out of range.
     #[error("the value of the input `{input}` is {value}, expected {expected}")]
     OutOfRange {

@@ -164,19 +164,19 @@ impl Scenario {
     /// Declares a parameter that was described as data, for example in a file. It is open, or it stays at its default until a
     /// study opens it.
     pub fn parameter(&mut self, parameter: Parameter, open: bool) -> Param<Value> {
-        let Parameter { name, domain, default, .. } = parameter;
-        let default = if open { default } else { Some(default.unwrap_or(Value::Number(f64::NAN))) };
-        let declared = self.declare(&name, domain, default, Read::value());
-        self.parameters.borrow_mut().last_mut().expect("it was declared").open = open;
-        declared
+        self.described(parameter, open, Read::value())
     }
 
     fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
+        self.described(parameter, open, read)
+    }
+
+    fn described<T: Clone>(&mut self, parameter: Parameter, open: bool, read: Read<T>) -> Param<T> {
         // A name that the test does not know is reported once the program has returned, together with all the others.
-        let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
+        let given = self.given.iter().find(|(given, _)| *given == parameter.name).map(|(_, given)| given.clone());
         self.parameters.borrow_mut().push(Declared { parameter, open, opens: None });
         Param::new(self, given.unwrap_or_default(), read)
     }

@@ -29,7 +29,11 @@ pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Fail
             }
             ListKind::Drivers => settings(lists, &mut text)?,
             ListKind::Cameras => cameras(lists, &mut text)?,
-            _ => {}
+            ListKind::Strategies
+            | ListKind::Measures
+            | ListKind::Sensors
+            | ListKind::Opendrive
+            | ListKind::Openscenario => {}
         }
     }
     Ok(text)

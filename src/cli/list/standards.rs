@@ -10,7 +10,10 @@ pub(super) fn standard(elements: impl Iterator<Item = Supported>, form: Form) ->
     let rows: Vec<_> = elements.map(|element| (element, words(element.support))).collect();
     match form {
         Form::Json => {
-            let row = |(element, (support, reason)): &(Supported, (&str, Option<&str>))| json!({"element": element.name, "within": element.parent, "support": support, "reason": reason});
+            let row = |(element, (support, reason)): &(Supported, (&str, Option<&str>))| {
+                let (name, within) = (element.name, element.parent);
+                json!({"element": name, "within": within, "support": support, "reason": reason})
+            };
             json(&rows.iter().map(row).collect::<Vec<_>>())
         }
         Form::Table => {

@@ -165,7 +165,7 @@ impl Map {
 
 impl Road {
     /// Returns `true` if the traffic on a lane drives in the direction of the reference line.
-    fn leads_along(&self, lane: Option<&Lane>) -> bool {
+    pub(crate) fn leads_along(&self, lane: Option<&Lane>) -> bool {
         let Some(lane) = lane else { return true };
         let standard = match self.traffic {
             Traffic::RightHand => lane.number < 0,

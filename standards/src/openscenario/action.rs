@@ -1,6 +1,7 @@
 //! Actions as a scenario describes them.
 
 use super::catalogs::Catalogs;
+use super::condition::{Metric, MetricKind};
 use super::position::{Names, Position};
 use super::scope::Node;
 use super::transition::{Dynamics, SHAPES, Shape};
@@ -15,11 +16,11 @@ pub(super) enum Action {
         dynamics: Dynamics,
         target: Target,
     },
-    /// The distance to an entity. It is the gap between the boxes if `freespace` is set.
+    /// The distance to an entity.
     Gap {
         entity: usize,
         gap: Gap,
-        freespace: bool,
+        how: Metric,
         continuous: bool,
         ahead: Option<bool>,
         limits: Option<[f64; 3]>,
@@ -190,7 +191,7 @@ impl Action {
                 Ok(Self::Gap {
                     entity: names.entity(node, "entityRef")?,
                     gap,
-                    freespace: node.truth_or("freespace", false)?,
+                    how: Metric::read(node, MetricKind::Longitudinal)?,
                     continuous: node.truth_or("continuous", false)?,
                     ahead,
                     limits: limits.transpose()?,

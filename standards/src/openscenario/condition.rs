@@ -74,7 +74,6 @@ pub(super) enum Measure {
     },
     Acceleration {
         entity: usize,
-        direction: Direction,
     },
     /// The speed of the entity minus the speed of another entity.
     RelativeSpeed {
@@ -315,7 +314,10 @@ impl Measure {
         let other = || names.entity(node, "entityRef");
         match node.name() {
             "SpeedCondition" => ruled(Self::Speed { entity, direction: Direction::read(node)? }),
-            "AccelerationCondition" => ruled(Self::Acceleration { entity, direction: Direction::read(node)? }),
+            "AccelerationCondition" => match Direction::read(node)? {
+                Direction::Lateral => Err(node.refused("use the direction `longitudinal`")),
+                Direction::Longitudinal | Direction::Total => ruled(Self::Acceleration { entity }),
+            },
             "RelativeSpeedCondition" => {
                 ruled(Self::RelativeSpeed { entity, other: other()?, direction: Direction::read(node)? })
             }
@@ -362,7 +364,8 @@ impl Measure {
 }
 
 impl Metric {
-    fn read(node: Node<'_>, usual: MetricKind) -> Result<Self, ReadError> {
+    /// Reads the attributes of a distance. `usual` is the kind of the distance if the element does not say.
+    pub fn read(node: Node<'_>, usual: MetricKind) -> Result<Self, ReadError> {
         let kinds = [
             ("longitudinal", MetricKind::Longitudinal),
             ("lateral", MetricKind::Lateral),
@@ -373,8 +376,7 @@ impl Metric {
             None => usual,
             Some(_) => node.one_of("relativeDistanceType", &kinds)?,
         };
-        let systems =
-            [("entity", System::Entity), ("lane", System::Lane), ("road", System::Road), ("trajectory", System::Lane)];
+        let systems = [("entity", System::Entity), ("lane", System::Lane), ("road", System::Road)];
         let system = match node.element.text("coordinateSystem") {
             None if node.truth_or("alongRoute", false)? => System::Road,
             None => System::Entity,

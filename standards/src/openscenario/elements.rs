@@ -4,6 +4,7 @@ use crate::xml::{Row, Schema, Supported, no_effect, read, refused};
 use std::sync::LazyLock;
 
 const OTHERS: &str = "it is data for other programs";
+const AXLES: &str = "the box of an entity says where the entity is, and the model of the vehicle how it steers";
 const LOOKS: &str = "the looks of entities follow from their classes";
 const WEATHER: &str = "the weather of the file does not change the world yet";
 const DRIVER: &str = "the system under test is the controller";
@@ -87,8 +88,7 @@ pub(super) const ROWS: &[Row] = &[
     read("BoundingBox", "Center", "x y z"),
     read("BoundingBox", "Dimensions", "height length width"),
     read("Vehicle", "Performance", "maxAcceleration maxAccelerationRate maxDeceleration maxDecelerationRate maxSpeed"),
-    read("Vehicle", "Axles", ""),
-    read("Axles", "FrontAxle|RearAxle|AdditionalAxle", "maxSteering positionX positionZ trackWidth wheelDiameter"),
+    no_effect("Vehicle", "Axles", AXLES),
     no_effect("Vehicle", "TrailerHitch|TrailerCoupler", LOOKS),
     no_effect("Vehicle", "Trailer", TRAILERS),
     read("Catalog|ScenarioObject", "Pedestrian", "mass model name pedestrianCategory model3d role"),

@@ -26,14 +26,10 @@ pub(super) struct Entity {
 /// The limits of a vehicle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Limits {
-    /// The greatest speed in m/s.
-    pub speed: f64,
     /// The greatest acceleration in m/s².
     pub acceleration: f64,
     /// The greatest deceleration in m/s².
     pub deceleration: f64,
-    /// The distance from the front axle to the rear axle in metres; 0 without a front axle.
-    pub wheelbase: f64,
 }
 
 impl Entity {
@@ -103,12 +99,9 @@ const VEHICLES: [(&str, Class); 10] = [
 impl Limits {
     fn read(vehicle: Node<'_>) -> Result<Self, ReadError> {
         let performance = vehicle.child("Performance")?;
-        let front = vehicle.first("Axles").and_then(|axles| axles.first("FrontAxle"));
         Ok(Self {
-            speed: performance.length("maxSpeed")?,
             acceleration: performance.length("maxAcceleration")?,
             deceleration: performance.length("maxDeceleration")?,
-            wheelbase: front.map_or(Ok(0.0), |axle| axle.number("positionX"))?,
         })
     }
 }

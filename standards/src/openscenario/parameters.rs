@@ -14,7 +14,7 @@ const BOUND: f64 = 1e9;
 /// The share of a step by which a range may exceed its upper limit, because steps are sums of rounded numbers.
 const TOLERANCE: f64 = 1e-9;
 /// The sign between the names and between the values of parameters that change together.
-const JOINT: char = '|';
+const JOINT: &str = "|";
 
 /// A distribution of parameters: the parameters that it opens, in the order of the file.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -56,11 +56,11 @@ impl Distribution {
         let mut scope = Scope::default();
         let mut given = Vec::new();
         for opened in &self.0 {
-            let levels = opened.levels.iter().map(|level| parsed(&level.join(&JOINT.to_string()))).collect();
-            let mut parameter = Parameter::new(opened.names.join(&JOINT.to_string()), Domain::Choice(levels));
+            let levels = opened.levels.iter().map(|level| parsed(&joint(level))).collect();
+            let mut parameter = Parameter::new(joint(&opened.names), Domain::Choice(levels));
             parameter.default = opened.nominal(root);
             let value = s.parameter(parameter, true).value();
-            let index = opened.levels.iter().position(|level| parsed(&level.join(&JOINT.to_string())) == value);
+            let index = opened.levels.iter().position(|level| parsed(&joint(level)) == value);
             let Some(level) = index.or((!opened.levels.is_empty()).then_some(0)) else { continue };
             given.extend(opened.names.iter().cloned().zip(opened.levels[level].iter().cloned()));
         }
@@ -103,7 +103,7 @@ impl Opened {
             level.iter().zip(&declared).map(apart).sum()
         };
         let nearest = self.levels.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        Some(parsed(&nearest.join(&JOINT.to_string())))
+        Some(parsed(&joint(nearest)))
     }
 
     fn tuples(kind: Node<'_>) -> Result<Self, ReadError> {
@@ -142,6 +142,11 @@ fn range(node: Node<'_>) -> Result<Vec<Vec<String>>, ReadError> {
         return Err(node.error(Flaw::Value { element, attribute, found, expected, nearest: None }));
     }
     Ok((0..=count as usize).map(|index| vec![(lo + index as f64 * step).to_string()]).collect())
+}
+
+/// Returns the names or the values of parameters that change together as one text.
+fn joint(parts: &[String]) -> String {
+    parts.join(JOINT)
 }
 
 /// Returns a value as spaces have it: a number, or a word.

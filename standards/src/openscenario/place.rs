@@ -1,6 +1,6 @@
 //! Places on the lanes of a map, and the way along them.
 
-use crate::opendrive::{Direction, End, Link, Map, Road, Traffic};
+use crate::opendrive::{End, Link, Map, Road};
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
 use std::f64::consts::PI;
@@ -183,10 +183,6 @@ impl Place {
 
 /// Returns the angle from the direction of a road to the direction of the traffic on one of its lanes.
 pub(super) fn driving_turn(road: &Road, section: usize, lane: i32) -> f64 {
-    let leads = match road.traffic {
-        Traffic::RightHand => lane <= 0,
-        Traffic::LeftHand => lane >= 0,
-    };
-    let reversed = road.sections[section].lane(lane).is_some_and(|lane| lane.direction == Direction::Reversed);
-    if leads != reversed { 0.0 } else { PI }
+    let lane = road.sections[section].lane(lane).filter(|lane| lane.number != 0);
+    if road.leads_along(lane) { 0.0 } else { PI }
 }

@@ -80,9 +80,9 @@ impl Xosc {
         let named = {
             let tree = document.tree()?;
             let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
-            schema().check(root.element)?;
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
+                schema().check(root.element)?;
                 let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
                 Ok((file, Distribution::read(node)?))
             };
@@ -287,8 +287,12 @@ impl Geometric for Director {
         for (truth, input) in self.truths.iter_mut().zip(&self.conditions) {
             *truth = tick.get(input) == Some(true);
         }
-        self.stage.borrow_mut().play(&self.truths, tick.dt());
-        Ok(())
+        let played = self.stage.borrow_mut().play(&self.truths, tick.dt());
+        played.map_err(|(action, lost)| InputError::Impossible {
+            object: "storyboard".to_owned(),
+            action,
+            reason: lost.to_string(),
+        })
     }
 }
 

@@ -148,11 +148,7 @@ impl<'a> Node<'a> {
 
     /// Returns the value in an attribute that has one of the given names.
     pub fn one_of<T: Copy>(self, attribute: &'static str, names: &[(&'static str, T)]) -> Result<T, ReadError> {
-        let text = self.required(attribute)?;
-        names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value).ok_or_else(|| {
-            let all: Vec<_> = names.iter().map(|(name, _)| *name).collect();
-            self.unexpected(attribute, &text, format!("one of {}", all.join(", ")), all)
-        })
+        self.element.chosen(attribute, &self.required(attribute)?, names)
     }
 
     /// Makes the error that an attribute names something that does not exist. `names` are the existing names.
@@ -162,9 +158,8 @@ impl<'a> Node<'a> {
         kind: &'static str,
         names: impl IntoIterator<Item = &'n str>,
     ) -> ReadError {
-        let found = self.text(attribute).ok().flatten().unwrap_or_default().into_owned();
-        let nearest = nearest(&found, names).map(str::to_owned);
-        self.error(Flaw::Dangling { element: self.name().to_owned(), attribute, found, kind, nearest })
+        let found = self.text(attribute).ok().flatten().unwrap_or_default();
+        self.element.dangling_value(attribute, &found, kind, names)
     }
 
     fn parsed<T>(
@@ -174,12 +169,6 @@ impl<'a> Node<'a> {
         parse: impl Fn(&str) -> Option<T>,
     ) -> Result<T, ReadError> {
         let text = self.required(attribute)?;
-        parse(&text).ok_or_else(|| self.unexpected(attribute, &text, expected.to_owned(), Vec::new()))
-    }
-
-    fn unexpected(self, attribute: &str, found: &str, expected: String, names: Vec<&'static str>) -> ReadError {
-        let nearest = nearest(found, names).map(str::to_owned);
-        let (element, attribute, found) = (self.name().to_owned(), attribute.to_owned(), found.to_owned());
-        self.error(Flaw::Value { element, attribute, found, expected, nearest })
+        parse(&text).ok_or_else(|| self.element.unexpected_value(attribute, &text, expected, []))
     }
 }

@@ -81,20 +81,20 @@ impl<'a, 'i> Element<'a, 'i> {
 
     /// Makes the error that the value of an attribute is not allowed.
     pub fn unexpected(self, attribute: &str, expected: impl Into<String>) -> ReadError {
-        self.unexpected_name(attribute, expected, [])
+        self.unexpected_value(attribute, self.text(attribute).unwrap_or_default(), expected, [])
     }
 
-    /// Makes the error that the value of an attribute is not one of the given names.
-    pub fn unexpected_name<'n>(
+    /// Makes the error that the value `found` of an attribute is not one of the given names.
+    pub fn unexpected_value<'n>(
         self,
         attribute: &str,
+        found: &str,
         expected: impl Into<String>,
         names: impl IntoIterator<Item = &'n str>,
     ) -> ReadError {
-        let found = self.text(attribute).unwrap_or_default().to_owned();
-        let nearest = nearest(&found, names).map(str::to_owned);
-        let (element, attribute, expected) = (self.name().to_owned(), attribute.to_owned(), expected.into());
-        self.error(Flaw::Value { element, attribute, found, expected, nearest })
+        let nearest = nearest(found, names).map(str::to_owned);
+        let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
+        self.error(Flaw::Value { element, attribute, found: found.to_owned(), expected: expected.into(), nearest })
     }
 
     /// Makes the error that an attribute names an element that does not exist. `names` are the existing names.
@@ -104,9 +104,25 @@ impl<'a, 'i> Element<'a, 'i> {
         kind: &'static str,
         names: impl IntoIterator<Item = &'n str>,
     ) -> ReadError {
-        let found = self.text(attribute).unwrap_or_default().to_owned();
-        let nearest = nearest(&found, names).map(str::to_owned);
-        self.error(Flaw::Dangling { element: self.name().to_owned(), attribute, found, kind, nearest })
+        self.dangling_value(attribute, self.text(attribute).unwrap_or_default(), kind, names)
+    }
+
+    /// Makes the error that the value `found` of an attribute names an element that does not exist.
+    pub fn dangling_value<'n>(
+        self,
+        attribute: &'static str,
+        found: &str,
+        kind: &'static str,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> ReadError {
+        let nearest = nearest(found, names).map(str::to_owned);
+        self.error(Flaw::Dangling {
+            element: self.name().to_owned(),
+            attribute,
+            found: found.to_owned(),
+            kind,
+            nearest,
+        })
     }
 
     /// Returns the number in an attribute, which must exist and be finite.
@@ -129,10 +145,14 @@ impl<'a, 'i> Element<'a, 'i> {
 
     /// Returns the value in an attribute that has one of the given names.
     pub fn one_of<T: Copy>(self, attribute: &'static str, names: &[(&'static str, T)]) -> Result<T, ReadError> {
-        let text = self.required(attribute)?;
+        self.chosen(attribute, self.required(attribute)?, names)
+    }
+
+    /// Returns the value that the text of an attribute names.
+    pub fn chosen<T: Copy>(self, attribute: &str, text: &str, names: &[(&'static str, T)]) -> Result<T, ReadError> {
         names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value).ok_or_else(|| {
             let all: Vec<_> = names.iter().map(|(name, _)| *name).collect();
-            self.unexpected_name(attribute, format!("one of {}", all.join(", ")), all.iter().copied())
+            self.unexpected_value(attribute, text, format!("one of {}", all.join(", ")), all.iter().copied())
         })
     }
 }

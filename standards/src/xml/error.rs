@@ -150,10 +150,7 @@ pub enum Flaw {
         first: u32,
     },
     /// An attribute names an element that does not exist.
-    #[error(
-        "`{attribute}=\"{found}\"` of <{element}> names a {kind} that the file does not have{}",
-        did_you_mean(nearest)
-    )]
+    #[error("`{attribute}=\"{found}\"` of <{element}> names no {kind} of the file{}", did_you_mean(nearest))]
     Dangling {
         /// The name of the element with the reference.
         element: String,

@@ -295,12 +295,9 @@ fn wrong_values_are_refused_with_its_place_and_the_nearest_name() {
     );
     refuses(&[("id=\"-1\"", "id=\"-2\"")], "expected -1 in <right>");
     refuses(&[("laneSection s=\"0\"", "laneSection s=\"10\"")], "expected 0 for the first section");
-    refuses(&[("junction=\"-1\"", "junction=\"7\"")], "names a junction that the file does not have");
+    refuses(&[("junction=\"-1\"", "junction=\"7\"")], "names no junction of the file");
     let predecessor = r#"<link><predecessor elementType="road" elementId="2" contactPoint="end"/></link>"#;
-    refuses(
-        &[("<link/>", predecessor)],
-        "road.xodr:4: `elementId=\"2\"` of <predecessor> names a road that the file does not have",
-    );
+    refuses(&[("<link/>", predecessor)], "road.xodr:4: `elementId=\"2\"` of <predecessor> names no road of the file");
     let second = r#"</road><road id="1" length="5" junction="-1"/>"#;
     refuses(&[("</road>", second)], "the element in line 3 has the same value");
     refuses(

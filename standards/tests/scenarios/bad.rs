@@ -1,14 +1,15 @@
 //! Files with mistakes: each is refused with its file, its line and what to do.
 
-use super::worlds::file;
+use super::worlds::{file, led};
 use paracosm_standards::openscenario::{Xosc, elements};
 use paracosm_standards::{Flaw, Support};
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
-/// Returns the messages about a scenario in which a text is replaced by another text.
-fn messages(found: &str, by: &str) -> String {
+/// Writes a scenario in which a text is replaced by another text, with its catalog and its road. Returns the folder and the file.
+fn changed(found: &str, by: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("catalogs")).unwrap();
     for name in ["straight.xodr", "catalogs/entities.xosc"] {
@@ -18,6 +19,12 @@ fn messages(found: &str, by: &str) -> String {
     assert!(text.contains(found), "{found}");
     let path = folder.path().join("bad.xosc");
     fs::write(&path, text.replacen(found, by, 1)).unwrap();
+    (folder, path)
+}
+
+/// Returns the messages about a scenario in which a text is replaced by another text.
+fn messages(found: &str, by: &str) -> String {
+    let (folder, path) = changed(found, by);
     match Xosc::read(&path) {
         Err(error) => {
             assert!(error.file.starts_with(folder.path()), "{error}");
@@ -30,11 +37,7 @@ fn messages(found: &str, by: &str) -> String {
 #[test]
 fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
     for (found, by, expected) in [
-        (
-            "entityRef=\"Leader\"",
-            "entityRef=\"Leadr\"",
-            "names a entity that the file does not have (did you mean `Leader`?)",
-        ),
+        ("entityRef=\"Leader\"", "entityRef=\"Leadr\"", "names no entity of the file (did you mean `Leader`?)"),
         ("entryName=\"car\"/>", "entryName=\"cat\"/>", "did you mean `car`?"),
         ("catalogName=\"entities\"", "catalogName=\"entitys\"", "did you mean `entities`?"),
         ("$gap + 10", "$gat + 10", "there is no parameter `gat` (did you mean `gap`?)"),
@@ -104,6 +107,20 @@ fn every_refused_element_is_refused_by_its_name() {
         count += 1;
     }
     assert!(count >= 30, "{count} elements");
+}
+
+#[test]
+fn an_action_that_cannot_begin_ends_the_run_with_an_error() {
+    let (_folder, path) = changed(
+        "<ControllerAction>\n                <ActivateControllerAction lateral=\"true\" longitudinal=\"true\"/>\n              </ControllerAction>",
+        r#"<LateralAction><LaneChangeAction>
+             <LaneChangeActionDynamics dynamicsShape="linear" dynamicsDimension="time" value="3"/>
+             <LaneChangeTarget><AbsoluteTargetLane value="-7"/></LaneChangeTarget>
+           </LaneChangeAction></LateralAction>"#,
+    );
+    let program = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program();
+    let ending = format!("{:?}", led(&program).unwrap().ending);
+    assert!(ending.contains("has no lane -7 at s = ") && ending.contains("activation"), "{ending}");
 }
 
 #[test]

@@ -54,9 +54,8 @@ fn compared(folder: &Path, name: &str) -> Result<Difference, String> {
 const HEADING: f64 = 0.01;
 const SPEED: f64 = 0.02;
 
-/// The greatest distances in metres, by the beginnings of names. The scenarios that are not named here are refused, or differ by
-/// more; docs/openscenario.md lists them. In 4.4_1 a trigger comes one tick later than in esmini, because esmini rounds the
-/// values of expressions: 2 m/s to the side are 0.02 m.
+/// The greatest distances in metres, by the beginnings of names. In 4.4_1 a trigger comes one tick later than in esmini, because
+/// esmini rounds the values of expressions: 2 m/s to the side are 0.02 m.
 const DISTANCES: [(&str, f64); 15] = [
     ("alks__alks_scenario_4_1_1", 0.02),
     ("alks__alks_scenario_4_1_2", 0.02),
@@ -75,34 +74,41 @@ const DISTANCES: [(&str, f64); 15] = [
     ("esmini__left-hand-traffic", 0.1),
 ];
 
+/// The scenarios that are refused, or differ by more than 0.1 m, as docs/openscenario.md says.
+const MISSES: [&str; 15] = [
+    "esmini__cut-in",
+    "esmini__cut-in_simple",
+    "esmini__distance_test",
+    "esmini__highway_merge",
+    "esmini__lane_change",
+    "esmini__lane_change_simple",
+    "esmini__ltap-od",
+    "esmini__pedestrian",
+    "esmini__speed-profile",
+    "esmini__synchronize",
+    "esmini__trajectory-test",
+    "esmini__two_plus_one_road",
+    "ncap__AEB_C2C_2023__NCAP_AEB_C2C_CCFhol_2023",
+    "ncap__AEB_C2C_2023__NCAP_AEB_C2C_CCFtap_2023",
+    "ncap__AEB_VRU_2023__NCAP_AEB_VRU_CBNA_2023",
+];
+
 #[test]
 fn entities_move_as_in_esmini() {
     let Some(folder) = files_of_others() else { return };
-    let mut count = 0;
     for file in with_ending(&folder.join("golden"), "csv") {
         let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-        let Some((_, most)) = DISTANCES.iter().find(|(beginning, _)| name.starts_with(beginning)) else { continue };
-        let found = compared(&folder, &name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let found = compared(&folder, &name);
+        let Some((_, most)) = DISTANCES.iter().find(|(beginning, _)| name.starts_with(beginning)) else {
+            assert!(MISSES.contains(&name.as_str()), "{name}: {found:?} is not in a list");
+            assert!(found.is_err() || found.is_ok_and(|found| found.metres > 0.1), "{name} misses no longer");
+            continue;
+        };
+        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
         // The standard leaves the speed of a synchronized entity open on its way.
-        let speed = if *most == 0.1 { 0.05 } else { SPEED };
+        let speed = if name.contains("CPN") { 0.05 } else { SPEED };
         assert!(found.metres <= *most, "{name}: {found:?}");
         assert!(found.heading <= HEADING && found.speed <= speed, "{name}: {found:?}");
         assert!(found.samples >= 100, "{name}: {found:?}");
-        count += 1;
-    }
-    assert_eq!(count, 16);
-}
-
-/// Prints the differences in all scenarios with reference trajectories.
-#[test]
-#[ignore = "a table to look at"]
-fn table_of_all_scenarios() {
-    let Some(folder) = files_of_others() else { return };
-    for file in with_ending(&folder.join("golden"), "csv") {
-        let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-        match compared(&folder, &name) {
-            Ok(found) => println!("{name}: {found:?}"),
-            Err(error) => println!("{name}: {error}"),
-        }
     }
 }

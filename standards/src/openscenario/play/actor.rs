@@ -46,6 +46,8 @@ pub(in crate::openscenario) enum Whereabouts {
 /// The motion of an entity within a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::openscenario) struct Step {
+    /// The speed at the beginning of the tick in m/s.
+    pub before: f64,
     /// The offset from the middle of the lane at the end of the tick.
     pub offset: Option<f64>,
     /// The angle from the direction of the lane that the motion aside gives the entity, in radians.
@@ -105,9 +107,9 @@ impl Actor {
     }
 
     /// Moves the entity on by a tick of `dt` seconds, as its actions say.
-    pub fn advance(&mut self, dt: f64, before: f64, map: &Map) {
+    pub fn advance(&mut self, dt: f64, map: &Map) {
         let from = self.pose;
-        let Step { offset, angle, aside, pose, landed } = std::mem::take(&mut self.step);
+        let Step { before, offset, angle, aside, pose, landed } = std::mem::take(&mut self.step);
         if let Some(pose) = pose {
             self.put(landed.map_or(Whereabouts::Free(pose), Whereabouts::OnLane), map);
         } else {

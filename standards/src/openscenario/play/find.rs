@@ -21,8 +21,10 @@ pub(in crate::openscenario) enum Lost {
     NoLane { road: String, lane: i32, s: f64, first: i32, last: i32 },
     #[error("road `{road}` has no place at s = {s} m, it is {length} m long")]
     NoPlace { road: String, s: f64, length: f64 },
-    #[error("the position of `{entity}` is beside all roads, so no place on a road is relative to it")]
+    #[error("`{entity}` is beside all roads, and has no place on a lane")]
     OffRoad { entity: String },
+    #[error("no road leads from `{from}` to `{to}` within 2 km")]
+    NoWay { from: String, to: String },
 }
 
 /// The least distance in metres beyond the end of a road at which a position is not on the road.
@@ -147,14 +149,21 @@ fn road_at(id: &str, s: f64, map: &Map) -> Result<(usize, f64), Lost> {
 }
 
 fn on_lane(index: usize, lane: i32, s: f64, offset: f64, turn: Turn, map: &Map) -> Result<Place, Lost> {
+    check_lane(index, lane, s, map)?;
     let road = &map.roads[index];
-    let section = road.section_at(s);
-    let lanes = &road.sections[section].lanes;
-    if road.sections[section].lane(lane).is_none() {
-        let numbers = [lanes.last(), lanes.first()].map(|lane| lane.map_or(0, |lane| lane.number));
-        return Err(Lost::NoLane { road: road.id.clone(), lane, s, first: numbers[0], last: numbers[1] });
+    let along = driving_turn(road, road.section_at(s), lane);
+    Ok(facing(Place { road: index, s, lane, offset, turn: along }, turn, map))
+}
+
+/// Checks that a road has a lane at a place along it.
+pub(super) fn check_lane(road: usize, lane: i32, s: f64, map: &Map) -> Result<(), Lost> {
+    let road = &map.roads[road];
+    let section = &road.sections[road.section_at(s)];
+    if section.lane(lane).is_some() {
+        return Ok(());
     }
-    Ok(facing(Place { road: index, s, lane, offset, turn: driving_turn(road, section, lane) }, turn, map))
+    let numbers = [section.lanes.last(), section.lanes.first()].map(|lane| lane.map_or(0, |lane| lane.number));
+    Err(Lost::NoLane { road: road.id.clone(), lane, s, first: numbers[0], last: numbers[1] })
 }
 
 /// Returns the place `t` metres to the left of the reference line, on the lane that is there.

@@ -34,10 +34,7 @@ impl Cast {
             Measure::VariableIs(index, value) => f64::from(u8::from(self.variables[*index].value == *value)),
             Measure::State { element, kind, state } => f64::from(u8::from(is_in(element, kind, *state))),
             Measure::Speed { entity, direction } => speed(actor(*entity), *direction),
-            Measure::Acceleration { entity, direction } => match direction {
-                Direction::Lateral => 0.0,
-                Direction::Longitudinal | Direction::Total => actor(*entity).acceleration,
-            },
+            Measure::Acceleration { entity } => actor(*entity).acceleration,
             Measure::RelativeSpeed { entity, other, direction } => {
                 speed(actor(*entity), *direction) - speed(actor(*other), *direction)
             }

@@ -22,8 +22,8 @@ pub(in crate::openscenario) struct Stage {
     behind: Option<f64>,
     /// `true` once the stop trigger has come.
     pub stopped: bool,
-    /// The reason why an action could not begin.
-    pub lost: Option<Lost>,
+    /// The first action that could not begin, by its name, and the reason.
+    lost: Option<(String, Lost)>,
 }
 
 /// An element of the storyboard at play.
@@ -76,11 +76,6 @@ impl Stage {
         }
         let (state, transition) = (State::Running, None);
         stage.items.push(Playing { item, state, transition, runs: 0, start: None, stop: None, motions });
-        for index in 0..stage.cast.actors.len() {
-            if let Some(place) = stage.cast.actors[index].on_lane().copied() {
-                stage.cast.actors[index].put(super::actor::Whereabouts::OnLane(place), &stage.cast.map);
-            }
-        }
         let activates = |playing: &Playing| match &playing.item.kind {
             Kind::Action(actors, Action::Activate { .. }) => actors.contains(&ego),
             _ => false,
@@ -111,11 +106,14 @@ impl Stage {
     }
 
     /// Plays a tick of `dt` seconds. `truths` are the values of all conditions at its beginning.
-    pub fn play(&mut self, truths: &[bool], dt: f64) {
+    ///
+    /// # Errors
+    /// An action cannot begin: the name of the action, and the reason.
+    pub fn play(&mut self, truths: &[bool], dt: f64) -> Result<(), (String, Lost)> {
         let time = self.cast.time;
         self.stopped |= self.stop.as_mut().is_some_and(|stop| stop.check(time, truths));
         self.items.iter_mut().for_each(|playing| playing.transition = None);
-        let before: Vec<f64> = self.cast.actors.iter().map(|actor| actor.speed).collect();
+        self.cast.actors.iter_mut().for_each(|actor| actor.step.before = actor.speed);
         for index in 0..self.items.len() {
             self.update(index, truths);
         }
@@ -123,14 +121,15 @@ impl Stage {
         for index in (0..self.items.len()).rev() {
             self.complete(index);
         }
-        for (index, before) in before.into_iter().enumerate() {
+        for index in 0..self.cast.actors.len() {
             if index != self.cast.ego || self.cast.lead.driven().is_none() {
-                self.cast.actors[index].advance(dt, before, &self.cast.map);
+                self.cast.actors[index].advance(dt, &self.cast.map);
             }
         }
         self.cast.lead.to(self.cast.actors[self.cast.ego].motion());
         self.cast.time += dt;
         self.behind = Some(dt);
+        self.lost.take().map_or(Ok(()), Err)
     }
 
     /// Takes over the motion of the ego vehicle during the last tick if a driver drives it. The car moves after the storyboard.
@@ -195,7 +194,10 @@ impl Stage {
                 match self.cast.begin(entity, &action) {
                     Ok(Some(motion)) => self.take_over(index, entity, motion),
                     Ok(None) => (),
-                    Err(lost) => self.lost = Some(lost),
+                    Err(lost) => {
+                        let name = self.items[index].item.name.clone();
+                        self.lost.get_or_insert((name, lost));
+                    }
                 }
             }
         }

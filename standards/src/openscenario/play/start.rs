@@ -2,10 +2,11 @@
 
 use super::actor::{Actor, Whereabouts};
 use super::cast::Cast;
-use super::find::{Lost, find, neighbour, track};
+use super::find::{Lost, check_lane, find, find_target, neighbour, track};
 use super::motion::Motion;
 use crate::openscenario::action::{Action, Gap, Lane, Lateral, Target, Trajectory};
-use crate::openscenario::condition::{Metric, MetricKind, System};
+use crate::openscenario::condition::Metric;
+use crate::openscenario::place::Place;
 use crate::openscenario::transition::{Dynamics, Extent, Shape};
 
 impl Cast {
@@ -25,40 +26,39 @@ impl Cast {
                 None
             }
             Action::Speed { dynamics, target } => self.speed(entity, *dynamics, *target),
-            Action::Gap { entity: other, gap, freespace, continuous, ahead, limits } => {
-                let how = Metric { kind: MetricKind::Longitudinal, freespace: *freespace, system: System::Road };
+            Action::Gap { entity: other, gap, how, continuous, ahead, limits } => {
                 let motion = Motion::Gap {
                     other: *other,
                     gap: *gap,
-                    how,
+                    how: *how,
                     continuous: *continuous,
                     ahead: *ahead,
                     limits: *limits,
                 };
                 // Without limits the entity is where it is to be at once.
                 if limits.is_none() {
-                    self.close_up(entity, *other, *gap, how, *ahead);
+                    self.close_up(entity, *other, *gap, *how, *ahead)?;
                 }
                 (limits.is_some() || *continuous).then_some(motion)
             }
             Action::LaneChange { dynamics, lane, offset } => {
-                let Some(mut place) = self.actors[entity].on_lane().copied() else { return Ok(None) };
+                let mut place = self.on_lane(entity)?;
                 let lane = match lane {
                     Lane::Absolute(lane) => *lane,
                     Lane::Relative { entity: of, lanes } => {
-                        let other = self.actors[*of].on_lane();
-                        let Some(other) = other else { return Ok(None) };
+                        let other = self.on_lane(*of)?;
                         let left = if other.is_against() { -*lanes } else { *lanes };
                         neighbour(other.lane_below(&self.map), left)
                     }
                 };
+                check_lane(place.road, lane, place.s, &self.map)?;
                 place.enter(lane, &self.map);
                 self.actors[entity].place = Whereabouts::OnLane(place);
                 let target = if place.is_against() { -*offset } else { *offset };
                 Some(Motion::LaneChange(dynamics.from(place.offset, target)))
             }
             Action::LaneOffset { shape, most_acceleration, target, continuous } => {
-                let Some(place) = self.actors[entity].on_lane().copied() else { return Ok(None) };
+                let place = self.on_lane(entity)?;
                 let target = match target {
                     Lateral::Absolute(value) => *value,
                     Lateral::Relative { entity: of, value } => {
@@ -78,7 +78,12 @@ impl Cast {
                 }
                 motion
             }
-            Action::Synchronize(sync) => Some(Motion::Synchronize(sync.clone())),
+            Action::Synchronize(sync) => {
+                for target in [&sync.master_target, &sync.target] {
+                    find_target(target, &self.actors, &self.map)?;
+                }
+                Some(Motion::Synchronize(sync.clone()))
+            }
         })
     }
 
@@ -109,12 +114,29 @@ impl Cast {
     }
 
     /// Puts an entity at its distance from another entity, at once.
-    fn close_up(&mut self, entity: usize, other: usize, gap: Gap, how: Metric, ahead: Option<bool>) {
-        let actor = &self.actors[entity];
-        let missing = self.missing(actor, other, gap, how, ahead);
-        let Some(mut place) = actor.on_lane().copied().filter(|_| missing.is_finite()) else { return };
+    fn close_up(
+        &mut self,
+        entity: usize,
+        other: usize,
+        gap: Gap,
+        how: Metric,
+        ahead: Option<bool>,
+    ) -> Result<(), Lost> {
+        let mut place = self.on_lane(entity)?;
+        let missing = self.missing(&self.actors[entity], other, gap, how, ahead);
+        if !missing.is_finite() {
+            let [from, to] = [entity, other].map(|index| self.actors[index].entity.name.clone());
+            return Err(Lost::NoWay { from, to });
+        }
         place.advance(missing, &self.map);
         self.actors[entity].put(Whereabouts::OnLane(place), &self.map);
+        Ok(())
+    }
+
+    /// Returns the place of an entity on its lane.
+    fn on_lane(&self, entity: usize) -> Result<Place, Lost> {
+        let actor = &self.actors[entity];
+        actor.on_lane().copied().ok_or_else(|| Lost::OffRoad { entity: actor.entity.name.clone() })
     }
 
     /// Returns the metres that an entity has to move forward to have its distance from another entity. `ahead` is `true` if the

@@ -27,7 +27,7 @@ struct History {
 impl Watch {
     /// Begins to watch a trigger. `inputs` gives the conditions their indices, in order.
     pub fn new(trigger: &Trigger, inputs: &mut impl Iterator<Item = usize>) -> Self {
-        let history = |condition: &Condition| History {
+        let mut history = |condition: &Condition| History {
             edge: condition.edge,
             delay: condition.delay,
             input: inputs.next().expect("each condition has an input"),
@@ -35,7 +35,6 @@ impl Watch {
             value: false,
             changes: VecDeque::new(),
         };
-        let mut history = history;
         Self(trigger.iter().map(|group| group.iter().map(&mut history).collect()).collect())
     }
 
