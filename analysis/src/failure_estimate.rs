@@ -116,8 +116,8 @@ impl FailureEstimate {
     /// A trial does not fit into the study's space, or its constraints cannot be satisfied.
     pub fn of(log: &Log, axes: Axes) -> Result<Option<Self>, Error> {
         let (study, trials) = (log.study(), log.trials());
-        let judged: Vec<&Trial> =
-            trials.iter().filter(|t| matches!(t.verdict, Verdict::Fail | Verdict::Pass)).collect();
+        let is_judged = |t: &&Trial| matches!(t.verdict, Verdict::Fail | Verdict::Unpreventable | Verdict::Pass);
+        let judged: Vec<&Trial> = trials.iter().filter(is_judged).collect();
         let failures = judged.iter().filter(|trial| trial.is_failure()).count();
         if failures == 0 || failures == judged.len() {
             return Ok(None);

@@ -7,7 +7,7 @@ use paracosm_oracles::Verdict;
 /// A summary of the trials so far, with the counts of verdicts and the results of each requirement.
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
-    counts: [usize; 5],
+    counts: [usize; Verdict::ALL.len()],
     requirements: Vec<Judged>,
 }
 

@@ -38,6 +38,7 @@ pub mod gallery;
 mod json;
 mod json_text;
 mod judge;
+mod jury;
 mod lock;
 mod log;
 mod observer;
@@ -75,6 +76,7 @@ pub use observer::Observer;
 pub use process::end_all_processes;
 pub use regression::{Expectation, Regression, Replayed};
 pub use scales::{Learned, Scales};
+pub use simulator::Recording;
 pub use space_file::{SpaceFile, is_model};
 pub use steering::Steering;
 pub use study::{NamedCommand, Sampling, StatedRequirement, Study, StudyBuilder, Subject};
@@ -114,6 +116,7 @@ pub mod reasons {
     pub use crate::study_file::FormatFlaw;
     pub use crate::test_set::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};
     pub use crate::trials_file::LogFlaw;
+    pub use crate::worker::OtherTrace;
 }
 
 /// The target triple for which this software was built.

@@ -53,6 +53,8 @@ struct Entries {
     driver: Option<DriverChoice>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     perceiver: Option<PerceiverChoice>,
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    references: Vec<DriverChoice>,
     #[serde(skip_serializing_if = "Appearances::is_empty", default)]
     models: Appearances,
     /// True if runs ended as soon as all requirements were decided, as older versions allowed.
@@ -225,6 +227,7 @@ impl Entries {
         must_not("fixed", of, self.fixed.is_some())?;
         must_not("driver", of, self.driver.is_some())?;
         must_not("perceiver", of, self.perceiver.is_some())?;
+        must_not("references", of, !self.references.is_empty())?;
         must_not("models", of, !self.models.is_empty())?;
         must_not("stop_runs_early", of, self.stop_runs_early)?;
         must_not("dt", of, self.dt.is_some())?;
@@ -263,7 +266,7 @@ impl TryFrom<Entries> for StudyFile {
             return Err(FormatFlaw::Format { found: entries.format, version: entries.version });
         }
         let subject = entries.take_subject()?;
-        let Entries { version, target, space, requirements, odd, .. } = entries;
+        let Entries { version, target, space, requirements, odd, references, .. } = entries;
         // This sequence had the name `halton-shifted`, with or without a seed, until it was found to be the seeded
         // `halton`.
         let (strategy, seed) = match entries.strategy.as_str() {
@@ -286,6 +289,8 @@ impl TryFrom<Entries> for StudyFile {
         let made_by = Maker { version, target };
         let study = Study::of_file(made_by, subject, space, requirements, odd, sampling);
         study.check_entries()?;
+        // The entries of a system have no reference drivers, so this is no error.
+        let study = study.with_references(references).map_err(|_| EntryFlaw::NoSubject)?;
         for (id, scale) in &entries.learned_scales {
             check_scale(&format!("learned_scales.{id}"), *scale)?;
         }
@@ -301,6 +306,7 @@ impl From<StudyFile> for Entries {
             DiscreteFamily::Random { delta } => Some(delta).filter(|delta| *delta != DiscreteFamily::DELTA),
             DiscreteFamily::Ipog | DiscreteFamily::Cross => None,
         };
+        let driver = |study: &Study| Some(study.subject().scenario().ok()?.driver().clone());
         Self {
             format: FORMAT,
             version: made_by.version,
@@ -311,6 +317,7 @@ impl From<StudyFile> for Entries {
             fixed: None,
             driver: None,
             perceiver: None,
+            references: study.references().iter().filter_map(driver).collect(),
             models: Appearances::default(),
             stop_runs_early: false,
             dt: None,

@@ -154,7 +154,7 @@ fn agrees(trial: &Trial, study: &Study, ids: &HashSet<&str>) -> Result<(), LogFl
     let worst = trial.decided().min_by(|a, b| a.1.total_cmp(&b.1));
     let contradicts = |robustness: f64| match trial.verdict {
         Verdict::Pass => robustness < 0.0,
-        Verdict::Fail => robustness > 0.0,
+        Verdict::Fail | Verdict::Unpreventable => robustness > 0.0,
         Verdict::Inconclusive | Verdict::Invalid | Verdict::Error => false,
     };
     match worst.filter(|(_, robustness)| contradicts(*robustness)) {

@@ -7,17 +7,18 @@ use crate::darkroom::Darkroom;
 use crate::executor::Desk;
 use crate::expected::Expected;
 use crate::judge::judge;
+use crate::jury::Jury;
 #[cfg(feature = "camera")]
 use crate::perception::{Exam, Film, Notes};
-use crate::simulator::Simulator;
+use crate::simulator::{Recording, Simulator};
 use crate::study::Subject;
 #[cfg(not(feature = "camera"))]
 use crate::study::WithoutCameras;
-use crate::{Error, Log, Problem, ProblemKind, Study, Trial};
+use crate::{Error, Log, Problem, ProblemKind, Reason, Study, Trial};
 #[cfg(feature = "camera")]
 use paracosm_engine::sensor::Cameras;
 use paracosm_engine::sensor::Shutters;
-use paracosm_engine::{Judgement, Outcome, Run, Test};
+use paracosm_engine::{Judgement, Run, Test};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::Values;
 use std::sync::Arc;
@@ -27,9 +28,20 @@ use std::sync::atomic::AtomicBool;
 pub struct Worker<'a> {
     study: &'a Study,
     bench: Bench<'a>,
+    jury: Jury<'a>,
     #[cfg(feature = "camera")]
     exam: Option<Exam>,
 }
+
+/// The error that a test has another trace than in the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("test {index} has another trace than in the log, because the driver or the software has changed since")]
+pub struct OtherTrace {
+    /// The index of the test.
+    pub index: usize,
+}
+
+impl Reason for OtherTrace {}
 
 /// The simulator or the external system that runs the tests.
 enum Bench<'a> {
@@ -67,8 +79,10 @@ impl<'a> Worker<'a> {
         #[cfg(feature = "camera")]
         let exam = study.perceiver().map(|choice| Exam::new(choice, study.space(), stop.clone())).transpose()?;
         let bench = match study.subject() {
-            Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
-            Subject::System(system) => Bench::System(Connection::new(system, stop)?),
+            Subject::Scenario(simulation) => {
+                Bench::Simulator(Box::new(Simulator::new(simulation, stop.clone(), darkroom)?))
+            }
+            Subject::System(system) => Bench::System(Connection::new(system, stop.clone())?),
         };
         #[cfg(not(feature = "camera"))]
         if study.perceiver().is_some() {
@@ -77,6 +91,7 @@ impl<'a> Worker<'a> {
         Ok(Self {
             study,
             bench,
+            jury: Jury::of(study, &stop)?,
             #[cfg(feature = "camera")]
             exam,
         })
@@ -105,11 +120,11 @@ impl<'a> Worker<'a> {
         if self.exam.is_some() {
             return self.examine(index, test, |_| ());
         }
-        let Self { study, bench, .. } = self;
+        let Self { study, bench, jury, .. } = self;
         match bench {
             Bench::Simulator(simulator) => {
                 let outcome = simulator.run(Test::new(&study.complete(test), study.space()));
-                judged(study, index, test, outcome)
+                jury.judged(study, index, test, outcome)
             }
             Bench::System(connection) => asked(connection, study, index, test),
         }
@@ -133,13 +148,34 @@ impl<'a> Worker<'a> {
         cameras: Option<Shutters>,
         see: impl FnMut(&Run),
     ) -> (Trial, Option<Trace>) {
-        let Self { study, bench, .. } = self;
+        let Self { study, bench, jury, .. } = self;
         match bench {
             Bench::Simulator(simulator) => {
                 let outcome = simulator.watch(Test::new(&study.complete(test), study.space()), cameras, see);
-                judged(study, index, test, outcome)
+                jury.judged(study, index, test, outcome)
             }
             Bench::System(connection) => asked(connection, study, index, test),
+        }
+    }
+
+    /// Runs a logged test again, and records the motion of everything in it.
+    ///
+    /// # Errors
+    /// The world of the test cannot be built, the run broke, or the trace differs from the logged trace.
+    pub fn record(&mut self, logged: &Trial) -> Result<Recording, Error> {
+        let study = self.study;
+        let Bench::Simulator(simulator) = &mut self.bench else {
+            return Err(study.subject().scenario().map(|_| ()).expect_err("the subject is a system").into());
+        };
+        let complete = study.complete(&logged.test);
+        let (outcome, recording) = simulator.record(Test::new(&complete, study.space()))?;
+        match outcome.trace.map(|trace| trace.hash()) {
+            None => Err(Problem::new(ProblemKind::World, outcome.ending.message().unwrap_or_default()).into()),
+            // A perceiver adds signals to the logged trace.
+            Some(hash) if study.perceiver().is_none() && logged.trace_hash.as_ref() != Some(&hash) => {
+                Err(OtherTrace { index: logged.index }.into())
+            }
+            Some(_) => Ok(recording),
         }
     }
 
@@ -168,7 +204,7 @@ impl<'a> Worker<'a> {
     /// Runs a test while the camera of the perceiver films, and judges the answers of the perceiver.
     #[cfg(feature = "camera")]
     fn examine(&mut self, index: usize, test: &Values, mut see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
-        let Self { study, bench: Bench::Simulator(simulator), exam: Some(exam) } = self else {
+        let Self { study, bench: Bench::Simulator(simulator), exam: Some(exam), .. } = self else {
             return self.film(index, test, None, see);
         };
         let broken = |problem| (Trial::broken(index, test.clone(), problem), None);
@@ -238,22 +274,10 @@ impl<'a> Worker<'a> {
         (first, tests): (usize, &[Values]),
         stopped: impl Fn() -> bool,
     ) {
-        let Self { study, bench: Bench::Simulator(simulator), .. } = self else { return };
+        let Self { study, bench: Bench::Simulator(simulator), jury, .. } = self else { return };
         let test = |place: usize| study.complete(&tests[place]);
-        let trial = |place: usize, outcome| judged(study, first + place, &tests[place], outcome).0;
+        let trial = |place: usize, outcome| jury.judged(study, first + place, &tests[place], outcome).0;
         simulator.run_in_lockstep(desk, at_once, (&test, study.space()), stopped, trial);
-    }
-}
-
-/// Returns the trial of a test that was simulated or broke, judged by the formulas of the study as well.
-fn judged(study: &Study, index: usize, test: &Values, outcome: Result<Outcome, Problem>) -> (Trial, Option<Trace>) {
-    match outcome {
-        Err(problem) => (Trial::broken(index, test.clone(), problem), None),
-        Ok(outcome) => {
-            let (mut trial, trace) = Trial::simulated(index, test.clone(), outcome);
-            trace.iter().for_each(|trace| judge(&mut trial, study.given(), trace));
-            (trial, trace)
-        }
     }
 }
 

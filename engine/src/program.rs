@@ -1,7 +1,7 @@
 //! Scenarios as functions, and the declaration that such a function makes when it is run without a test.
 
 use crate::flaw::WorldFlaw;
-use crate::scenario::Scenario;
+use crate::scenario::{Constraint, Scenario};
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
 use paracosm_space::{Space, SpaceError, Values};
@@ -45,10 +45,12 @@ impl fmt::Debug for Build {
 }
 
 /// The parameters and requirements that a program declares.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Declaration {
     /// The parameters of the program, in the order of their declaration.
     pub parameters: Vec<Declared>,
+    /// The constraints between the parameters.
+    pub constraints: Vec<Constraint>,
     /// The requirements that the program states.
     pub requirements: Vec<Requirement>,
     /// The duration in seconds of a run without a contact.
@@ -144,7 +146,13 @@ impl Program {
         Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())
             .map_err(|source| ProgramError::Parameters { program: self.name().to_owned(), source })?;
         let requirements = scenario.requirements.borrow().iter().map(|stated| stated.requirement.clone()).collect();
-        Ok(Declaration { parameters, requirements, duration: scenario.duration, dt: scenario.dt })
+        Ok(Declaration {
+            parameters,
+            constraints: scenario.constraints,
+            requirements,
+            duration: scenario.duration,
+            dt: scenario.dt,
+        })
     }
 
     /// Checks that the program can build its world for a test.
@@ -169,6 +177,9 @@ impl Program {
         self.build(&mut scenario);
         if let Some(test) = test {
             self.check_names(&scenario, test.values)?;
+            for why in scenario.constraints.iter().filter_map(|constraint| constraint.broken(test.values)) {
+                scenario.flaw(WorldFlaw::Refused { why });
+            }
         }
         scenario.lay_out();
         let mut flaws = Vec::new();

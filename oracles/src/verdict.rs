@@ -53,6 +53,8 @@ pub enum Verdict {
     Pass,
     /// The run of the test violates a requirement.
     Fail,
+    /// The run of the test violates a requirement, and none of the reference drivers avoids the violation.
+    Unpreventable,
     /// The run violates no requirement, but the situation that the test examines never occurred.
     Inconclusive,
     /// The world of the test cannot be built.
@@ -61,11 +63,18 @@ pub enum Verdict {
     Error,
 }
 
+impl Verdict {
+    /// All verdicts, in the order in which tables show them.
+    pub const ALL: [Self; 6] =
+        [Self::Fail, Self::Unpreventable, Self::Pass, Self::Inconclusive, Self::Invalid, Self::Error];
+}
+
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Verdict::Pass => "pass",
             Verdict::Fail => "fail",
+            Verdict::Unpreventable => "unpreventable",
             Verdict::Inconclusive => "inconclusive",
             Verdict::Invalid => "invalid",
             Verdict::Error => "error",

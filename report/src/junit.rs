@@ -119,6 +119,9 @@ impl<'a> Case<'a> {
             Verdict::Pass => (End::Passed, String::new()),
             Verdict::Fail => (End::Failed, violations(study, trial)),
             Verdict::Error => (End::Error, error.to_owned()),
+            Verdict::Unpreventable => {
+                (End::Skipped, format!("unpreventable: no reference driver avoids it: {}", violations(study, trial)))
+            }
             Verdict::Inconclusive => (
                 End::Skipped,
                 "inconclusive: the situation that the test is about never came about, or the test ended too early"

@@ -1,8 +1,8 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Status, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, perceive, record,
-    replay, roads, run, shrink, trace,
+    Failure, Status, Verbosity, bench, blame, describe, doctor, export, likelihood, list, map, monitor, perceive,
+    record, replay, roads, run, shrink, trace,
 };
 use clap::{Parser, Subcommand};
 
@@ -91,6 +91,9 @@ enum Verb {
     )]
     #[command(after_help = REPLAYS)]
     Replay(replay::Options),
+    /// Write a logged test as a scenario and its roads (ASAM OpenSCENARIO and OpenDRIVE), for other simulators
+    #[command(after_help = export::EXAMPLES)]
+    Export(export::Options),
     /// Find the simplest test near a failing one that still fails
     #[command(after_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
                             paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json")]
@@ -129,6 +132,7 @@ impl Command {
             Some(Verb::Describe(options)) => options.execute(self.verbosity),
             Some(Verb::Map(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
+            Some(Verb::Export(options)) => options.execute(self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(self.verbosity),
             Some(Verb::Blame(options)) => options.execute(self.verbosity),
             Some(Verb::Trace(options)) => options.execute(),

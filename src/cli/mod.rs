@@ -11,6 +11,7 @@ mod cover;
 mod describe;
 mod doctor;
 mod draw;
+mod export;
 mod fuzz;
 mod interrupt;
 mod likelihood;

@@ -27,8 +27,6 @@ pub(super) struct Printed<'a> {
     pub locate: bool,
 }
 
-const VERDICTS: [Verdict; 5] = [Verdict::Fail, Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
-
 impl Printed<'_> {
     pub(super) fn table(&self) -> String {
         let (study, summary) = (self.study(), &self.report.summary);
@@ -39,7 +37,7 @@ impl Printed<'_> {
             study.sampling(),
             plural(summary.tests(), "test")
         ));
-        for verdict in VERDICTS {
+        for verdict in Verdict::ALL {
             let count = summary.count(verdict);
             if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
                 let share = percent(count as f64 / summary.tests().max(1) as f64);
@@ -104,7 +102,7 @@ impl Printed<'_> {
     }
 
     pub(super) fn json(&self) -> serde_json::Value {
-        let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.report.summary.count(verdict).into()));
+        let counts = Verdict::ALL.map(|verdict| (verdict.to_string(), self.report.summary.count(verdict).into()));
         let (study, summary) = (self.study(), &self.report.summary);
         let worst = summary.worst(self.report.log.scales()).map(|worst| {
             let trial = &self.report.log.trials()[worst.index];
@@ -261,6 +259,7 @@ impl Printed<'_> {
 /// Explains a verdict that is neither pass nor fail.
 fn meaning(verdict: Verdict) -> &'static str {
     match verdict {
+        Verdict::Unpreventable => "; no reference driver avoids them",
         Verdict::Inconclusive => "; their situation never came about, or they ended too early",
         Verdict::Invalid => "; their worlds cannot be built, and they cover nothing",
         Verdict::Error => "; they broke, and cover nothing",

@@ -7,6 +7,7 @@ use crate::campaign;
 use crate::engine::vehicle::VehicleModel;
 use crate::oracles::Semantics;
 use crate::space::{Domain, Value, did_you_mean, nearest};
+use crate::standards::openscenario::EGO;
 use clap::Args;
 use paracosm_campaign::study::Variation;
 use paracosm_campaign::{Error, StatedRequirement, Study, StudyBuilder};
@@ -24,6 +25,12 @@ pub(super) struct Subject {
     /// per-tick, constant
     #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
     open: Vec<String>,
+    /// Open each parameter for which a scenario file has a range with a step to the whole range
+    #[arg(long)]
+    continuous: bool,
+    /// Let the driver have this entity of a scenario file [default: Ego, or the first entity with a controller]
+    #[arg(long, value_name = "NAME")]
+    ego: Option<String>,
     /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver or of the car:
     /// driver.NAME=VALUE, vehicle.NAME=VALUE, vehicle=jointed
     #[arg(long, value_name = "NAME=VALUE")]
@@ -37,6 +44,10 @@ pub(super) struct Subject {
     /// PARACOSM_ADDRESS. Each worker starts the command once
     #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
     driver_command: Option<String>,
+    /// Give a violation that none of these drivers avoids in the same test the verdict `unpreventable`; such a test is no
+    /// failure. `paracosm-fuzz list drivers` shows all drivers
+    #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
+    reference: Vec<String>,
     /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size. `car` is the ego vehicle;
     /// other actors have their names of the traces; `tree` also stands for `tree-2` and so on
     #[arg(long, value_name = "ACTOR=FILE.glb")]
@@ -86,6 +97,12 @@ impl Subject {
             Some(study) => study,
             None => self.driven(Study::of(crate::catalogue().find(&self.scenario)?)),
         };
+        if self.continuous {
+            study = study.continuous();
+        }
+        if let Some(entity) = &self.ego {
+            study = study.fix(EGO, Value::from(entity.as_str()));
+        }
         for text in &self.set {
             let (name, value) = text.split_once('=').ok_or_else(|| {
                 usage(format!(
@@ -133,6 +150,7 @@ impl Subject {
             (None, Some(driver)) => study.driver(driver),
             (None, None) => study,
         };
+        let study = self.reference.iter().fold(study, |study, name| study.reference(name));
         self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
     }
 

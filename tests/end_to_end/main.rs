@@ -15,6 +15,7 @@ mod comparison;
 mod covering;
 mod documents;
 mod earlier_versions;
+mod exports;
 mod extend;
 mod external_drivers;
 mod generate;

@@ -37,9 +37,10 @@ const FORMAT: u32 = 1;
 const LINE: usize = 100;
 
 /// The letters that stand for the verdicts in a map file.
-const LETTERS: [(Verdict, char); 5] = [
+const LETTERS: [(Verdict, char); 6] = [
     (Verdict::Pass, '.'),
     (Verdict::Fail, 'F'),
+    (Verdict::Unpreventable, 'u'),
     (Verdict::Inconclusive, 'i'),
     (Verdict::Invalid, 'x'),
     (Verdict::Error, 'e'),

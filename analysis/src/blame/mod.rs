@@ -107,7 +107,7 @@ impl Rerun {
         let robustness = trial.requirements().map(|id| (id.to_owned(), Number(trial.robustness(id))));
         Self {
             verdict: trial.verdict,
-            prevents: prevents(failing, trial),
+            prevents: trial.prevents(failing),
             robustness: robustness.collect(),
             error: trial.error().map(str::to_owned),
         }
@@ -117,15 +117,6 @@ impl Rerun {
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
         self.robustness.get(requirement).and_then(|number| number.0)
     }
-}
-
-/// Returns `true` if the driver of `trial` prevents the failure; `None` if its run was not judged.
-fn prevents(failing: &Trial, trial: &Trial) -> Option<bool> {
-    let decided = |trial: &Trial, id: &str| trial.robustness(id).is_some();
-    let holds = |trial: &Trial, id: &str| decided(trial, id) && !trial.violates(id);
-    trial
-        .covers()
-        .then(|| failing.violated().all(|id| holds(trial, id)) && !trial.violated().any(|id| holds(failing, id)))
 }
 
 impl Blamed {

@@ -12,10 +12,11 @@ use crate::darkroom::{Darkroom, NoImage};
 use crate::drivers::{Drivers, NoDriver};
 use crate::executor::Desk;
 use crate::study::{Appearances, Simulation};
-use crate::{Error, Problem};
+use crate::{Error, Problem, ProblemKind};
+use paracosm_engine::road::RoadNetwork;
 use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::vehicle::VehicleSetup;
-use paracosm_engine::{Outcome, Program, Run, Test};
+use paracosm_engine::{Motion, Outcome, Program, Run, Test};
 use paracosm_space::{Space, Values};
 use ride::{Ride, is_broken};
 use std::slice;
@@ -29,6 +30,15 @@ pub struct Simulator<'a> {
     drivers: Drivers<'a>,
     appearances: Appearances,
     darkroom: Option<Arc<Darkroom>>,
+}
+
+/// A recorded run: where everything was at every tick, and on which roads.
+#[derive(Debug, Clone)]
+pub struct Recording {
+    /// The motion of all bodies.
+    pub motion: Motion,
+    /// The roads.
+    pub network: Arc<RoadNetwork>,
 }
 
 impl<'a> Simulator<'a> {
@@ -85,7 +95,7 @@ impl<'a> Simulator<'a> {
     /// Runs a test, and returns the outcome.
     pub fn run(&mut self, test: Test<'_>) -> Result<Outcome, Problem> {
         let has_past = self.drivers.any_idle();
-        let outcome = self.ride(test, None, |_| ());
+        let outcome = self.ride(test, |_| (), |_| ());
         let is_doubtful = has_past && is_broken(&outcome) && self.drivers.gives_another_chance();
         if is_doubtful { self.watch(test, None, |_| ()) } else { outcome }
     }
@@ -95,14 +105,32 @@ impl<'a> Simulator<'a> {
     pub fn watch(&mut self, test: Test<'_>, film: Option<Shutters>, see: impl FnMut(&Run)) -> Result<Outcome, Problem> {
         // If the test had to be run again, `see` would get it twice.
         self.drivers.renew();
-        self.ride(test, film, see)
+        self.ride(test, |run| film.into_iter().for_each(|film| run.film(film)), see)
     }
 
-    fn ride(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Result<Outcome, Problem> {
+    /// Runs a test, and returns the outcome with the motion of all bodies and the roads.
+    pub fn record(&mut self, test: Test<'_>) -> Result<(Outcome, Recording), Problem> {
+        self.drivers.renew();
+        let mut recording = None;
+        let outcome = self.ride(test, Run::record_motion, |run| {
+            if run.is_over() {
+                let motion = run.motion().cloned();
+                recording = motion.map(|motion| Recording { motion, network: Arc::clone(run.network()) });
+            }
+        })?;
+        let missing = || Problem::new(ProblemKind::World, outcome.ending.message().unwrap_or_default());
+        let recording = recording.ok_or_else(missing)?;
+        Ok((outcome, recording))
+    }
+
+    fn ride(
+        &mut self,
+        test: Test<'_>,
+        prepare: impl FnOnce(&mut Run),
+        mut see: impl FnMut(&Run),
+    ) -> Result<Outcome, Problem> {
         let mut ride = self.begin(0, test);
-        if let Some(film) = film {
-            ride.film(film);
-        }
+        ride.prepare(prepare);
         loop {
             ride.go_on(&mut see);
             if ride.is_over() {
@@ -120,7 +148,7 @@ impl<'a> Simulator<'a> {
         at_once: usize,
         (tests, space): (&dyn Fn(usize) -> Values, &Space),
         stopped: impl Fn() -> bool,
-        judged: impl Fn(usize, Result<Outcome, Problem>) -> T,
+        mut judged: impl FnMut(usize, Result<Outcome, Problem>) -> T,
     ) {
         let mut rides: Vec<Ride> = Vec::new();
         loop {

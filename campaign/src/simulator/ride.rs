@@ -4,7 +4,7 @@ use crate::darkroom::NoImage;
 use crate::drivers::NoDriver;
 use crate::{Problem, ProblemKind};
 use paracosm_engine::driver::Driver;
-use paracosm_engine::sensor::{Image, Shutters};
+use paracosm_engine::sensor::Image;
 use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use paracosm_oracles::Verdict;
@@ -51,10 +51,10 @@ impl Ride {
         ride
     }
 
-    /// Makes the given cameras film the run.
-    pub fn film(&mut self, cameras: Shutters) {
+    /// Prepares the run before it begins.
+    pub fn prepare(&mut self, prepare: impl FnOnce(&mut Run)) {
         if let Some(run) = &mut self.run {
-            run.film(cameras);
+            prepare(run);
         }
     }
 

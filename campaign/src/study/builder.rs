@@ -1,13 +1,13 @@
 //! Collects the choices for a study, and checks them together.
 
-use super::driver::Wish;
+use super::driver::{DriverFlaw, Wish};
 use super::parameters::ParameterMisuse;
 use super::{DriverChoice, Maker, PerceiverChoice, Sampling, Simulation, Study, Subject, Variation};
 #[cfg(feature = "camera")]
 use crate::cameras::VariedCameras;
 use crate::{BlackBox, Error, Trust};
 use paracosm_engine::Program;
-use paracosm_engine::driver::Driver;
+use paracosm_engine::driver::{Driver, find as find_driver};
 use paracosm_engine::sensor::Cameras;
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_generators::Strategy;
@@ -46,6 +46,8 @@ pub struct StudyBuilder {
     driver: Option<Wish>,
     driver_settings: Vec<(String, f64)>,
     driver_timeout: Option<f64>,
+    references: Vec<String>,
+    continuous: bool,
     opened: Vec<Opened>,
     fixed: Vec<(String, Value)>,
     distributions: Vec<(String, Distribution)>,
@@ -102,6 +104,8 @@ impl StudyBuilder {
             driver: None,
             driver_settings: Vec::new(),
             driver_timeout: None,
+            references: Vec::new(),
+            continuous: false,
             opened: Vec::new(),
             fixed: Vec::new(),
             distributions: Vec::new(),
@@ -151,6 +155,13 @@ impl StudyBuilder {
         self
     }
 
+    /// Adds a reference driver by its name. A violation that no reference driver avoids in the same test has the verdict
+    /// `unpreventable` and is no failure.
+    pub fn reference(mut self, name: &str) -> Self {
+        self.references.push(name.to_owned());
+        self
+    }
+
     /// Sets the vehicle model that computes the motion of the ego vehicle.
     pub fn vehicle(mut self, model: VehicleModel) -> Self {
         self.vehicle = Some(model);
@@ -180,6 +191,13 @@ impl StudyBuilder {
     /// domain is the declared domain of the parameter.
     pub fn opened(mut self, name: &str, over: Option<Domain>, variation: Option<Variation>) -> Self {
         self.opened.push(Opened { name: name.to_owned(), over, variation });
+        self
+    }
+
+    /// Opens each parameter that has a list of numbers from an interval, such as a range with a step in a file, to the whole
+    /// interval. Parameters that [`open`](Self::open) names keep what they were opened to.
+    pub fn continuous(mut self) -> Self {
+        self.continuous = true;
         self
     }
 
@@ -320,7 +338,16 @@ impl StudyBuilder {
         self.sampling.check()?;
         let made_by = Maker::this();
         let sampling = self.sampling.clone();
-        let mut study = Study { made_by, subject, space, requirements, odd: None, sampling, trust: Trust::all() };
+        let mut study = Study {
+            made_by,
+            subject,
+            space,
+            requirements,
+            odd: None,
+            sampling,
+            references: Vec::new(),
+            trust: Trust::all(),
+        };
         if self.driver.is_some() || !self.driver_settings.is_empty() || self.driver_timeout.is_some() {
             let simulation = study.subject.scenario_mut()?;
             let wish = self.driver.clone().unwrap_or_else(|| Wish::Name(simulation.driver.name().to_owned()));
@@ -349,6 +376,7 @@ impl StudyBuilder {
         if !self.cameras.is_empty() {
             study.open_cameras(&self.cameras)?;
         }
+        study.keep_constraints()?;
         for (i, (name, distribution)) in self.distributions.iter().enumerate() {
             if self.distributions[..i].iter().any(|(other, _)| other == name) {
                 return Err(ParameterMisuse::DistributedTwice { name: name.clone() }.into());
@@ -366,12 +394,24 @@ impl StudyBuilder {
             let usual = perceiver.usual_requirement()?;
             study.requirements.push(usual);
         }
+        let reference = |name: &String| {
+            let scenario = &study.subject.scenario()?.scenario;
+            find_driver(name).map_err(DriverFlaw::from)?;
+            DriverChoice::new(&Wish::Name(name.clone()), &[], None, scenario)
+        };
+        let references = self.references.iter().map(reference).collect::<Result<Vec<_>, Error>>()?;
+        if !references.is_empty() {
+            study = study.with_references(references)?;
+        }
         // The strategy checks that it can do what is asked of it.
         study.generator(&[])?;
         Ok(study)
     }
 
     fn open_and_fix(&self, study: &mut Study) -> Result<(), Error> {
+        if self.continuous {
+            study.open_intervals()?;
+        }
         for Opened { name, over, variation } in &self.opened {
             study.open(name, over.as_ref())?;
             variation.map_or(Ok(()), |variation| study.vary(name, variation))?;

@@ -8,6 +8,7 @@ mod agreement;
 mod appearance;
 mod builder;
 mod command;
+mod constraints;
 mod driver;
 mod entries;
 mod formulas;
@@ -59,6 +60,8 @@ pub struct Study {
     requirements: Vec<StatedRequirement>,
     odd: Option<Odd>,
     sampling: Sampling,
+    /// The same study with each of the reference drivers.
+    references: Vec<Study>,
     /// The trust in the command of the study.
     trust: Trust,
 }
@@ -99,13 +102,32 @@ impl Study {
         odd: Option<Odd>,
         sampling: Sampling,
     ) -> Self {
-        Self { made_by, subject, space, requirements, odd, sampling, trust: Trust::NOTHING }
+        Self { made_by, subject, space, requirements, odd, sampling, references: Vec::new(), trust: Trust::NOTHING }
     }
 
     /// Returns the study with the trust of the user in the command that the study names. A study that was read from a
     /// file has none. A study that was built in this program is trusted.
     pub fn trusting(self, trust: &Trust) -> Self {
-        Self { trust: trust.clone(), ..self }
+        let references = self.references.into_iter().map(|reference| reference.trusting(trust)).collect();
+        Self { trust: trust.clone(), references, ..self }
+    }
+
+    /// Returns the same study with each of the reference drivers. A violation that none of the drivers avoids is
+    /// unpreventable. Without reference drivers, no violation is.
+    pub fn references(&self) -> &[Self] {
+        &self.references
+    }
+
+    /// Sets the reference drivers.
+    pub(crate) fn with_references(mut self, drivers: Vec<DriverChoice>) -> Result<Self, NoScenario> {
+        self.references.clear();
+        let reference = |driver| {
+            let mut study = self.clone();
+            study.subject.scenario_mut()?.driver = driver;
+            Ok(study)
+        };
+        self.references = drivers.into_iter().map(reference).collect::<Result<_, NoScenario>>()?;
+        Ok(self)
     }
 
     pub(crate) fn trust(&self) -> &Trust {
@@ -204,7 +226,7 @@ impl Study {
     /// # Errors
     /// The strategy cannot do what the study asks.
     pub fn generator(&self, existing: &[Point]) -> Result<Box<dyn Generator>, GeneratorError> {
-        self.sampling.strategy.build(&self.sampling.request(&self.space, existing))
+        self.keeping(existing, |request| self.sampling.strategy.build(request))
     }
 
     /// Makes a generator of the study's strategy that draws the discrete values of every test independently. The
@@ -213,7 +235,7 @@ impl Study {
     /// # Errors
     /// The same errors as [`Study::generator`].
     pub fn independent_generator(&self) -> Result<Box<dyn Generator>, GeneratorError> {
-        self.sampling.strategy.build_independent(&self.sampling.request(&self.space, &[]))
+        self.keeping(&[], |request| self.sampling.strategy.build_independent(request))
     }
 
     /// Returns the values of all parameters of a test's world, including the fixed parameters.
@@ -258,7 +280,7 @@ impl Study {
     }
 
     fn with_driver(&self, wish: &driver::Wish, settings: &[(String, f64)]) -> Result<Self, Error> {
-        let mut study = self.clone();
+        let mut study = Self { references: Vec::new(), ..self.clone() };
         let simulation = study.subject.scenario_mut()?;
         simulation.driver = DriverChoice::new(wish, settings, None, &simulation.scenario)?;
         Ok(study)
@@ -277,6 +299,7 @@ impl Study {
         if let Subject::Scenario(simulation) = &mut self.subject {
             simulation.look_for_program(catalogue, &self.space);
         }
+        self.references = self.references.into_iter().map(|study| study.with_program_of(catalogue)).collect();
         self
     }
 }

@@ -59,6 +59,12 @@ pub enum ParameterMisuse {
         /// The name of the parameter.
         name: String,
     },
+    /// The fixed values break a constraint of the scenario.
+    #[error("the fixed values break a constraint of the scenario: {why}")]
+    Broken {
+        /// The reason.
+        why: String,
+    },
     /// The parameter cannot be fixed, because no other parameter is open.
     #[error("with `{name}` fixed no parameter is left open, so there is nothing to test")]
     LastOpen {
@@ -118,6 +124,18 @@ impl Study {
         parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
         self.rebuild(name, Some(parameter))?;
         self.program()?.check(Test::new(&self.nominal()?, &self.space))?;
+        Ok(())
+    }
+
+    /// Opens the parameters whose tests have only some numbers of an interval to the whole interval.
+    pub(super) fn open_intervals(&mut self) -> Result<(), Error> {
+        for declared in self.program()?.declare()?.parameters {
+            let name = declared.parameter.name.as_str();
+            let is_listed = self.space.find(name).is_some_and(|open| open.levels().is_some());
+            if is_listed && declared.parameter.levels().is_none() {
+                self.rebuild(name, Some(declared.parameter.clone()))?;
+            }
+        }
         Ok(())
     }
 

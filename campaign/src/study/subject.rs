@@ -3,7 +3,7 @@
 use super::{Appearances, DriverChoice, PerceiverChoice, StatedRequirement};
 use crate::{BlackBox, Catalogue, Error, Reason};
 use paracosm_engine::vehicle::VehicleSetup;
-use paracosm_engine::{Declaration, Program};
+use paracosm_engine::{Declaration, Declared, Program};
 use paracosm_space::{Space, Values};
 use std::sync::Arc;
 use thiserror::Error;
@@ -116,7 +116,7 @@ impl Simulation {
     /// Makes the simulation of a program with nominal values and the driver `aeb`. Also returns its open parameters and
     /// its requirements.
     pub(super) fn new(program: Program) -> Result<(Self, Space, Vec<StatedRequirement>), Error> {
-        let Declaration { parameters, requirements, duration, dt } = program.declare()?;
+        let Declaration { parameters, requirements, duration, dt, .. } = program.declare()?;
         let (open, closed): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|declared| declared.open);
         let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
         let simulation = Self {
@@ -131,7 +131,7 @@ impl Simulation {
             duration,
             program: Source::Here(program),
         };
-        let space = Space::new(open.into_iter().map(|declared| declared.parameter).collect())?;
+        let space = Space::new(open.iter().map(Declared::opened).collect())?;
         Ok((simulation, space, requirements.into_iter().map(StatedRequirement::from).collect()))
     }
 

@@ -6,6 +6,7 @@ mod metric;
 pub(crate) use line::Line;
 pub use metric::{Metric, UnknownWord};
 
+use crate::Reason;
 use paracosm_engine::driver::FaultKind;
 use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation};
 use paracosm_oracles::{Trace, Verdict};
@@ -81,6 +82,8 @@ impl fmt::Display for Problem {
 }
 
 impl std::error::Error for Problem {}
+
+impl Reason for Problem {}
 
 /// The kind of a problem that leaves a test without a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -227,7 +230,7 @@ impl Trial {
     pub fn violates(&self, requirement: &str) -> bool {
         let below = |id: &str| self.robustness(id).is_some_and(|robustness| robustness < 0.0);
         let is_zero = self.robustness(requirement) == Some(0.0);
-        below(requirement) || is_zero && self.is_failure() && !self.requirements().any(below)
+        below(requirement) || is_zero && self.breaks_a_requirement() && !self.requirements().any(below)
     }
 
     /// Returns the ids of the requirements that the trial violates, in the order of the judgements.
@@ -273,9 +276,22 @@ impl Trial {
         *self == logged
     }
 
-    /// Returns `true` if the trial violates a requirement.
+    /// Returns `true` if the trial violates a requirement, unless no reference driver avoids the violation.
     pub fn is_failure(&self) -> bool {
         self.verdict == Verdict::Fail
+    }
+
+    fn breaks_a_requirement(&self) -> bool {
+        matches!(self.verdict, Verdict::Fail | Verdict::Unpreventable)
+    }
+
+    /// Returns `true` if the driver of this trial prevents the failure of another trial of the same test: this trial
+    /// satisfies every requirement that the other trial violates, and violates no requirement that the other trial
+    /// satisfies. Returns `None` if this trial has no result.
+    pub fn prevents(&self, failing: &Self) -> Option<bool> {
+        let holds = |trial: &Self, id: &str| trial.robustness(id).is_some() && !trial.violates(id);
+        self.covers()
+            .then(|| failing.violated().all(|id| holds(self, id)) && !self.violated().any(|id| holds(failing, id)))
     }
 
     /// Returns `true` if the test counts for coverage, because the verdict is neither `error` nor `invalid`.

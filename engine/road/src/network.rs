@@ -30,6 +30,8 @@ pub struct RoadNetwork {
     strips: Vec<Strip>,
     pub(super) tree: Tree,
     bounds: Bounds,
+    /// The text of the file that describes the network.
+    pub(super) source: Option<Arc<str>>,
 }
 
 /// An element at its place.
@@ -179,7 +181,12 @@ impl RoadNetwork {
         let bounds = boxes.iter().fold(Bounds::empty(), |all, next| all.union(next));
         let names = elements.iter().enumerate().map(|(index, placed)| (placed.name.clone(), index)).collect();
         strips.sort_by_key(|strip| strip.surface);
-        Self { elements, names, lanes, crossings, strips, tree: Tree::new(&boxes), bounds }
+        Self { elements, names, lanes, crossings, strips, tree: Tree::new(&boxes), bounds, source: None }
+    }
+
+    /// Returns the text of the file that describes the network; `None` if no file describes it.
+    pub fn source(&self) -> Option<&str> {
+        self.source.as_deref()
     }
 
     /// Returns the names of all road elements of the network.

@@ -38,6 +38,8 @@ pub struct Survey {
     pub strips: Vec<Strip>,
     /// Pairs of roads of a junction, by their indices: cars on the second road give way to cars on the first road.
     pub priorities: Vec<[usize; 2]>,
+    /// The text of the file that describes the lanes; `None` without a file.
+    pub source: Option<Arc<str>>,
 }
 
 /// A road of a [`Survey`].
@@ -96,7 +98,7 @@ impl Survey {
     /// An index names no road or lane.
     pub fn build(self) -> Result<Arc<RoadNetwork>, RoadError> {
         self.check()?;
-        let Self { roads, lanes: drafts, strips, priorities } = self;
+        let Self { roads, lanes: drafts, strips, priorities, source } = self;
         let priorities: BTreeSet<[usize; 2]> = priorities.into_iter().collect();
         let mut order: Vec<usize> = (0..drafts.len()).collect();
         // The lanes of a road follow one another in the network.
@@ -145,7 +147,9 @@ impl Survey {
             }
         };
         let elements = roads.into_iter().enumerate().map(element).collect();
-        Ok(Arc::new(RoadNetwork::of(elements, lanes, Vec::new(), strips)))
+        let mut network = RoadNetwork::of(elements, lanes, Vec::new(), strips);
+        network.source = source;
+        Ok(Arc::new(network))
     }
 
     fn check(&self) -> Result<(), RoadError> {

@@ -9,10 +9,12 @@
 
 mod driving;
 mod metrics;
+mod motion;
 mod scene;
 mod sensing;
 
 pub use driving::{simulate, watch};
+pub use motion::{Motion, Track};
 
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
@@ -96,6 +98,7 @@ pub struct Run {
     scenery: u64,
     /// The outcome of a run that cannot begin.
     unable: Option<Outcome>,
+    motion: Option<Motion>,
 }
 
 impl Run {
@@ -163,6 +166,7 @@ impl Run {
             sensing: Sensing::in_test(key),
             scenery,
             unable: overlap.or(upset),
+            motion: None,
             scene,
         })
     }
@@ -301,6 +305,7 @@ impl Run {
             return Err(Upset::NoValue { signal: self.trace.signals()[index].clone() });
         }
         self.trace.record(&self.row);
+        self.note_motion();
         Ok(())
     }
 

@@ -4,6 +4,7 @@
 //! inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two ego vehicles)
 //! are collected and reported when the function has returned, so programs need no `?` on every line.
 
+mod constraint;
 mod draft;
 mod ego;
 mod environment;
@@ -11,6 +12,7 @@ mod param;
 mod requirement;
 mod road;
 
+pub use constraint::Constraint;
 pub use draft::ObjectDraft;
 pub use ego::{AutonomousVehicle, Car, Lead, LedMotion};
 pub(crate) use ego::{Ego, EgoSetup};
@@ -47,6 +49,7 @@ pub struct Scenario {
     given: Vec<(String, param::Given)>,
     pub(crate) keys: Rc<Keys>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
+    pub(crate) constraints: Vec<Constraint>,
     pub(crate) flaws: Flaws,
     /// The networks that were placed; `None` for a network that cannot be built.
     pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
@@ -110,6 +113,7 @@ impl Scenario {
             given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
             keys: Rc::new(Keys { test: Cell::new(key), scenery: Cell::new(key) }),
             parameters: Rc::default(),
+            constraints: Vec::new(),
             flaws: Rc::default(),
             networks: Vec::new(),
             cars: Vec::new(),
@@ -161,23 +165,28 @@ impl Scenario {
         self.declare(name, domain, Some(nominal.into()), Read::level(levels))
     }
 
-    /// Declares a parameter that was described as data, for example in a file. It is open, or it stays at its default until a
-    /// study opens it.
-    pub fn parameter(&mut self, parameter: Parameter, open: bool) -> Param<Value> {
-        self.described(parameter, open, Read::value())
+    /// Declares a parameter that was described as data, for example in a file.
+    pub fn parameter(&mut self, Declared { parameter, open, opens }: Declared) -> Param<Value> {
+        self.described(parameter, open, opens, Read::value())
     }
 
     fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
-        self.described(parameter, open, read)
+        self.described(parameter, open, None, read)
     }
 
-    fn described<T: Clone>(&mut self, parameter: Parameter, open: bool, read: Read<T>) -> Param<T> {
+    fn described<T: Clone>(
+        &mut self,
+        parameter: Parameter,
+        open: bool,
+        opens: Option<Domain>,
+        read: Read<T>,
+    ) -> Param<T> {
         // A name that the test does not know is reported once the program has returned, together with all the others.
         let given = self.given.iter().find(|(given, _)| *given == parameter.name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(Declared { parameter, open, opens: None });
+        self.parameters.borrow_mut().push(Declared { parameter, open, opens });
         Param::new(self, given.unwrap_or_default(), read)
     }
 
@@ -262,6 +271,12 @@ impl Scenario {
     /// Ends every run at the first tick at which `event` occurs, before its duration is over.
     pub fn end(&mut self, event: &Stream<bool>) {
         self.end = Some(event.clone());
+    }
+
+    /// States a constraint between parameters. Strategies propose no test that breaks the constraint, and measures of
+    /// coverage do not count such tests.
+    pub fn constrain(&mut self, constraint: Constraint) {
+        self.constraints.push(constraint);
     }
 
     /// Makes the test invalid for the reason `why`, because the test's world is impossible. Use this for conditions

@@ -26,11 +26,12 @@ pub enum Mark {
 
 /// The marks in the order in which they are drawn. The most important marks are drawn last, over all others. The legend
 /// lists them in reverse order.
-pub(super) const ORDER: [Mark; 9] = [
+pub(super) const ORDER: [Mark; 10] = [
     Mark::Verdict(Verdict::Pass),
     Mark::Verdict(Verdict::Inconclusive),
     Mark::Verdict(Verdict::Invalid),
     Mark::Verdict(Verdict::Error),
+    Mark::Verdict(Verdict::Unpreventable),
     Mark::Verdict(Verdict::Fail),
     Mark::Fault(Preventability::Unknown),
     Mark::Fault(Preventability::Unpreventable),
@@ -105,7 +106,7 @@ impl<B: DrawingBackend> Drawable<B> for Drawn {
                 backend.draw_line((x - side, y - side), (x + side, y + side), &grey)?;
                 backend.draw_line((x - side, y + side), (x + side, y - side), &grey)
             }
-            Mark::Fault(Preventability::Unpreventable) => {
+            Mark::Verdict(Verdict::Unpreventable) | Mark::Fault(Preventability::Unpreventable) => {
                 backend.draw_rect((x - side, y - side), (x + side, y + side), &INK, true)
             }
             Mark::Fault(Preventability::Induced) => {

@@ -28,10 +28,12 @@ mod condition;
 mod expression;
 mod flaw;
 mod parse;
+mod table;
 mod token;
 
 pub use expression::{Expression, Operand, Relation};
 pub use flaw::{ConstraintError, ConstraintFlaw, Expected};
+pub use table::expressions;
 pub(crate) use token::enclosed;
 
 use crate::Parameter;

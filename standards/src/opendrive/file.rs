@@ -44,6 +44,7 @@ impl Map {
         notes.extend(map.one_way());
         notes.extend(without_effect.into_iter().map(Note::NoEffect));
         map.notes = notes;
+        map.text = document.text().into();
         Ok(map)
     }
 

@@ -3,6 +3,7 @@
 use super::junction::Junction;
 use super::note::Note;
 use super::road::Road;
+use std::sync::Arc;
 
 /// The roads and junctions of a file of OpenDRIVE.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +14,8 @@ pub struct Map {
     pub junctions: Vec<Junction>,
     /// The remarks on the file.
     pub notes: Vec<Note>,
+    /// The text of the file.
+    pub text: Arc<str>,
 }
 
 impl Map {

@@ -45,4 +45,4 @@ pub use note::Note;
 pub use plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 pub use road::{Direction, End, Extent, Lane, LaneChange, LaneType, Link, MarkType, Road, RoadMark, Section, Traffic};
 pub use table::{Border, borders};
-pub use write::{FromFile, write};
+pub use write::{LaneByLane, write};

@@ -30,7 +30,7 @@ impl Map {
     /// # Errors
     /// The file has no lanes that cars drive on.
     pub fn network(&self) -> Result<Arc<RoadNetwork>, RoadError> {
-        let mut survey = Survey::default();
+        let mut survey = Survey { source: Some(self.text.clone()), ..Survey::default() };
         let priorities = self.junctions.iter().flat_map(|junction| &junction.priorities);
         survey.priorities = priorities.map(|(first, second)| [*first, *second]).collect();
         let mut indices: BTreeMap<Key, usize> = BTreeMap::new();

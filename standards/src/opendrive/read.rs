@@ -35,7 +35,7 @@ pub(super) fn map(root: Element<'_, '_>) -> Result<(Map, u32), ReadError> {
         return Err(root.lacks("road"));
     }
     let junctions = root.all("junction").map(|element| links::junction(element, &names)).collect::<Result<_, _>>()?;
-    let mut map = Map { roads, junctions, notes: Vec::new() };
+    let mut map = Map { roads, junctions, notes: Vec::new(), text: "".into() };
     map.notes = links::lost(root, &map)?;
     Ok((map, minor))
 }

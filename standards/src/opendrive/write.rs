@@ -31,16 +31,19 @@ struct Place {
 
 /// The reason why a network cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the road network was read from a file; use the file itself")]
-pub struct FromFile;
+#[error("the road network was described lane by lane, and no file has it")]
+pub struct LaneByLane;
 
 /// Returns a road network as the text of a file of OpenDRIVE. Numbers have all digits, so that reading the file gives the same
-/// lanes.
+/// lanes. A network that was read from a file is written as the text of this file.
 ///
 /// # Errors
-/// The network was read from a file.
-pub fn write(network: &RoadNetwork, name: &str) -> Result<String, FromFile> {
-    let roads = roads(network).ok_or(FromFile)?;
+/// The network was described lane by lane, and not by a file.
+pub fn write(network: &RoadNetwork, name: &str) -> Result<String, LaneByLane> {
+    if let Some(text) = network.source() {
+        return Ok(text.to_owned());
+    }
+    let roads = roads(network).ok_or(LaneByLane)?;
     let mut places: BTreeMap<LaneId, Place> = BTreeMap::new();
     for (road, of) in roads.iter().enumerate() {
         places.extend(of.lanes.iter().map(|(number, lane)| (*lane, Place { road, number: *number })));
@@ -67,7 +70,7 @@ pub fn write(network: &RoadNetwork, name: &str) -> Result<String, FromFile> {
     Ok(xml.finish())
 }
 
-/// Returns the roads of the file; `None` if the network was read from a file.
+/// Returns the roads of the file; `None` if the network was described lane by lane.
 fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
     let names: Vec<&str> = network.elements().collect();
     let mut roads: Vec<Road> =

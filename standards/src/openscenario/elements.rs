@@ -17,7 +17,7 @@ const PARAMETERS: &str = "parameters do not change during a run; use a VariableA
 const COMMANDS: &str = "no file runs a command";
 const NAMED: &str = "name the entities one by one";
 const CONTROL: &str = "use an ActivateControllerAction";
-const CHANCE: &str = "use a Deterministic distribution; --distribute gives parameters distributions";
+const CHANCE: &str = "use a UniformDistribution, a NormalDistribution with a Range, or a ProbabilityDistributionSet";
 const PROFILE: &str = "use a SpeedAction or a LongitudinalDistanceAction";
 const LATERAL: &str = "use a LaneOffsetAction";
 const PLACES: &str = "use a WorldPosition";
@@ -215,7 +215,17 @@ pub(super) const ROWS: &[Row] = &[
     read("DeterministicSingleParameterDistribution", "DistributionRange", "stepWidth"),
     read("DistributionRange", "Range", "lowerLimit upperLimit"),
     refused("DeterministicSingleParameterDistribution", "UserDefinedDistribution", COMMANDS),
-    refused("ParameterValueDistribution", "Stochastic", CHANCE),
+    read("ParameterValueDistribution", "Stochastic", ""),
+    no_effect("Stochastic", "@numberOfTestRuns", "use the option --budget"),
+    no_effect("Stochastic", "@randomSeed", "use the option --seed"),
+    read("Stochastic", "StochasticDistribution", "parameterName"),
+    read("StochasticDistribution", "UniformDistribution", ""),
+    read("StochasticDistribution", "NormalDistribution", "expectedValue variance"),
+    read("UniformDistribution|NormalDistribution", "Range", "lowerLimit upperLimit"),
+    read("StochasticDistribution", "ProbabilityDistributionSet", ""),
+    read("ProbabilityDistributionSet", "Element", "value weight"),
+    refused("StochasticDistribution", "LogNormalDistribution|PoissonDistribution|Histogram", CHANCE),
+    refused("StochasticDistribution", "UserDefinedDistribution", COMMANDS),
     read("OpenSCENARIO", "VariableDeclarations", ""),
     read("VariableDeclarations", "VariableDeclaration", "name variableType value"),
     read("GlobalAction", "VariableAction", "variableRef"),

@@ -3,11 +3,14 @@
 mod action;
 mod catalogs;
 mod condition;
+mod distribution;
 mod elements;
 mod entity;
+mod export;
 mod parameters;
 mod place;
 mod play;
+mod polyline;
 mod position;
 mod program;
 mod project;
@@ -19,4 +22,5 @@ mod variable;
 mod way;
 
 pub use elements::elements;
-pub use program::Xosc;
+pub use export::{EgoAs, Export};
+pub use program::{EGO, Xosc};

@@ -2,8 +2,9 @@
 
 use super::catalogs::{CatalogFiles, declare};
 use super::condition::{Check, Condition, Measure};
+use super::distribution::Distribution;
 use super::elements::schema;
-use super::parameters::Distribution;
+use super::parameters::{Parameters, declared_names};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
@@ -12,7 +13,8 @@ use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
 use paracosm_engine::vehicle::Vehicle;
-use paracosm_engine::{AutonomousVehicle, Lead, Monitor, Pose, Program, Scenario, Stream};
+use paracosm_engine::{AutonomousVehicle, Declared, Lead, Monitor, Pose, Program, Scenario, Stream};
+use paracosm_space::{Domain, Parameter};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path as FilePath, PathBuf};
@@ -25,6 +27,8 @@ const LONGEST: f64 = 60.0;
 const BEYOND: f64 = 1.0;
 /// The greatest duration in seconds of a run.
 const LATEST: f64 = 3600.0;
+/// The name of the parameter that chooses the entity which the system under test drives.
+pub const EGO: &str = "ego";
 /// The outermost element of a file.
 const ROOT: &str = "OpenSCENARIO";
 
@@ -34,7 +38,7 @@ pub struct Xosc {
     folder: PathBuf,
     document: Document,
     catalogs: CatalogFiles,
-    distribution: Distribution,
+    parameters: Arc<Parameters>,
     notes: Vec<NoEffect>,
     roads: Mutex<BTreeMap<PathBuf, Roads>>,
 }
@@ -84,26 +88,34 @@ impl Xosc {
             let named = |node: Node<'_>| {
                 schema().check(root.element)?;
                 let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
-                Ok((file, Distribution::read(node)?))
+                let scenario = Document::open(&file)?;
+                let distribution = {
+                    let tree = scenario.tree()?;
+                    let declared = declared_names(Node { element: scenario.root(&tree, ROOT)?, scope: &none })?;
+                    Distribution::read(node, &declared)?
+                };
+                Ok((scenario, folder_of(&file), distribution))
             };
             distribution.map(named).transpose()?
         };
         match named {
             None => Self::of(name, document, folder, Distribution::default()),
-            Some((file, distribution)) => Self::of(name, Document::open(&file)?, folder_of(&file), distribution),
+            Some((scenario, folder, distribution)) => Self::of(name, scenario, folder, distribution),
         }
     }
 
     fn of(name: String, document: Document, folder: PathBuf, distribution: Distribution) -> Result<Self, ReadError> {
-        let (catalogs, notes) = {
+        let (catalogs, parameters, notes) = {
             let tree = document.tree()?;
             let root = document.root(&tree, ROOT)?;
             let notes = schema().check(root)?;
             let mut scope = Scope::default();
             declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
-            (CatalogFiles::read(Node { element: root, scope: &scope }.first("CatalogLocations"), &folder)?, notes)
+            let root = Node { element: root, scope: &scope };
+            let parameters = Arc::new(Parameters::read(root, distribution)?);
+            (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters, notes)
         };
-        let read = Self { name, folder, document, catalogs, distribution, notes, roads: Mutex::default() };
+        let read = Self { name, folder, document, catalogs, parameters, notes, roads: Mutex::default() };
         read.board(&mut |root| {
             let mut scope = Scope::default();
             declare(root, &mut scope)?;
@@ -129,11 +141,16 @@ impl Xosc {
     }
 
     fn build(&self, s: &mut Scenario) {
-        let (board, roads) = match self.board(&mut |root| self.distribution.declared(root, s)) {
+        let (board, roads) = match self.board(&mut |root| self.parameters.declared(root, s)) {
             Ok(read) => read,
             Err(error) => return s.refuse(&error.to_string()),
         };
-        let ego = ego(&board);
+        let usual = board.entities[ego(&board)].name.clone();
+        let names = board.entities.iter().map(|entity| entity.name.as_str().into()).collect();
+        let mut parameter = Parameter::new(EGO, Domain::Choice(names));
+        parameter.default = Some(usual.as_str().into());
+        let chosen = s.parameter(Declared { parameter, open: false, opens: None }).value();
+        let ego = board.entities.iter().position(|entity| chosen == entity.name.as_str().into()).unwrap_or_default();
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();

@@ -46,6 +46,13 @@ impl Scope {
     }
 }
 
+/// Returns the names of the parameters to which the text of an attribute refers.
+pub(super) fn references(text: &str) -> impl Iterator<Item = &str> {
+    let is_of_name = |sign: char| sign.is_alphanumeric() || sign == '_';
+    let name = move |part: &str| part.find(|sign| !is_of_name(sign)).unwrap_or(part.len());
+    text.split('$').skip(1).map(move |part| &part[..name(part)]).filter(|name| !name.is_empty())
+}
+
 /// An element with the parameters that it sees.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node<'a> {

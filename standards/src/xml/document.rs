@@ -35,6 +35,11 @@ impl Document {
         Self(Source::new(file, text))
     }
 
+    /// Returns the text of the file.
+    pub fn text(&self) -> &str {
+        self.0.text()
+    }
+
     /// Returns the tree of the elements of the text.
     pub fn tree(&self) -> Result<roxmltree::Document<'_>, ReadError> {
         roxmltree::Document::parse(self.0.text()).map_err(|error| {

@@ -2,7 +2,7 @@
 
 use super::expression::ExpressionFlaw;
 use paracosm_engine::road::RoadError;
-use paracosm_space::did_you_mean;
+use paracosm_space::{SpaceError, did_you_mean};
 use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -134,6 +134,9 @@ pub enum Flaw {
         #[source]
         error: io::Error,
     },
+    /// The values and the chances of a parameter do not fit.
+    #[error("the distribution makes no parameter: {0}")]
+    Parameter(#[source] SpaceError),
     /// The roads of a map form no network.
     #[error("the map has no roads to drive on: {0}")]
     Roads(#[source] RoadError),

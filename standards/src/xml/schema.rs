@@ -123,7 +123,7 @@ impl Schema {
                 let row = self.row(parent, element)?;
                 match row.support {
                     Support::Read => {
-                        check_attributes(row, element, &mut found);
+                        self.check_attributes(row, element, &mut found);
                         open.push(element);
                     }
                     Support::NoEffect(_) if element.is_empty() => (),
@@ -139,6 +139,19 @@ impl Schema {
         Ok(found)
     }
 
+    /// Notes the attributes of an element that have no effect. In the table, their names begin with `@`.
+    fn check_attributes(&self, row: &Row, element: Element<'_, '_>, found: &mut BTreeMap<String, NoEffect>) {
+        let known: Vec<&str> = row.attributes.split(' ').collect();
+        for attribute in element.attributes().filter(|attribute| !known.contains(attribute)) {
+            let row = self.children.get(element.name()).and_then(|rows| rows.get(format!("@{attribute}").as_str()));
+            let reason = match row.map(|row| row.support) {
+                Some(Support::NoEffect(reason)) => reason,
+                _ => NOT_IN_STANDARD,
+            };
+            note(found, format!("{}.{attribute}", element.name()), reason, element);
+        }
+    }
+
     fn row(&self, parent: Element<'_, '_>, element: Element<'_, '_>) -> Result<&'static Row, ReadError> {
         let of = |name: &str| self.children.get(name);
         let found = [parent.name(), ANYWHERE].into_iter().find_map(|name| of(name)?.get(element.name()).copied());
@@ -150,14 +163,6 @@ impl Schema {
                 nearest: nearest(element.name(), names),
             })
         })
-    }
-}
-
-fn check_attributes(row: &Row, element: Element<'_, '_>, found: &mut BTreeMap<String, NoEffect>) {
-    for attribute in element.attributes() {
-        if !row.attributes.split(' ').any(|known| known == attribute) {
-            note(found, format!("{}.{attribute}", element.name()), NOT_IN_STANDARD, element);
-        }
     }
 }
 

@@ -30,7 +30,11 @@ fn messages(found: &str, by: &str) -> String {
             assert!(error.file.starts_with(folder.path()), "{error}");
             format!("{}: {}", error.line.map_or("file".to_owned(), |line| line.to_string()), error.flaw)
         }
-        Ok(scenario) => scenario.program().declare().map_or_else(|error| error.to_string(), |_| "none".to_owned()),
+        Ok(scenario) => {
+            let program = scenario.program();
+            let checked = program.declare().and_then(|declaration| program.check(&declaration.nominal()));
+            checked.map_or_else(|error| error.to_string(), |()| "none".to_owned())
+        }
     }
 }
 
@@ -107,6 +111,17 @@ fn every_refused_element_is_refused_by_its_name() {
         count += 1;
     }
     assert!(count >= 30, "{count} elements");
+}
+
+#[test]
+fn a_distribution_of_a_parameter_that_is_not_declared_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy(file("slow-leader.xosc"), folder.path().join("slow-leader.xosc")).unwrap();
+    let text = fs::read_to_string(file("slow-leader-variation.xosc")).unwrap();
+    let path = folder.path().join("variation.xosc");
+    fs::write(&path, text.replacen("parameterName=\"speed\"", "parameterName=\"sped\"", 1)).unwrap();
+    let message = Xosc::read(&path).err().expect("it is refused").to_string();
+    assert!(message.contains("variation.xosc:7") && message.contains("did you mean `speed`?"), "{message}");
 }
 
 #[test]

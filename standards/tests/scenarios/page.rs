@@ -20,6 +20,11 @@ fn covered() -> BTreeMap<(String, String), String> {
                 let key = (parent.tag_name().name().to_owned(), node.tag_name().name().to_owned());
                 covered.entry(key).or_insert_with(|| name.clone());
             }
+            // The table has the attributes without effect as `@NAME`.
+            for attribute in node.attributes() {
+                let key = (node.tag_name().name().to_owned(), format!("@{}", attribute.name()));
+                covered.entry(key).or_insert_with(|| name.clone());
+            }
         }
     }
     covered

@@ -24,7 +24,7 @@ fn constraints_leave_29750_of_52500_combinations_of_the_cut_in() {
         .parameters
         .iter()
         .filter(|declared| declared.open)
-        .map(|declared| (declared.parameter.name.clone(), levels(&declared.parameter.name, &declared.parameter.domain)))
+        .map(|declared| (declared.parameter.name.clone(), levels(&declared.parameter.name, &declared.opened().domain)))
         .collect();
     let all: usize = open.iter().map(|(_, levels)| levels.len()).product();
     assert_eq!(5 * all, 52_500);

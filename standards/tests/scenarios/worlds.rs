@@ -2,9 +2,11 @@
 
 use paracosm_engine::driver::find;
 use paracosm_engine::vehicle::VehicleModel;
-use paracosm_engine::{Control, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate};
+use paracosm_engine::{
+    Constraint, Control, Declared, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate,
+};
 use paracosm_oracles::Trace;
-use paracosm_space::{Domain, Value};
+use paracosm_space::{Distribution, Domain, Value};
 use paracosm_standards::openscenario::Xosc;
 use std::path::{Path, PathBuf};
 
@@ -91,13 +93,56 @@ fn a_distribution_opens_its_parameters() {
     let declaration = program("slow-leader-variation.xosc").declare().unwrap();
     let parameter = |name: &str| declaration.parameters.iter().find(|one| one.parameter.name == name).unwrap();
     let numbers = |all: &[f64]| Domain::Choice(all.iter().map(|number| Value::Number(*number)).collect());
-    assert_eq!(parameter("speed").parameter.domain, numbers(&[20.0, 30.0, 40.0, 50.0, 60.0]));
+    // A range is an interval, of which the tests have the values of the steps.
+    assert_eq!(parameter("speed").parameter.domain, Domain::Interval { lo: 20.0, hi: 60.0 });
+    assert_eq!(parameter("speed").opened().domain, numbers(&[20.0, 30.0, 40.0, 50.0, 60.0]));
     assert_eq!(parameter("gap").parameter.domain, numbers(&[20.0, 50.0]));
-    assert!(declaration.parameters.iter().all(|declared| declared.open));
+    let open = |declared: &&Declared| declared.open;
+    let open: Vec<_> = declaration.parameters.iter().filter(open).map(|declared| &declared.parameter.name).collect();
+    assert_eq!(open, ["speed", "gap"]);
     let nominal = declaration.nominal();
     assert_eq!(nominal.get("speed"), Some(&Value::Number(30.0)));
     assert_eq!(nominal.get("gap"), Some(&Value::Number(50.0)));
     assert_eq!(nominal.get("start"), None, "it follows from the gap");
+}
+
+#[test]
+fn stochastic_distributions_give_parameters_their_chances() {
+    let declaration = program("slow-leader-chances.xosc").declare().unwrap();
+    let parameter =
+        |name: &str| &declaration.parameters.iter().find(|one| one.parameter.name == name).unwrap().parameter;
+    let (speed, gap, start) = (parameter("speed"), parameter("gap"), parameter("start"));
+    assert_eq!(
+        (&speed.domain, &speed.distribution),
+        (&Domain::Interval { lo: 20.0, hi: 60.0 }, &Distribution::Normal(35.0, 5.0))
+    );
+    assert_eq!((gap.levels().unwrap().len(), &gap.distribution), (2, &Distribution::Weights(vec![1.0, 3.0])));
+    assert_eq!(
+        (&start.domain, &start.distribution),
+        (&Domain::Interval { lo: 30.0, hi: 60.0 }, &Distribution::Uniform)
+    );
+    // The values of the declarations are the nominal values.
+    assert_eq!(declaration.nominal().get("speed"), Some(&Value::Number(30.0)));
+    assert_eq!(declaration.nominal().get("gap"), Some(&Value::Number(50.0)));
+}
+
+#[test]
+fn constraints_name_the_parameters_on_which_they_depend() {
+    let constraints = program("slow-leader-variation.xosc").declare().unwrap().constraints;
+    assert_eq!(constraints.iter().map(Constraint::names).collect::<Vec<_>>(), [["speed"]]);
+}
+
+#[test]
+fn another_entity_can_be_the_ego_vehicle() {
+    let program = program("slow-leader.xosc");
+    let mut test = program.declare().unwrap().nominal();
+    assert_eq!(test.get("ego"), Some(&Value::from("Ego")));
+    test.set("ego", Value::from("Leader"));
+    let descriptor = find("aeb").unwrap();
+    let mut driver = (descriptor.make)(&descriptor.settings(&[]).unwrap());
+    let trace = simulate(&program, &test, VehicleModel::SingleTrack, driver.as_mut()).trace.unwrap();
+    // The car begins where the leader begins: 1.4 m in front of its rear axle.
+    assert!((at(&trace, "car.x", 0.0) - at(&trace, "Leader.x", 0.0) - 1.4).abs() < 1e-6);
 }
 
 #[test]
@@ -116,7 +161,7 @@ fn tuples_of_values_are_one_choice() {
     let program = program("slow-leader-tuples.xosc");
     let declaration = program.declare().unwrap();
     let names: Vec<_> = declaration.parameters.iter().map(|declared| declared.parameter.name.as_str()).collect();
-    assert_eq!(names, ["speed|gap"]);
+    assert_eq!(names, ["speed|gap", "ego"]);
     assert_eq!(declaration.nominal().get("speed|gap"), Some(&Value::from("30|50")));
     let mut test = declaration.nominal();
     test.set("speed|gap", Value::from("20|20"));

@@ -1,0 +1,101 @@
+//! `paracosm-fuzz export`: writes a test as a scenario and its roads, for other simulators.
+
+use super::output::plural;
+use super::replay::logged;
+use super::{Failure, Status, Verbosity, print, trust};
+use crate::standards::opendrive;
+use crate::standards::openscenario::{EgoAs, Export};
+use clap::{Args, ValueEnum};
+use paracosm_campaign::files::{create_folder, is_new, write_whole_here};
+use paracosm_campaign::{Error, Log, Reason, Worker};
+use std::path::PathBuf;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz export paracosm-out 17 --out case-17
+  paracosm-fuzz export paracosm-out 17 --out case-17 --ego-as controller
+
+The folder of --out gets scenario.xosc (ASAM OpenSCENARIO XML 1.2) and roads.xodr (ASAM OpenDRIVE). Every road user follows the
+trajectory that the test had. With --ego-as controller, the ego vehicle begins at its place and with its speed, and the other
+simulator drives it from there on.";
+
+/// The name of the file of the scenario.
+const SCENARIO: &str = "scenario.xosc";
+/// The name of the file of the roads.
+const ROADS: &str = "roads.xodr";
+/// The date in the headers. It is always the same, so that the same test gives the same file.
+const DATE: &str = "2026-01-01T00:00:00";
+
+/// The options of `export`.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The folder of the campaign
+    dir: PathBuf,
+    /// The index of a test
+    index: usize,
+    /// The new folder for the scenario and its roads
+    #[arg(long, value_name = "FOLDER")]
+    out: PathBuf,
+    /// Who moves the ego vehicle in the exported scenario
+    #[arg(long, value_name = "WHO", default_value = "trajectory")]
+    ego_as: Ego,
+    #[command(flatten)]
+    trust: trust::Options,
+}
+
+/// Who moves the ego vehicle in the exported scenario.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Ego {
+    /// The ego vehicle follows the trajectory that the test had
+    Trajectory,
+    /// The other simulator drives the ego vehicle from its first place on
+    Controller,
+}
+
+/// The reason why a test cannot be exported.
+#[derive(Debug, thiserror::Error)]
+enum ExportFlaw {
+    /// The roads cannot be written.
+    #[error("the roads of the test cannot be written: {0}")]
+    Roads(#[source] opendrive::LaneByLane),
+}
+
+impl Reason for ExportFlaw {}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
+        let (study, logged) = (log.study(), logged(&self.dir, &log, self.index)?);
+        for name in [SCENARIO, ROADS] {
+            is_new(&self.out.join(name), "an export")?;
+        }
+        let mut worker = Worker::new(study)?;
+        let recording = worker.record(logged)?;
+        let about = format!("{}, test {}", study.title(), self.index);
+        let roads =
+            opendrive::write(&recording.network, &about).map_err(|flaw| Error::from(ExportFlaw::Roads(flaw)))?;
+        let ego = match self.ego_as {
+            Ego::Trajectory => EgoAs::Trajectory,
+            Ego::Controller => EgoAs::Controller,
+        };
+        let export = Export { about: &about, date: DATE, roads: ROADS, motion: &recording.motion, ego };
+        create_folder(&self.out)?;
+        for (name, text) in [(SCENARIO, export.text()), (ROADS, roads)] {
+            write_whole_here(&self.out.join(name), text.as_bytes())?;
+        }
+        let absent: Vec<&str> = export.absent().collect();
+        if !absent.is_empty() {
+            verbosity.note(format_args!(
+                "{} not in the world during the whole test: {}. The scenario leaves out who is not there at the \
+                 beginning, and who leaves the world stays at the last place",
+                plural(absent.len(), "road user is"),
+                absent.join(", ")
+            ));
+        }
+        if ego == EgoAs::Controller {
+            verbosity.note("all road users except the ego vehicle follow the trajectories of the test");
+        }
+        print(&format!("{}\n{}\n", self.out.join(SCENARIO).display(), self.out.join(ROADS).display()))?;
+        Ok(Status::Nothing)
+    }
+}

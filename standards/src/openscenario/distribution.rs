@@ -1,0 +1,209 @@
+//! Distributions of parameters: which parameters a file opens, with which values.
+
+use super::scope::Node;
+use crate::xml::{Flaw, ReadError};
+use paracosm_engine::Declared;
+use paracosm_space::{self as space, Domain, Parameter, Space, Value};
+
+/// The greatest number of values that a range with a step may list.
+const MOST_LEVELS: f64 = 10_000.0;
+/// The share of a step by which a range may exceed its upper limit, because steps are sums of rounded numbers.
+const TOLERANCE: f64 = 1e-9;
+/// The sign between the names and between the values of parameters that change together.
+const JOINT: &str = "|";
+
+/// The parameters that a distribution opens, in the order of the file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Distribution(pub Vec<Opened>);
+
+/// Parameters that a distribution opens together.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Opened {
+    names: Vec<String>,
+    values: Choices,
+}
+
+/// The values of parameters that a distribution opens.
+#[derive(Debug, Clone, PartialEq)]
+enum Choices {
+    /// The tuples of values.
+    Tuples(Vec<Vec<String>>),
+    /// All numbers of an interval, of which a test has those of `levels` by default.
+    Range { lo: f64, hi: f64, levels: Vec<Value> },
+    /// The numbers of an interval or the values of a list, with their chances.
+    Chance(Domain, space::Distribution),
+}
+
+impl Distribution {
+    /// Reads an element `ParameterValueDistribution` of a scenario that declares parameters with the given names.
+    pub fn read(root: Node<'_>, declared: &[String]) -> Result<Self, ReadError> {
+        let name = |node: Node<'_>| name(node, "parameterName", declared);
+        if let Some(chances) = root.first("Stochastic") {
+            let chance = |node| Opened::chance(name(node)?, node);
+            return chances.all("StochasticDistribution").map(chance).collect::<Result<_, _>>().map(Self);
+        }
+        let mut all = Vec::new();
+        for node in root.child("Deterministic")?.elements() {
+            let kind = node.choice("a kind of distribution such as DistributionSet")?;
+            let (names, values) = match kind.name() {
+                "DistributionSet" => {
+                    let value = |element: Node<'_>| Ok(vec![element.required("value")?.into_owned()]);
+                    let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
+                    (vec![name(node)?], Choices::Tuples(levels))
+                }
+                "DistributionRange" => (vec![name(node)?], range(kind)?),
+                "ValueSetDistribution" => tuples(kind, declared)?,
+                _ => return Err(kind.refused("use a DistributionSet, a DistributionRange or a ValueSetDistribution")),
+            };
+            all.push(Opened { names, values });
+        }
+        Ok(Self(all))
+    }
+
+    /// Returns the parameters that a distribution opens together with this parameter.
+    pub fn of(&self, name: &str) -> Option<&Opened> {
+        self.0.iter().find(|opened| opened.names.iter().any(|known| known == name))
+    }
+}
+
+impl Opened {
+    fn chance(name: String, node: Node<'_>) -> Result<Self, ReadError> {
+        let kind = node.choice("a kind of distribution such as UniformDistribution")?;
+        let (domain, chances) = match kind.name() {
+            "UniformDistribution" => (interval(kind)?, space::Distribution::Uniform),
+            "NormalDistribution" => {
+                let (mean, deviation) = (kind.number("expectedValue")?, libm::sqrt(kind.length("variance")?));
+                (interval(kind)?, space::Distribution::Normal(mean, deviation))
+            }
+            _ => {
+                let value = |element: Node<'_>| Ok(parsed(&element.required("value")?));
+                let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
+                let weights = kind.all("Element").map(|element| element.length("weight")).collect::<Result<_, _>>()?;
+                (Domain::Choice(levels), space::Distribution::Weights(weights))
+            }
+        };
+        let opened = Self { names: vec![name], values: Choices::Chance(domain, chances) };
+        let parameter = opened.declared(|_| None).parameter;
+        Space::new(vec![parameter]).map_err(|flaw| kind.error(Flaw::Parameter(flaw)))?;
+        Ok(opened)
+    }
+
+    /// Returns the name of the parameter that stands for these parameters in a test.
+    pub fn name(&self) -> String {
+        self.names.join(JOINT)
+    }
+
+    /// Returns the parameter that stands for these parameters in a test. `nominal` gives the value of a declaration.
+    pub fn declared(&self, nominal: impl Fn(&str) -> Option<Value>) -> Declared {
+        let (domain, opens) = match &self.values {
+            Choices::Tuples(levels) => (Domain::Choice(levels.iter().map(|level| joint(level)).collect()), None),
+            Choices::Range { lo, hi, levels } => {
+                (Domain::Interval { lo: *lo, hi: *hi }, Some(Domain::Choice(levels.clone())))
+            }
+            Choices::Chance(domain, _) => (domain.clone(), None),
+        };
+        let mut parameter = Parameter::new(self.name(), domain);
+        if let Choices::Chance(_, chances) = &self.values {
+            parameter.distribution = chances.clone();
+        }
+        let declared: Vec<Option<Value>> = self.names.iter().map(|name| nominal(name)).collect();
+        parameter.default = self.nearest(&declared);
+        Declared { parameter, open: true, opens }
+    }
+
+    /// Returns the value that is nearest to the values of the declarations: the same words, and the nearest numbers.
+    fn nearest(&self, declared: &[Option<Value>]) -> Option<Value> {
+        let apart = |value: &Value, declared: &Option<Value>| match (value, declared) {
+            (Value::Number(value), Some(Value::Number(declared))) => (value - declared).abs(),
+            (value, declared) => f64::from(u8::from(Some(value) != declared.as_ref())),
+        };
+        let nearest = |levels: &[Value]| {
+            let first = declared.first()?;
+            levels.iter().min_by(|a, b| apart(a, first).total_cmp(&apart(b, first))).cloned()
+        };
+        match &self.values {
+            Choices::Tuples(levels) => {
+                let distance = |level: &&Vec<String>| -> f64 {
+                    level.iter().zip(declared).map(|(value, declared)| apart(&parsed(value), declared)).sum()
+                };
+                levels.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|level| joint(level))
+            }
+            Choices::Range { levels, .. } | Choices::Chance(Domain::Choice(levels), _) => nearest(levels),
+            Choices::Chance(Domain::Interval { lo, hi }, _) => {
+                declared.first()?.as_ref()?.number().map(|number| Value::Number(number.clamp(*lo, *hi)))
+            }
+        }
+    }
+
+    /// Returns the values of the single parameters, by their names, that the value of a test stands for.
+    pub fn parts(&self, value: &Value) -> Vec<(&str, String)> {
+        let level = match &self.values {
+            Choices::Tuples(levels) => levels.iter().find(|level| joint(level) == *value).cloned(),
+            Choices::Range { .. } | Choices::Chance(..) => None,
+        };
+        let level = level.unwrap_or_else(|| vec![value.to_string()]);
+        self.names.iter().map(String::as_str).zip(level).collect()
+    }
+}
+
+/// Returns the name of a parameter that the scenario declares.
+fn name(node: Node<'_>, attribute: &'static str, declared: &[String]) -> Result<String, ReadError> {
+    let name = node.element.required(attribute)?;
+    if declared.iter().any(|known| known == name) {
+        return Ok(name.to_owned());
+    }
+    Err(node.dangling(attribute, "parameter", declared.iter().map(String::as_str)))
+}
+
+/// Returns the values of parameters that change together as one value.
+fn joint(parts: &[String]) -> Value {
+    parsed(&parts.join(JOINT))
+}
+
+/// Returns a value as spaces have it: a number, or a word.
+pub(super) fn parsed(text: &str) -> Value {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Value::Number(number),
+        _ => Value::from(text),
+    }
+}
+
+fn interval(node: Node<'_>) -> Result<Domain, ReadError> {
+    let limits = node.child("Range")?;
+    Ok(Domain::Interval { lo: limits.number("lowerLimit")?, hi: limits.number("upperLimit")? })
+}
+
+fn range(node: Node<'_>) -> Result<Choices, ReadError> {
+    let limits = node.child("Range")?;
+    let (lo, hi, step) = (limits.number("lowerLimit")?, limits.number("upperLimit")?, node.number("stepWidth")?);
+    let count = (hi - lo) / step + TOLERANCE;
+    if !(step > 0.0 && (0.0..MOST_LEVELS).contains(&count)) {
+        let found = node.required("stepWidth")?.into_owned();
+        let expected = format!("a step above 0 that divides {lo} to {hi} into at most {MOST_LEVELS} parts");
+        let (element, attribute) = (node.name().to_owned(), "stepWidth".to_owned());
+        return Err(node.error(Flaw::Value { element, attribute, found, expected, nearest: None }));
+    }
+    let levels: Vec<Value> = (0..=count as usize).map(|index| (lo + index as f64 * step).min(hi).into()).collect();
+    // A range of a single value is no interval.
+    let single = || Choices::Tuples(vec![vec![lo.to_string()]]);
+    Ok(if lo < hi { Choices::Range { lo, hi, levels } } else { single() })
+}
+
+fn tuples(kind: Node<'_>, declared: &[String]) -> Result<(Vec<String>, Choices), ReadError> {
+    let mut names: Vec<String> = Vec::new();
+    let mut levels = Vec::new();
+    for set in kind.all("ParameterValueSet") {
+        let mut level = Vec::new();
+        for (index, assignment) in set.all("ParameterAssignment").enumerate() {
+            let name = name(assignment, "parameterRef", declared)?;
+            if levels.is_empty() {
+                names.push(name);
+            } else if names.get(index).is_none_or(|known| *known != name) {
+                return Err(assignment.dangling("parameterRef", "parameter", names.iter().map(String::as_str)));
+            }
+            level.push(assignment.required("value")?.into_owned());
+        }
+        levels.push(level);
+    }
+    Ok((names, Choices::Tuples(levels)))
+}

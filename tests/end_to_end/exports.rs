@@ -1,0 +1,145 @@
+//! `export`: tests as files of OpenSCENARIO and OpenDRIVE, which are read back and judged by the checkers of ASAM.
+
+use crate::common::{fuzz, refused, stderr, succeeds};
+use paracosm::engine::{Control, Motion, Run, Setup, Step};
+use paracosm::standards::openscenario::Xosc;
+use paracosm::{Log, campaign::Worker};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The greatest distance in metres of a body of the exported scenario from the body in the test.
+const CLOSE: f64 = 0.005;
+
+/// The scenarios whose tests are exported, each with further options.
+const SCENARIOS: [(&str, &[&str]); 2] = [("pedestrian-crossing", &[]), ("slow-leader.xosc", &["--open", "gap=20..60"])];
+
+/// Returns a folder with campaigns of two tests, in which test 1 of each is exported to the folder `NAME-case`.
+fn exported() -> tempfile::TempDir {
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests/scenarios/files");
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::create_dir(dir.path().join("catalogs")).expect("it is writable");
+    for name in ["straight.xodr", "slow-leader.xosc", "catalogs/entities.xosc"] {
+        fs::copy(from.join(name), dir.path().join(name)).expect("it is there");
+    }
+    for (scenario, options) in SCENARIOS {
+        let (log, case) = (format!("{scenario}-log"), format!("{scenario}-case"));
+        let arguments = [&[scenario, "--budget", "2", "--out", &log], options].concat();
+        succeeds(fuzz(dir.path(), &arguments));
+        succeeds(fuzz(dir.path(), &["export", &log, "1", "--out", &case]));
+    }
+    dir
+}
+
+/// Plays a concrete scenario to its end.
+fn played(file: &Path) -> Motion {
+    let program = Xosc::read(file).unwrap_or_else(|error| panic!("{error}")).program();
+    let nominal = program.declare().expect("it is sound").nominal();
+    let setup = Setup { takes_over: false, ..Setup::asking_every(0.1) };
+    let mut run = Run::new(&program, &nominal, setup).expect("it begins");
+    run.record_motion();
+    while let Step::Need(_) = run.advance() {
+        run.supply(Control::default());
+    }
+    run.motion().expect("it is recorded").clone()
+}
+
+/// Returns the motion of everything in a test of a campaign.
+fn recorded(dir: &Path, index: usize) -> Motion {
+    let log = Log::read(dir, &paracosm::catalogue()).expect("a log");
+    Worker::new(log.study()).expect("a worker").record(&log.trials()[index]).expect("it repeats").motion
+}
+
+/// Returns the greatest distance in metres between the bodies of two motions at a tick.
+fn distance(test: &Motion, export: &Motion) -> f64 {
+    let present: Vec<_> = test.tracks.iter().filter(|track| track.poses[0].is_some()).collect();
+    assert_eq!(present.len(), export.tracks.len());
+    let mut greatest: f64 = 0.0;
+    for (one, other) in present.iter().zip(&export.tracks) {
+        // A scenario of a file has 100 ticks in a second, and the test may have fewer.
+        let stride = (test.dt / export.dt).round() as usize;
+        assert!(other.poses.len() >= stride * (one.poses.len() - 1), "{}: it ends early", one.name);
+        for (a, b) in one.poses.iter().zip(other.poses.iter().step_by(stride)) {
+            let (Some(a), Some(b)) = (a, b) else { continue };
+            greatest = greatest.max((a.position - b.position).norm());
+        }
+    }
+    greatest
+}
+
+#[test]
+fn exported_tests_are_read_back_with_the_same_motion() {
+    let dir = exported();
+    for (scenario, _) in SCENARIOS {
+        // The scenario of a file names its catalogs from the working directory.
+        let log = dir.path().join(format!("{scenario}-log"));
+        let study = fs::read_to_string(log.join("campaign.json")).expect("a study");
+        let absolute = dir.path().join("slow-leader.xosc");
+        let study = study.replace("\"slow-leader.xosc\"", &format!("{:?}", absolute.to_string_lossy()));
+        fs::write(log.join("campaign.json"), study).expect("it is writable");
+        let case = dir.path().join(format!("{scenario}-case/scenario.xosc"));
+        let far = distance(&recorded(&log, 1), &played(&case));
+        assert!(far <= CLOSE, "{scenario}: {far} m");
+        eprintln!("{scenario}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
+    }
+}
+
+#[test]
+fn an_export_replaces_nothing_and_leaves_the_ego_vehicle_to_a_controller() {
+    let dir = tempfile::tempdir().expect("a folder");
+    succeeds(fuzz(dir.path(), &["pedestrian-crossing", "--budget", "2", "--out", "log"]));
+    let output = succeeds(fuzz(dir.path(), &["export", "log", "0", "--out", "case", "--ego-as", "controller"]));
+    assert!(stderr(&output).contains("except the ego vehicle"), "{}", stderr(&output));
+    let text = fs::read_to_string(dir.path().join("case/scenario.xosc")).expect("it was written");
+    assert_eq!(text.matches("<FollowTrajectoryAction>").count(), 1, "{text}");
+    refused(&fuzz(dir.path(), &["export", "log", "0", "--out", "case"]), &["scenario.xosc exists"]);
+    refused(&fuzz(dir.path(), &["export", "log", "7", "--out", "other"]), &["7"]);
+    assert!(!dir.path().join("other").exists());
+}
+
+/// Returns the Python that has the checkers of ASAM.
+fn judge() -> Option<PathBuf> {
+    let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/checker/bin/python3");
+    let found =
+        Command::new(&python).args(["-c", "import qc_opendrive, qc_openscenario"]).stderr(Stdio::null()).status();
+    let found = found.is_ok_and(|status| status.success());
+    if !found {
+        eprintln!("no checkers of ASAM: the test is skipped");
+    }
+    found.then_some(python)
+}
+
+/// Returns the report of a checker on a file.
+fn report(python: &Path, file: &Path, [module, bundle]: [&str; 2]) -> String {
+    let [config, result] = ["xml", "xqar"].map(|ending| file.with_extension(ending));
+    let (input, output) = (file.display(), result.display());
+    let settings = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Config><Param name=\"InputFile\" value=\"{input}\"/>\
+         <CheckerBundle application=\"{bundle}\"><Param name=\"resultFile\" value=\"{output}\"/></CheckerBundle></Config>"
+    );
+    fs::write(&config, settings).expect("the folder is writable");
+    let run = format!("import sys; from {module}.main import main; sys.argv = ['{module}', '-c', sys.argv[1]]; main()");
+    let output = Command::new(python).args(["-c", &run]).arg(&config).output().expect("python3 starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    fs::read_to_string(&result).expect("the checker writes a report")
+}
+
+#[test]
+fn exports_pass_the_quality_checkers_of_asam() {
+    let Some(python) = judge() else { return };
+    let dir = exported();
+    let scenarios = ["qc_openscenario", "xoscBundle"];
+    for (scenario, _) in SCENARIOS {
+        let case = dir.path().join(format!("{scenario}-case"));
+        let checked = report(&python, &case.join("scenario.xosc"), scenarios);
+        assert!(checked.matches("status=\"completed\"").count() >= 5, "{scenario}: {checked}");
+        assert!(!checked.contains("<Issue"), "{scenario}: {checked}");
+        let checked = report(&python, &case.join("roads.xodr"), ["qc_opendrive", "xodrBundle"]);
+        assert!(!checked.contains("<Issue"), "{scenario}: {checked}");
+    }
+    // The checker finds what is wrong.
+    let file = dir.path().join("pedestrian-crossing-case/wrong.xosc");
+    let text = fs::read_to_string(file.with_file_name("scenario.xosc")).expect("it was written");
+    fs::write(&file, text.replacen("<EntityRef entityRef=\"", "<EntityRef entityRef=\"No", 1)).expect("it is writable");
+    assert!(report(&python, &file, scenarios).contains("<Issue"));
+}
