@@ -177,6 +177,7 @@ mod below {
     impl Reason for paracosm_engine::sensor::SensorError {}
     impl Reason for paracosm_engine::vehicle::UnknownModel {}
     impl Reason for paracosm_engine::vehicle::VehicleSettingFlaw {}
+    impl Reason for crate::Problem {}
     impl Reason for paracosm_generators::GeneratorError {}
     impl Reason for paracosm_oracles::EvaluationError {}
     impl Reason for paracosm_oracles::ParseError {}

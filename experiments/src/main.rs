@@ -3,6 +3,7 @@
 //! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints its findings. One of the
 //! studies tests a system, which can also be tested from the command line.
 
+mod alks;
 mod automatic_transmission;
 mod boundary;
 #[cfg(feature = "neural")]
@@ -68,6 +69,12 @@ struct Study {
 }
 
 const STUDIES: &[Study] = &[
+    Study {
+        name: "alks",
+        about: "drivers in all combinations of the parameters of UN R157, whose scenarios have to lie beside the repository",
+        time: "20 min",
+        run: alks::run,
+    },
     Study {
         name: "automatic-transmission",
         about: "after how many simulations each strategy falsifies a model of an automatic transmission",

@@ -36,14 +36,14 @@ pub(super) struct Options {
     /// The new folder for the scenario and its roads
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
-    /// Who moves the ego vehicle in the exported scenario
+    /// The motion of the ego vehicle in the exported scenario
     #[arg(long, value_name = "WHO", default_value = "trajectory")]
     ego_as: Ego,
     #[command(flatten)]
     trust: trust::Options,
 }
 
-/// Who moves the ego vehicle in the exported scenario.
+/// The motion of the ego vehicle in the exported scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Ego {
     /// The ego vehicle follows the trajectory that the test had

@@ -6,7 +6,6 @@ mod metric;
 pub(crate) use line::Line;
 pub use metric::{Metric, UnknownWord};
 
-use crate::Reason;
 use paracosm_engine::driver::FaultKind;
 use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation};
 use paracosm_oracles::{Trace, Verdict};
@@ -82,8 +81,6 @@ impl fmt::Display for Problem {
 }
 
 impl std::error::Error for Problem {}
-
-impl Reason for Problem {}
 
 /// The kind of a problem that leaves a test without a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -63,7 +63,11 @@ impl Cubics {
     }
 
     fn piece(&self, s: f64) -> Option<&Cubic> {
-        self.0.get(self.0.partition_point(|piece| piece.s <= s).checked_sub(1)?)
+        // Most functions have one polynomial.
+        match self.0.as_slice() {
+            [only] => (only.s <= s).then_some(only),
+            pieces => pieces.get(pieces.partition_point(|piece| piece.s <= s).checked_sub(1)?),
+        }
     }
 
     /// Returns the greatest magnitude of the function between two places, in metres along the road.

@@ -160,7 +160,7 @@ impl Road {
     /// Returns the distance of the outer border of a lane from the reference line, in metres to the left. The border of
     /// lane 0 is its line. `None` if the section has no such lane.
     pub fn border(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
-        self.sum(section, lane, |cubics| cubics.at(s))
+        self.sums(section, lane, |cubics| cubics.at(s)).map(|[outer, _]| outer)
     }
 
     /// Returns the heading of the outer border of a lane in the direction of the road, in radians in (-π, π]. `None` if the
@@ -172,8 +172,14 @@ impl Road {
     /// Returns the heading of the middle of a lane in the direction of the road, in radians in (-π, π]. `None` if the section
     /// has no such lane.
     pub fn lane_heading(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
-        let slopes = [self.slope(section, lane, s)?, self.slope(section, lane - lane.signum(), s)?];
-        Some(self.heading_beside(s, self.middle(section, lane, s), 0.5 * (slopes[0] + slopes[1])))
+        self.middle_line(section, lane, s).map(|[_, heading]| heading)
+    }
+
+    /// Returns [`Road::middle`] and [`Road::lane_heading`]. `None` if the section has no such lane.
+    pub(crate) fn middle_line(&self, section: usize, lane: i32, s: f64) -> Option<[f64; 2]> {
+        let slopes = self.sums(section, lane, |cubics| cubics.slope(s))?;
+        let middle = self.middle(section, lane, s);
+        Some([middle, self.heading_beside(s, middle, 0.5 * (slopes[0] + slopes[1]))])
     }
 
     /// Returns the heading of a line `t` metres to the left of the reference line whose distance grows by `slope`.
@@ -183,7 +189,7 @@ impl Road {
 
     /// Returns the derivative of [`Road::border`].
     fn slope(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
-        self.sum(section, lane, |cubics| cubics.slope(s))
+        self.sums(section, lane, |cubics| cubics.slope(s)).map(|[outer, _]| outer)
     }
 
     /// Returns the width of a lane in metres; 0 if the section has no such lane.
@@ -199,25 +205,26 @@ impl Road {
     }
 
     fn borders_of(&self, section: usize, lane: i32, s: f64) -> [f64; 2] {
-        [lane, lane - lane.signum()].map(|number| self.border(section, number, s).unwrap_or_default())
+        self.sums(section, lane, |cubics| cubics.at(s)).unwrap_or_default()
     }
 
-    /// Returns the sum of the offset of the road and of the widths up to the outer border of a lane, or of the derivatives of
-    /// both.
-    fn sum(&self, section: usize, lane: i32, of: impl Fn(&Cubics) -> f64) -> Option<f64> {
+    /// Returns the sums of the offset of the road and of the widths up to the outer and to the inner border of a lane, or of the
+    /// derivatives of both.
+    fn sums(&self, section: usize, lane: i32, of: impl Fn(&Cubics) -> f64) -> Option<[f64; 2]> {
         let section = self.sections.get(section)?;
-        let (outermost, middle) = (section.index(lane)?, section.index(0)?);
-        let inside: &mut dyn Iterator<Item = usize> =
-            if outermost <= middle { &mut (outermost..middle).rev() } else { &mut (middle + 1..=outermost) };
-        let mut border = 0.0;
-        for index in inside {
+        let (outermost, mut index) = (section.index(lane)?, section.index(0)?);
+        let (mut outer, mut inner) = (0.0, 0.0);
+        while index != outermost {
+            index = if outermost < index { index - 1 } else { index + 1 };
             let lane = &section.lanes[index];
-            border = match &lane.extent {
-                Extent::Width(width) => border + f64::from(lane.number.signum()) * of(width),
+            inner = outer;
+            outer = match &lane.extent {
+                Extent::Width(width) => outer + f64::from(lane.number.signum()) * of(width),
                 Extent::Border(border) => of(border),
             };
         }
-        Some(of(&self.offset) + border)
+        let offset = of(&self.offset);
+        Some([offset + outer, offset + inner])
     }
 
     /// Returns the point `t` metres to the left of the reference line, `s` metres along the road. The world is flat: the

@@ -26,7 +26,7 @@ const STRONGEST: f64 = 20.0;
 /// The name of the ego vehicle in the file.
 const EGO: &str = "Ego";
 
-/// Who moves the ego vehicle in an exported scenario.
+/// The motion of the ego vehicle in an exported scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EgoAs {
     /// The ego vehicle follows its recorded trajectory.
@@ -46,7 +46,7 @@ pub struct Export<'a> {
     pub roads: &'a str,
     /// The recorded run.
     pub motion: &'a Motion,
-    /// Who moves the ego vehicle.
+    /// The motion of the ego vehicle.
     pub ego: EgoAs,
 }
 

@@ -34,8 +34,11 @@ impl Place {
     pub fn pose(&self, map: &Map) -> Pose {
         let road = &map.roads[self.road];
         let section = road.section_at(self.s);
-        let heading = road.lane_heading(section, self.lane, self.s).unwrap_or_else(|| road.line.at(self.s).heading);
-        Pose { position: road.point(self.s, self.t(map)), heading: wrapped(heading + self.turn) }
+        let [t, heading] = road.middle_line(section, self.lane, self.s).unwrap_or_else(|| {
+            // A place beside all lanes goes along the reference line.
+            [0.0, road.line.at(self.s).heading]
+        });
+        Pose { position: road.point(self.s, t + self.offset), heading: wrapped(heading + self.turn) }
     }
 
     /// Returns `true` if the place faces against the direction of the road.
@@ -90,8 +93,10 @@ impl Place {
     fn along(&self, metres: f64, map: &Map) -> f64 {
         let road = &map.roads[self.road];
         let rate = |s: f64| {
-            let t = Self { s, ..*self }.t(map);
-            road.line.rate(s) * (1.0 - road.line.curvature(s) * t).max(0.01)
+            let curvature = road.line.curvature(s);
+            // On a straight line the place beside the line does not matter.
+            let bend = if curvature == 0.0 { 0.0 } else { curvature * Self { s, ..*self }.t(map) };
+            road.line.rate(s) * (1.0 - bend).max(0.01)
         };
         let first = metres / rate(self.s);
         metres / rate((self.s + 0.5 * first).clamp(0.0, road.length))
