@@ -383,6 +383,6 @@ impl StudyBuilder {
             }
             study.fix(name, value.clone())?;
         }
-        Ok(())
+        study.check_texts()
     }
 }

@@ -167,6 +167,13 @@ impl Scenario {
         self.described(parameter, open, Read::value())
     }
 
+    /// Declares a closed parameter that takes any text, such as the path of a file. It stays at `nominal` until a study sets
+    /// it, or opens it to several texts.
+    pub fn text(&mut self, name: &str, nominal: &str) -> Param<String> {
+        let text = self.declare(name, Domain::Choice(vec![nominal.into()]), Some(nominal.into()), Read::text());
+        text.taking_texts()
+    }
+
     fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
@@ -177,7 +184,7 @@ impl Scenario {
     fn described<T: Clone>(&mut self, parameter: Parameter, open: bool, read: Read<T>) -> Param<T> {
         // A name that the test does not know is reported once the program has returned, together with all the others.
         let given = self.given.iter().find(|(given, _)| *given == parameter.name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(Declared { parameter, open, opens: None });
+        self.parameters.borrow_mut().push(Declared { open, ..Declared::open(parameter) });
         Param::new(self, given.unwrap_or_default(), read)
     }
 

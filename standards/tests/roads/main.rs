@@ -6,3 +6,4 @@ mod lanes;
 mod networks;
 mod others;
 mod round_trip;
+mod traffic;
