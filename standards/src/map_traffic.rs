@@ -3,6 +3,8 @@
 //!
 //! The parameter `roads` has the path of the file, or `town` for a town that comes with the software. The ego vehicle begins at a
 //! random place, and takes a random lane wherever its lane has several next lanes. All choices follow from the values of the test.
+//!
+//! The speed limits of the map hold for the traffic. The ego vehicle is to keep the lowest limit of its way, times `pace`.
 
 use crate::opendrive::{Map, write};
 use crate::xml::ReadError;
@@ -20,6 +22,8 @@ use thiserror::Error;
 const TOWN: &str = "town";
 /// The speed in m/s where the map has no limit: 50 km/h.
 const USUAL: f64 = 50.0 / 3.6;
+/// The greatest speed in m/s that cars want to drive, where limits are higher.
+const FASTEST: f64 = 36.0;
 /// The duration of a run in seconds.
 const DURATION: f64 = 45.0;
 /// The least length of the ego vehicle's way in metres.
@@ -82,7 +86,7 @@ fn build(known: &Known, s: &mut Scenario) {
 
     let planned = network(known, &roads).and_then(|network| {
         let way = Way::drawn(&network, &roads, route as u64)?;
-        let speed = pace * USUAL;
+        let speed = pace * way.limit;
         let others = others(&network, &way, speed, seed as u64);
         let room = others.len();
         if room < cars {
@@ -133,14 +137,16 @@ struct Way {
     path: Path,
     /// The place at which the car begins, in metres along the path.
     start: f64,
+    /// The lowest speed limit of the lanes of the way in m/s.
+    limit: f64,
 }
 
 impl Way {
     /// Returns the way number `route`: the first of many ways that is long enough for a whole run, or the longest.
     fn drawn(network: &RoadNetwork, roads: &str, route: u64) -> Result<Self, NoRoads> {
-        let wanted = DURATION * USUAL;
         let mut longest: Option<(f64, Vec<LaneId>, f64)> = None;
         for (index, place) in places(network, route).take(TRIES).enumerate() {
+            let wanted = DURATION * network.lane(place.lane).limit_at(place.s).unwrap_or(USUAL).min(FASTEST);
             let mut lanes = vec![place.lane];
             let mut length = network.lane(place.lane).length() - place.s;
             while length < wanted {
@@ -157,10 +163,18 @@ impl Way {
             }
         }
         match longest {
-            Some((length, lanes, start)) if length >= SHORTEST => Ok(Self { path: network.path(&lanes), start }),
+            Some((length, lanes, start)) if length >= SHORTEST => {
+                let limit = limits(network, &lanes).reduce(f64::min).unwrap_or(USUAL).min(FASTEST);
+                Ok(Self { path: network.path(&lanes), start, limit })
+            }
             other => Err(NoRoads::NoWay { file: roads.to_owned(), found: other.map_or(0.0, |(length, ..)| length) }),
         }
     }
+}
+
+/// Returns the speed limits of lanes, in m/s.
+fn limits(network: &RoadNetwork, lanes: &[LaneId]) -> impl Iterator<Item = f64> {
+    lanes.iter().flat_map(|lane| &network.lane(*lane).limits).map(|limit| limit.speed)
 }
 
 /// Returns random places on roads at which a car can begin, in random order.
@@ -200,11 +214,16 @@ fn others(network: &RoadNetwork, way: &Way, speed: f64, seed: u64) -> Vec<Traffi
     let lane = way.path.lane_pieces().next().map(|(_, lane)| lane);
     let ego = lane.map(|lane| Room::of(network, RoutePosition { lane, s: way.start }, 2.0 * speed));
     let mut taken: Vec<Room> = ego.into_iter().collect();
+    let all: Vec<LaneId> = network.ids().collect();
+    let desired = limits(network, &all).reduce(f64::max).unwrap_or(USUAL).min(FASTEST);
     let mut cars = Vec::new();
     for (index, place) in places(network, seed).enumerate() {
-        let car = TrafficCar::at(place).desired_speed(USUAL).varied(1000 * seed + index as u64);
+        let car = TrafficCar::at(place).desired_speed(desired).varied(1000 * seed + index as u64);
         let free = free_metres(network, place);
-        let speed = (2.0 * GENTLE * free).sqrt().min(0.9 * USUAL);
+        let lane = network.lane(place.lane);
+        let bend = (GENTLE / lane.curve.greatest_curvature()).sqrt();
+        let most = lane.limit_at(place.s).unwrap_or(USUAL).min(FASTEST);
+        let speed = (2.0 * GENTLE * free).sqrt().min(bend).min(0.9 * most);
         let room = Room::of(network, place, speed);
         if !taken.iter().any(|other| room.meets(other)) {
             taken.push(room);

@@ -56,6 +56,17 @@ pub struct LaneConflict {
     pub gives_way: bool,
 }
 
+/// A stretch of a lane on which a speed limit holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedLimit {
+    /// The beginning of the stretch, in metres along the lane.
+    pub from: f64,
+    /// The end of the stretch, in metres along the lane.
+    pub to: f64,
+    /// The greatest speed that is allowed, in m/s.
+    pub speed: f64,
+}
+
 /// A lane of a road or an intersection, as a path in the direction of its traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
@@ -80,6 +91,8 @@ pub struct Lane {
     pub predecessors: Vec<LaneId>,
     /// The conflicts with lanes of the same intersection that cross or join this lane.
     pub conflicts: Vec<LaneConflict>,
+    /// The stretches with a speed limit, in the order of their places. Stretches without a known limit are left out.
+    pub limits: Vec<SpeedLimit>,
 }
 
 impl Lane {
@@ -87,6 +100,13 @@ impl Lane {
     #[inline]
     pub fn length(&self) -> f64 {
         self.curve.length()
+    }
+
+    /// Returns the speed limit in m/s at a place in metres along the lane; `None` if no limit is known there.
+    pub fn limit_at(&self, s: f64) -> Option<f64> {
+        let next = self.limits.partition_point(|limit| limit.from <= s);
+        let limit = self.limits.get(next.checked_sub(1)?)?;
+        (s <= limit.to).then_some(limit.speed)
     }
 
     /// Returns the next lane to the left and the next lane to the right, if cars may change to these lanes.

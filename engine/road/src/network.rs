@@ -136,6 +136,7 @@ impl RoadNetwork {
                     successors: plan.successors.iter().map(id).collect(),
                     predecessors: Vec::new(),
                     conflicts: plan.conflicts.iter().map(conflict).collect(),
+                    limits: Vec::new(),
                 }
             }));
             strips.extend(layout.strips.iter().map(|strip| strip.moved(&part.pose)));

@@ -2,7 +2,7 @@
 
 use super::centreline::Centreline;
 use super::error::RoadError;
-use super::lane::{Lane, LaneConflict, LaneId, LaneKind};
+use super::lane::{Lane, LaneConflict, LaneId, LaneKind, SpeedLimit};
 use super::layout::{CLOSE, span};
 use super::network::{Course, Placed, RoadNetwork};
 use super::strip::Strip;
@@ -75,13 +75,15 @@ pub struct SurveyedLane {
     pub right: Option<usize>,
     /// The lanes that begin at the end of the lane.
     pub successors: Vec<usize>,
+    /// The stretches with a speed limit, in the order of their places along the lane.
+    pub limits: Vec<SpeedLimit>,
 }
 
 impl SurveyedLane {
     /// Makes a lane of a road without neighbours and successors, 3.5 m wide.
     pub fn new(road: usize, number: i32, span: [f64; 2], line: Centreline) -> Self {
         let (left, right, successors, kind) = (None, None, Vec::new(), LaneKind::Road);
-        Self { road, number, kind, span, line, width: 3.5, left, right, successors }
+        Self { road, number, kind, span, line, width: 3.5, left, right, successors, limits: Vec::new() }
     }
 }
 
@@ -117,6 +119,7 @@ impl Survey {
                 successors: draft.successors.iter().map(id).collect(),
                 predecessors: Vec::new(),
                 conflicts: Vec::new(),
+                limits: draft.limits.clone(),
             }
         };
         let mut lanes: Vec<Lane> = order.iter().map(lane).collect();

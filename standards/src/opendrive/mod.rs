@@ -34,6 +34,7 @@ mod paving;
 mod plan_view;
 mod read;
 mod road;
+mod speed;
 mod table;
 mod write;
 

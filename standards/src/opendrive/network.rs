@@ -88,7 +88,8 @@ impl Map {
         };
         let width = road.width(s, lane.number, 0.5 * (section.s + section.end)).max(0.1);
         let line = (!arcs.is_empty()).then(|| Centreline::new(arcs))?;
-        Some(SurveyedLane { kind, width, ..SurveyedLane::new(index, -lane.number, span, line) })
+        let limits = road.stretches(s, lane, span, line.length());
+        Some(SurveyedLane { kind, width, limits, ..SurveyedLane::new(index, -lane.number, span, line) })
     }
 
     /// Returns the lane with a number beside a lane, if it leads in the same direction and cars may change to it.
