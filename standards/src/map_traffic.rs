@@ -4,14 +4,18 @@
 //! The parameter `roads` has the path of the file, or `town` for a town that comes with the software. The ego vehicle begins at a
 //! random place, and takes a random lane wherever its lane has several next lanes. All choices follow from the values of the test.
 //!
+//! Objects and signals of the map stand where the file has them. Objects on a lane are in the way of everybody. All others are
+//! scenery: sensors see them, and a car can run into them.
+//!
 //! The speed limits of the map hold for the traffic. The ego vehicle is to keep the lowest limit of its way, times `pace`.
 
 use crate::opendrive::{Map, write};
 use crate::xml::ReadError;
+use paracosm_engine::object::Body;
 use paracosm_engine::road::{LaneId, LaneKind, Path, RoadError, RoadNetwork, RoutePosition, grid_city};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{
-    AutonomousVehicle, Environment, EnvironmentCars, Monitor, Pose, Program, Roadside, Scenario, Weather,
+    AutonomousVehicle, Environment, EnvironmentCars, Fixture, Monitor, Pose, Program, Roadside, Scenario, Weather,
 };
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
@@ -43,6 +47,12 @@ const STRIP: f64 = 2.2;
 /// The deceleration in m/s² with which a car at the start could stop before the next junction.
 const GENTLE: f64 = 1.5;
 
+/// The distance in metres that a car keeps from a body on the lanes at the start.
+const CLEAR: f64 = 15.0;
+/// The distance in metres between two points of a body that are compared with the lanes, and the metres by which a body may reach
+/// over the edge of a lane.
+const STEP: f64 = 1.0;
+const EDGE: f64 = 0.3;
 /// The distance in metres over which a car looks ahead at the start.
 const FORESEEN: f64 = 300.0;
 
@@ -54,7 +64,23 @@ pub fn map_traffic() -> Program {
 }
 
 /// The networks of the files that were read, by the value of the parameter.
-type Known = Mutex<BTreeMap<String, Arc<RoadNetwork>>>;
+type Known = Mutex<BTreeMap<String, Roads>>;
+
+/// The network of a file, and the bodies of its objects and signals.
+#[derive(Debug, Clone)]
+struct Roads {
+    network: Arc<RoadNetwork>,
+    things: Arc<[Thing]>,
+}
+
+/// The body of an object or a signal.
+#[derive(Debug, Clone, Copy)]
+struct Thing {
+    body: Body,
+    at: Pose,
+    /// True if the body is on a lane.
+    is_in_the_way: bool,
+}
 
 /// The reason why the roads of a test cannot be used.
 #[derive(Debug, Error)]
@@ -84,17 +110,19 @@ fn build(known: &Known, s: &mut Scenario) {
     let [fog, light, rain] = air.map(|(name, nominal)| s.nominal(name, 0.0..=1.0, nominal).atmospheric());
     let fullness = s.nominal("roadside", 0.0..=1.0, 0.0).value();
 
-    let planned = network(known, &roads).and_then(|network| {
-        let way = Way::drawn(&network, &roads, route as u64)?;
+    let planned = read(known, &roads).and_then(|Roads { network, things }| {
+        let begin = |seed| places(&network, &things, seed);
+        let way = Way::drawn(&network, &roads, begin(route as u64))?;
         let speed = pace * way.limit;
-        let others = others(&network, &way, speed, seed as u64);
+        let others = others(&network, &way, speed, (seed as u64, begin(seed as u64)));
         let room = others.len();
         if room < cars {
             return Err(NoRoads::NoRoom { file: roads.clone(), room, asked: cars });
         }
-        Ok((network, way, speed, others.into_iter().take(cars).collect()))
+        let others = others.into_iter().take(cars).collect();
+        Ok((network, things, way, speed, others))
     });
-    let (network, way, speed, others) = match planned {
+    let (network, things, way, speed, others) = match planned {
         Ok(planned) => planned,
         Err(why) => return s.refuse(&why.to_string()),
     };
@@ -103,6 +131,10 @@ fn build(known: &Known, s: &mut Scenario) {
     s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
     let car = s.place(AutonomousVehicle::along(way.path).starting(way.start).speed(speed));
     s.place(EnvironmentCars::on(&streets, others).seed(seed as u64));
+    for Thing { body, at, is_in_the_way } in things.iter() {
+        let fixture = Fixture::new(&body.class.to_string(), *body, *at).joined();
+        s.place(if *is_in_the_way { fixture } else { fixture.as_scenery() });
+    }
     s.place(Roadside::new(fullness));
 
     s.duration(DURATION);
@@ -113,16 +145,36 @@ fn build(known: &Known, s: &mut Scenario) {
     s.monitor(Monitor::activity(&car, 30.0));
 }
 
-/// Returns the road network of a file, or of the town.
-fn network(known: &Known, roads: &str) -> Result<Arc<RoadNetwork>, NoRoads> {
+/// Returns the roads and the things of a file, or of the town.
+fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
     let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(network) = known.get(roads) {
-        return Ok(network.clone());
+    if let Some(roads) = known.get(roads) {
+        return Ok(roads.clone());
     }
     let map = if roads == TOWN { town() } else { Map::read(FilePath::new(roads)) }?;
     let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error })?;
-    known.insert(roads.to_owned(), network.clone());
-    Ok(network)
+    let things = map.objects().flat_map(|object| object.parts.iter().map(move |part| (object, *part)));
+    let things = things.filter_map(|(object, (body, at))| {
+        let is_in_the_way = is_on_lane(&network, &body, &at);
+        // A signal over a lane hangs, and a car drives below it.
+        (!object.is_signal || !is_in_the_way).then_some(Thing { body, at, is_in_the_way })
+    });
+    let read = Roads { things: things.collect(), network: network.clone() };
+    known.insert(roads.to_owned(), read.clone());
+    Ok(read)
+}
+
+/// Returns `true` if a body is on a lane.
+fn is_on_lane(network: &RoadNetwork, body: &Body, at: &Pose) -> bool {
+    let half = body.outline.half_extent();
+    let (ahead, aside) = if half.x >= half.y { (at.forward(), half.y) } else { (at.left(), half.x) };
+    let along = half.max() - aside;
+    let steps = (2.0 * along / STEP).ceil();
+    (0..=steps as usize).any(|i| {
+        let share = if steps > 0.0 { 2.0 * i as f64 / steps - 1.0 } else { 0.0 };
+        let place = network.project(at.position + ahead * (along * share));
+        place.distance < 0.5 * network.lane(place.lane).width + aside - EDGE
+    })
 }
 
 /// Returns the map of the town: nine junctions and the streets between them, as a file of OpenDRIVE has them.
@@ -142,10 +194,10 @@ struct Way {
 }
 
 impl Way {
-    /// Returns the way number `route`: the first of many ways that is long enough for a whole run, or the longest.
-    fn drawn(network: &RoadNetwork, roads: &str, route: u64) -> Result<Self, NoRoads> {
+    /// Returns the first of the ways from many places that is long enough for a whole run, or the longest of these ways.
+    fn drawn(network: &RoadNetwork, roads: &str, places: impl Iterator<Item = RoutePosition>) -> Result<Self, NoRoads> {
         let mut longest: Option<(f64, Vec<LaneId>, f64)> = None;
-        for (index, place) in places(network, route).take(TRIES).enumerate() {
+        for (index, place) in places.take(TRIES).enumerate() {
             let wanted = DURATION * network.lane(place.lane).limit_at(place.s).unwrap_or(USUAL).min(FASTEST);
             let mut lanes = vec![place.lane];
             let mut length = network.lane(place.lane).length() - place.s;
@@ -178,10 +230,14 @@ fn limits(network: &RoadNetwork, lanes: &[LaneId]) -> impl Iterator<Item = f64> 
 }
 
 /// Returns random places on roads at which a car can begin, in random order.
-fn places(network: &RoadNetwork, seed: u64) -> impl Iterator<Item = RoutePosition> {
+fn places(network: &RoadNetwork, things: &[Thing], seed: u64) -> impl Iterator<Item = RoutePosition> {
     let fits = |place: &RoutePosition| {
         let lane = network.lane(place.lane);
-        lane.width >= NARROWEST && (MARGIN..=lane.length() - MARGIN).contains(&place.s)
+        let here = lane.curve.point(place.s);
+        let near = |thing: &Thing| (thing.at.position - here).norm() < CLEAR + thing.body.outline.reach();
+        lane.width >= NARROWEST
+            && (MARGIN..=lane.length() - MARGIN).contains(&place.s)
+            && !things.iter().any(|thing| thing.is_in_the_way && near(thing))
     };
     TrafficCar::scattered(network, usize::MAX, seed).into_iter().map(|car| car.start()).filter(fits)
 }
@@ -210,14 +266,19 @@ impl Room {
 }
 
 /// Returns cars for all places on the roads at which there is room for a car that drives, in random order.
-fn others(network: &RoadNetwork, way: &Way, speed: f64, seed: u64) -> Vec<TrafficCar> {
+fn others(
+    network: &RoadNetwork,
+    way: &Way,
+    speed: f64,
+    (seed, places): (u64, impl Iterator<Item = RoutePosition>),
+) -> Vec<TrafficCar> {
     let lane = way.path.lane_pieces().next().map(|(_, lane)| lane);
     let ego = lane.map(|lane| Room::of(network, RoutePosition { lane, s: way.start }, 2.0 * speed));
     let mut taken: Vec<Room> = ego.into_iter().collect();
     let all: Vec<LaneId> = network.ids().collect();
     let desired = limits(network, &all).reduce(f64::max).unwrap_or(USUAL).min(FASTEST);
     let mut cars = Vec::new();
-    for (index, place) in places(network, seed).enumerate() {
+    for (index, place) in places.enumerate() {
         let car = TrafficCar::at(place).desired_speed(desired).varied(1000 * seed + index as u64);
         let free = free_metres(network, place);
         let lane = network.lane(place.lane);

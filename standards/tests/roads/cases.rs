@@ -379,7 +379,7 @@ fn pairs(text: &str) -> BTreeSet<(String, String)> {
 /// The files in which elements occur that are read or have no effect, and the texts with elements that are refused.
 fn covered() -> BTreeMap<(String, String), String> {
     let mut covered = BTreeMap::new();
-    for name in ["geometries.xodr", "junction.xodr", "without_effect.xodr"] {
+    for name in ["geometries.xodr", "junction.xodr", "objects.xodr", "without_effect.xodr"] {
         read(name);
         for pair in pairs(&fs::read_to_string(file(name)).expect("the file is readable")) {
             covered.entry(pair).or_insert(format!("files/{name}"));
