@@ -173,7 +173,7 @@ fn is_on_lane(network: &RoadNetwork, body: &Body, at: &Pose) -> bool {
     (0..=steps as usize).any(|i| {
         let share = if steps > 0.0 { 2.0 * i as f64 / steps - 1.0 } else { 0.0 };
         let place = network.project(at.position + ahead * (along * share));
-        place.distance < 0.5 * network.lane(place.lane).width + aside - EDGE
+        place.distance < 0.5 * network.lane(place.lane).width_at(place.s) + aside - EDGE
     })
 }
 
@@ -235,7 +235,7 @@ fn places(network: &RoadNetwork, things: &[Thing], seed: u64) -> impl Iterator<I
         let lane = network.lane(place.lane);
         let here = lane.curve.point(place.s);
         let near = |thing: &Thing| (thing.at.position - here).norm() < CLEAR + thing.body.outline.reach();
-        lane.width >= NARROWEST
+        lane.width_at(place.s) >= NARROWEST
             && (MARGIN..=lane.length() - MARGIN).contains(&place.s)
             && !things.iter().any(|thing| thing.is_in_the_way && near(thing))
     };

@@ -79,8 +79,11 @@ pub struct Lane {
     pub number: i32,
     /// The line along the middle of the lane.
     pub curve: Centreline,
-    /// The width of the lane in metres.
+    /// The width of the lane in metres; in the middle of its length, if the width changes.
     pub width: f64,
+    /// The widths along the lane if the width changes: places in metres along the lane, each with the width there, between
+    /// which the width changes evenly. Empty if the width is the same everywhere.
+    pub widths: Vec<[f64; 2]>,
     /// The next lane to the left in the same direction; `None` if cars may not change to the left.
     pub left: Option<LaneId>,
     /// The next lane to the right in the same direction; `None` if cars may not change to the right.
@@ -100,6 +103,16 @@ impl Lane {
     #[inline]
     pub fn length(&self) -> f64 {
         self.curve.length()
+    }
+
+    /// Returns the width in metres at a place in metres along the lane.
+    pub fn width_at(&self, s: f64) -> f64 {
+        let next = self.widths.partition_point(|[place, _]| *place <= s);
+        match [next.checked_sub(1), Some(next)].map(|index| self.widths.get(index?)) {
+            [None, None] => self.width,
+            [Some([_, width]), None] | [None, Some([_, width])] => *width,
+            [Some([from, a]), Some([to, b])] => a + (b - a) * (s - from) / (to - from),
+        }
     }
 
     /// Returns the speed limit in m/s at a place in metres along the lane; `None` if no limit is known there.

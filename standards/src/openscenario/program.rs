@@ -25,6 +25,8 @@ const LONGEST: f64 = 60.0;
 const BEYOND: f64 = 1.0;
 /// The greatest duration in seconds of a run.
 const LATEST: f64 = 3600.0;
+/// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
+const ONWARD: f64 = 5000.0;
 /// The outermost element of a file.
 const ROOT: &str = "OpenSCENARIO";
 
@@ -254,13 +256,13 @@ fn ego(board: &Storyboard) -> usize {
     named.or_else(|| board.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
 }
 
-/// Returns the ego vehicle, with the way along its lane to the end of the roads.
+/// Returns the ego vehicle, with the way along its lane and straight on.
 fn car(stage: &Stage, ego: usize, network: &Arc<RoadNetwork>) -> AutonomousVehicle {
     let actor = &stage.cast.actors[ego];
     let Pose { position, heading } = actor.middle();
     let pose = Pose { position, heading };
     let seen = network.project_along(&pose);
-    let way = seen.map(|seen| (network.path(&[seen.lane]), seen.s));
+    let way = seen.map(|seen| (network.path(&network.onward(seen.lane, ONWARD)), seen.s));
     let car = match way {
         Some((way, at)) => AutonomousVehicle::along(way).starting(at),
         None => AutonomousVehicle::along(Path::straight(position, position + pose.forward())),

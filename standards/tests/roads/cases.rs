@@ -101,6 +101,22 @@ fn speed_limits_hold_along_the_lanes_of_the_network() {
 }
 
 #[test]
+fn lanes_of_a_network_have_their_widths_at_every_place() {
+    let width = r#"<width sOffset="0" a="3.5" b="0" c="0" d="0"/>"#;
+    let wider = r#"<width sOffset="0" a="3" b="0" c="0" d="0"/><width sOffset="30" a="3" b="0.05" c="0" d="0"/>"#;
+    for (width, expected) in [(width, [3.5; 3]), (wider, [3.0, 3.0, 3.75])] {
+        let network = parse(with(&[(r#"<width sOffset="0" a="3.5" b="0" c="0" d="0"/>"#, width)]));
+        let network = network.expect("it is sound").network().expect("it has lanes");
+        let lane = network.lane(network.lane_of("1", 1).expect("the lane"));
+        for (s, expected) in [0.0, 20.0, 45.0].into_iter().zip(expected) {
+            // The middle of a lane that becomes wider is slightly longer than the road.
+            assert!((lane.width_at(s) - expected).abs() < 1e-3, "{} instead of {expected}", lane.width_at(s));
+        }
+        assert_eq!(lane.widths.is_empty(), expected[2] == 3.5);
+    }
+}
+
+#[test]
 fn heights_are_left_out_and_a_note_says_so() {
     let map = read("geometries.xodr");
     let road: &Road = &map.roads[0];
