@@ -45,7 +45,7 @@ pub use paracosm_standards as standards;
 
 /// Returns the catalogue of all scenarios that come with the software, which also reads files of OpenSCENARIO.
 pub fn catalogue() -> Catalogue {
-    Catalogue::of(scenarios::ALL).reading(Reader {
+    Catalogue::of(scenarios::ALL).with(standards::map_traffic()).reading(Reader {
         ending: "xosc",
         about: "scenarios and distributions of parameters of ASAM OpenSCENARIO XML",
         read: |file| {

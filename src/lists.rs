@@ -5,7 +5,6 @@ use crate::campaign::study::ListedDriver;
 use crate::coverage::Measure;
 use crate::engine::{Program, sensor};
 use crate::generators::Strategy;
-use crate::scenarios;
 
 /// Lists of the named scenarios, strategies, drivers, measures, sensors and camera settings.
 #[derive(Debug, Clone)]
@@ -29,7 +28,7 @@ impl Lists {
     /// Returns the lists of all scenarios, strategies and other named parts that come with the software.
     pub fn of_this_software() -> Self {
         Self {
-            scenarios: scenarios::ALL.iter().copied().cloned().collect(),
+            scenarios: crate::catalogue().programs().to_vec(),
             strategies: Strategy::all().collect(),
             drivers: ListedDriver::all().collect(),
             measures: Measure::all().collect(),

@@ -189,7 +189,9 @@ impl Program {
                 flaws.push(flaw);
             }
         }
-        if scenario.cars.len() != 1 || scenario.networks.len() != 1 {
+        // A program that refuses a test may end before it places anything.
+        let is_refused = flaws.iter().any(|flaw| matches!(flaw, WorldFlaw::Refused { .. }));
+        if !is_refused && (scenario.cars.len() != 1 || scenario.networks.len() != 1) {
             let (cars, roads) = (scenario.cars.len(), scenario.networks.len());
             flaws.push(WorldFlaw::Cars { cars, roads });
         }

@@ -1,7 +1,7 @@
 //! A test as a program sees it: the values of its parameters, and the shapes of those that vary.
 
 use crate::chance::{hashed, mixed};
-use paracosm_space::{Domain, Parameter, Shape, Space, Value, Values};
+use paracosm_space::{Domain, Parameter, ParameterError, Shape, Space, Value, Values};
 
 /// A parameter that a program asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,9 +13,25 @@ pub struct Declared {
     /// The domain that tests vary the parameter over if a study opens it and names no range; `None` for the domain of
     /// the parameter.
     pub opens: Option<Domain>,
+    /// True if the parameter takes any text, such as the path of a file. Its domain then lists the texts that the program
+    /// knows.
+    pub takes_texts: bool,
 }
 
 impl Declared {
+    /// Makes an open parameter, which a study varies over its whole domain.
+    pub fn open(parameter: Parameter) -> Self {
+        Self { parameter, open: true, opens: None, takes_texts: false }
+    }
+
+    /// Checks that the parameter can take a value.
+    ///
+    /// # Errors
+    /// The parameter does not take the value. The error says which values it takes.
+    pub fn check(&self, value: &Value) -> Result<(), ParameterError> {
+        if self.takes_texts && !matches!(value, Value::List(_)) { Ok(()) } else { self.parameter.check(value) }
+    }
+
     /// Returns the parameter as a study has it that opens it and names no range. A nominal value outside of the domain
     /// is left out.
     pub fn opened(&self) -> Parameter {

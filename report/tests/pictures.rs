@@ -368,3 +368,19 @@ fn a_picture_shows_every_surface_and_what_is_laid_over_it() {
     let full = RoadPicture::of(&net).route(&route.unwrap(), [1, 2, 3]).body(car, 4.5, 1.8, [0xcc, 0x33, 0x11]).svg();
     assert!(full.contains("#010203") && full.contains("#cc3311"));
 }
+
+#[test]
+fn a_road_of_many_kilometres_is_seen() {
+    let net = RoadSegment::new(90_000.0).build().unwrap();
+    // The carriageway of one pixel, besides the ground and the scale bar.
+    assert!(RoadPicture::of(&net).svg().contains("#5b5f66"));
+}
+
+#[test]
+fn a_thing_is_drawn_in_the_colour_of_its_class() {
+    let net = RoadSegment::new(100.0).build().unwrap();
+    let at = Pose { position: Vector2::new(50.0, 8.0), heading: 0.0 };
+    let tree = Body::disc(Class::Tree, 0.3, 6.0);
+    let [without, with] = [RoadPicture::of(&net), RoadPicture::of(&net).thing(tree, at)].map(|picture| picture.svg());
+    assert!(!without.contains("#009e73") && with.contains("#009e73"), "{with}");
+}

@@ -160,7 +160,13 @@ fn scenario_words(declared: &Declared) -> [String; 4] {
     let Parameter { name, domain, unit, .. } = &declared.parameter;
     let nominal = if declared.open { "open".to_owned() } else { value_words(&declared.nominal()) };
     let opened = declared.opens.as_ref().map(|opened| format!(", opened {}", domain_words(opened)));
-    [name.clone(), domain_words(domain) + &opened.unwrap_or_default(), unit.clone().unwrap_or_default(), nominal]
+    let texts = declared.takes_texts.then(|| " or a text".to_owned());
+    [
+        name.clone(),
+        domain_words(domain) + &opened.or(texts).unwrap_or_default(),
+        unit.clone().unwrap_or_default(),
+        nominal,
+    ]
 }
 
 fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failure> {

@@ -62,7 +62,9 @@ impl Options {
         }
         if let Some(target) = &draw {
             verbosity.note(target.write(|kind| {
-                let drawing = RoadPicture::of(&network).drawing();
+                let things = map.objects().flat_map(|object| &object.parts);
+                let picture = things.fold(RoadPicture::of(&network), |picture, (body, at)| picture.thing(*body, *at));
+                let drawing = picture.drawing();
                 match kind {
                     FileKind::Svg => Ok(drawing.svg().into_bytes()),
                     _ => plot::drawing_png(&drawing),
@@ -109,6 +111,7 @@ impl Options {
         json(&json!({
             "file": self.file, "roads": map.roads.len(), "junctions": map.junctions.len(),
             "lanes": network.lanes().len(), "road_metres": road_metres(map), "lane_metres": lane_metres(network),
+            "objects": map.objects().count(), "bodies": bodies(map),
             "bounds": {"min": bounds.min.as_slice(), "max": bounds.max.as_slice()},
             "notes": map.notes.iter().map(Note::to_string).collect::<Vec<_>>(),
         }))
@@ -117,6 +120,11 @@ impl Options {
 
 fn road_metres(map: &Map) -> f64 {
     map.roads.iter().map(|road| road.length).sum()
+}
+
+/// Returns the number of objects and signals that have a body.
+fn bodies(map: &Map) -> usize {
+    map.objects().filter(|object| !object.parts.is_empty()).count()
 }
 
 fn lane_metres(network: &RoadNetwork) -> f64 {
@@ -132,6 +140,9 @@ fn table(map: &Map, network: &RoadNetwork) -> String {
     table.row("driven lanes", &format!("{}, {} m", lanes.len(), digits(lane_metres(network))));
     let ends = lanes.iter().filter(|lane| lane.successors.is_empty()).count();
     table.row("without a next lane", &ends.to_string());
+    if map.objects().next().is_some() {
+        table.row("objects and signals", &format!("{}, {} with a body", map.objects().count(), bodies(map)));
+    }
     let extent = network.bounds().max - network.bounds().min;
     table.row("extent", &format!("{} m by {} m", digits(extent.x), digits(extent.y)));
     if !map.notes.is_empty() {

@@ -26,6 +26,7 @@ mod k_epsilon;
 mod kills;
 mod library;
 mod likelihood;
+mod map_traffic;
 mod maps;
 mod mixed_space;
 mod monitor;

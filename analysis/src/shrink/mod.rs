@@ -205,7 +205,7 @@ fn nominal(study: &Study) -> Values {
         match (&parameter.default, declared, &parameter.domain) {
             (None, Some(Value::Number(number)), Domain::Interval { lo, hi }) => Value::Number(number.clamp(*lo, *hi)),
             (None, Some(value), Domain::Choice(levels)) if levels.contains(&value) => value,
-            _ => Declared { parameter: parameter.clone(), open: true, opens: None }.nominal(),
+            _ => Declared::open(parameter.clone()).nominal(),
         }
     };
     study.space().parameters().iter().map(|parameter| (parameter.name.clone(), value(parameter))).collect()

@@ -28,7 +28,7 @@ impl Study {
     fn check_parameters(&self, simulation: &Simulation, declared: &Declaration) -> Result<(), EntryFlaw> {
         let in_entry = |entry| move |flaw: Error| EntryFlaw::Parameter { entry, flaw: Box::new(flaw) };
         for (name, value) in simulation.fixed.iter() {
-            let check = || Ok(self.declared(name)?.check(value)?);
+            let check = || Ok(self.find_declared(name)?.check(value)?);
             check().map_err(in_entry("fixed"))?;
         }
         for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {

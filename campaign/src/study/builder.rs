@@ -423,6 +423,6 @@ impl StudyBuilder {
             }
             study.fix(name, value.clone())?;
         }
-        Ok(())
+        study.check_texts()
     }
 }

@@ -1,6 +1,6 @@
 //! Opens and fixes the parameters of a study.
 
-use super::{Study, owned};
+use super::{Study, Subject, owned};
 use crate::setting_names::is_of_camera;
 use crate::{Error, Reason};
 use paracosm_engine::{Declared, Test};
@@ -94,7 +94,7 @@ impl Study {
 
     /// Returns a parameter of the scenario over a part of its domain.
     pub(super) fn over(&self, name: &str, domain: &Domain) -> Result<Parameter, Error> {
-        let mut parameter = self.declared(name)?;
+        let declared = self.find_declared(name)?;
         let ends = match domain {
             Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
             Domain::Choice(levels) => levels.clone(),
@@ -102,8 +102,9 @@ impl Study {
         // If the ends of an interval are in the wrong order, that is reported before they are found to lie outside.
         Space::new(vec![Parameter::new(name, domain.clone())])?;
         for end in &ends {
-            parameter.check(end)?;
+            declared.check(end)?;
         }
+        let mut parameter = declared.parameter;
         if matches!((&parameter.domain, domain), (Domain::Choice(_), Domain::Interval { .. })) {
             return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
         }
@@ -141,7 +142,7 @@ impl Study {
 
     /// Fixes a parameter at a value; a signal at a value or at a list of values.
     pub(super) fn fix(&mut self, name: &str, value: Value) -> Result<(), Error> {
-        self.declared(name)?.check(&value)?;
+        self.find_declared(name)?.check(&value)?;
         self.rebuild(name, None)?;
         self.subject.scenario_mut()?.fixed.set(name, value);
         Ok(())
@@ -170,10 +171,7 @@ impl Study {
             test.set(name, value.clone());
         }
         for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {
-            test.set(
-                parameter.name.as_str(),
-                Declared { parameter: parameter.clone(), open: true, opens: None }.nominal(),
-            );
+            test.set(parameter.name.as_str(), Declared::open(parameter.clone()).nominal());
         }
         Ok(test)
     }
@@ -188,11 +186,25 @@ impl Study {
         Ok(())
     }
 
-    pub(super) fn declared(&self, name: &str) -> Result<Parameter, Error> {
-        Ok(self.find_declared(name)?.parameter)
+    /// Checks that the program can build its world with each text that this study gives to a parameter. Only the program
+    /// knows which texts make sense.
+    pub(super) fn check_texts(&self) -> Result<(), Error> {
+        let Subject::Scenario(simulation) = &self.subject else { return Ok(()) };
+        let program = simulation.program()?;
+        for declared in program.declare()?.parameters.iter().filter(|declared| declared.takes_texts) {
+            let name = declared.parameter.name.as_str();
+            let mut test = self.nominal()?;
+            let given = test.get(name).cloned();
+            let opened = self.space.find(name).and_then(Parameter::levels).map(<[Value]>::to_vec);
+            for value in opened.unwrap_or_else(|| given.into_iter().collect()) {
+                test.set(name, value);
+                program.check(Test::new(&test, &self.space))?;
+            }
+        }
+        Ok(())
     }
 
-    fn find_declared(&self, name: &str) -> Result<Declared, Error> {
+    pub(super) fn find_declared(&self, name: &str) -> Result<Declared, Error> {
         let simulation = self.subject.scenario()?;
         let declared = simulation.program()?.declare()?.parameters;
         let found = declared.iter().find(|declared| declared.parameter.name == name);

@@ -56,6 +56,17 @@ pub struct LaneConflict {
     pub gives_way: bool,
 }
 
+/// A stretch of a lane on which a speed limit holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedLimit {
+    /// The beginning of the stretch, in metres along the lane.
+    pub from: f64,
+    /// The end of the stretch, in metres along the lane.
+    pub to: f64,
+    /// The greatest speed that is allowed, in m/s.
+    pub speed: f64,
+}
+
 /// A lane of a road or an intersection, as a path in the direction of its traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
@@ -68,8 +79,11 @@ pub struct Lane {
     pub number: i32,
     /// The line along the middle of the lane.
     pub curve: Centreline,
-    /// The width of the lane in metres.
+    /// The width of the lane in metres; in the middle of its length, if the width changes.
     pub width: f64,
+    /// The widths along the lane if the width changes: places in metres along the lane, each with the width there, between
+    /// which the width changes evenly. Empty if the width is the same everywhere.
+    pub widths: Vec<[f64; 2]>,
     /// The next lane to the left in the same direction; `None` if cars may not change to the left.
     pub left: Option<LaneId>,
     /// The next lane to the right in the same direction; `None` if cars may not change to the right.
@@ -80,6 +94,8 @@ pub struct Lane {
     pub predecessors: Vec<LaneId>,
     /// The conflicts with lanes of the same intersection that cross or join this lane.
     pub conflicts: Vec<LaneConflict>,
+    /// The stretches with a speed limit, in the order of their places. Stretches without a known limit are left out.
+    pub limits: Vec<SpeedLimit>,
 }
 
 impl Lane {
@@ -87,6 +103,23 @@ impl Lane {
     #[inline]
     pub fn length(&self) -> f64 {
         self.curve.length()
+    }
+
+    /// Returns the width in metres at a place in metres along the lane.
+    pub fn width_at(&self, s: f64) -> f64 {
+        let next = self.widths.partition_point(|[place, _]| *place <= s);
+        match [next.checked_sub(1), Some(next)].map(|index| self.widths.get(index?)) {
+            [None, None] => self.width,
+            [Some([_, width]), None] | [None, Some([_, width])] => *width,
+            [Some([from, a]), Some([to, b])] => a + (b - a) * (s - from) / (to - from),
+        }
+    }
+
+    /// Returns the speed limit in m/s at a place in metres along the lane; `None` if no limit is known there.
+    pub fn limit_at(&self, s: f64) -> Option<f64> {
+        let next = self.limits.partition_point(|limit| limit.from <= s);
+        let limit = self.limits.get(next.checked_sub(1)?)?;
+        (s <= limit.to).then_some(limit.speed)
     }
 
     /// Returns the next lane to the left and the next lane to the right, if cars may change to these lanes.

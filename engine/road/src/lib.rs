@@ -60,7 +60,7 @@ pub use element::{
 };
 pub use error::RoadError;
 pub use geometry::{Frame, Pose, Side, wrapped};
-pub use lane::{Lane, LaneConflict, LaneId, LaneKind};
+pub use lane::{Lane, LaneConflict, LaneId, LaneKind, SpeedLimit};
 pub use network::{Crossing, EvenRoad, RoadNetwork};
 pub use path::Path;
 pub use projection::LanePosition;

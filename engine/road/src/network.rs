@@ -133,11 +133,13 @@ impl RoadNetwork {
                     number: plan.number,
                     curve: plan.curve.moved(&part.pose).into(),
                     width: part.plan.profile.lane_width,
+                    widths: Vec::new(),
                     left: plan.left.as_ref().map(id),
                     right: plan.right.as_ref().map(id),
                     successors: plan.successors.iter().map(id).collect(),
                     predecessors: Vec::new(),
                     conflicts: plan.conflicts.iter().map(conflict).collect(),
+                    limits: Vec::new(),
                 }
             }));
             strips.extend(layout.strips.iter().map(|strip| strip.moved(&part.pose)));

@@ -5,6 +5,7 @@
 
 use super::lane::LaneId;
 use super::network::RoadNetwork;
+use crate::geometry::wrapped;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -114,6 +115,28 @@ impl RoadNetwork {
             }
         }
         None
+    }
+
+    /// Returns a lane and the lanes straight on from its end, for at least `metres` metres beyond the lane. At a fork, the way goes
+    /// on along the lane that turns least. It ends where no lane follows, or where it would meet itself.
+    ///
+    /// # Panics
+    /// The lane belongs to another network, which has more lanes.
+    pub fn onward(&self, lane: LaneId, metres: f64) -> Vec<LaneId> {
+        let turn = |id: &LaneId| {
+            let line = &self.lane(*id).curve;
+            wrapped(line.end().heading - line.start().heading).abs()
+        };
+        let mut lanes = vec![lane];
+        let mut length = 0.0;
+        while length < metres {
+            let last = self.lane(lanes[lanes.len() - 1]);
+            let next = last.successors.iter().min_by(|a, b| turn(a).total_cmp(&turn(b)));
+            let Some(next) = next.filter(|next| !lanes.contains(next)) else { break };
+            length += self.lane(*next).length();
+            lanes.push(*next);
+        }
+        lanes
     }
 
     /// Returns the rest of a route after `metres` metres, or the end of the route if the route is shorter.

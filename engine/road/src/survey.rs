@@ -1,8 +1,9 @@
 //! Road networks that are described lane by lane, for example by a file.
 
+use super::bounds::{Bounds, Tree};
 use super::centreline::Centreline;
 use super::error::RoadError;
-use super::lane::{Lane, LaneConflict, LaneId, LaneKind};
+use super::lane::{Lane, LaneConflict, LaneId, LaneKind, SpeedLimit};
 use super::layout::{CLOSE, span};
 use super::network::{Course, Placed, RoadNetwork};
 use super::strip::Strip;
@@ -69,21 +70,37 @@ pub struct SurveyedLane {
     pub span: [f64; 2],
     /// The line along the middle of the lane, in the direction of traffic.
     pub line: Centreline,
-    /// The width of the lane in metres.
+    /// The width of the lane in metres; in the middle of its length, if the width changes.
     pub width: f64,
+    /// Places in metres along the lane, in their order, each with the width there; empty if the width does not change.
+    pub widths: Vec<[f64; 2]>,
     /// The next lane to the left in the same direction, if cars may change to it.
     pub left: Option<usize>,
     /// The next lane to the right in the same direction, if cars may change to it.
     pub right: Option<usize>,
     /// The lanes that begin at the end of the lane.
     pub successors: Vec<usize>,
+    /// The stretches with a speed limit, in the order of their places along the lane.
+    pub limits: Vec<SpeedLimit>,
 }
 
 impl SurveyedLane {
     /// Makes a lane of a road without neighbours and successors, 3.5 m wide.
     pub fn new(road: usize, number: i32, span: [f64; 2], line: Centreline) -> Self {
         let (left, right, successors, kind) = (None, None, Vec::new(), LaneKind::Road);
-        Self { road, number, kind, span, line, width: 3.5, left, right, successors }
+        Self {
+            road,
+            number,
+            kind,
+            span,
+            line,
+            width: 3.5,
+            widths: Vec::new(),
+            left,
+            right,
+            successors,
+            limits: Vec::new(),
+        }
     }
 }
 
@@ -114,11 +131,13 @@ impl Survey {
                 number: draft.number,
                 curve: draft.line.clone(),
                 width: draft.width,
+                widths: draft.widths.clone(),
                 left: draft.left.as_ref().map(id),
                 right: draft.right.as_ref().map(id),
                 successors: draft.successors.iter().map(id).collect(),
                 predecessors: Vec::new(),
                 conflicts: Vec::new(),
+                limits: draft.limits.clone(),
             }
         };
         let mut lanes: Vec<Lane> = order.iter().map(lane).collect();
@@ -189,8 +208,15 @@ fn find_conflicts(
     before: &BTreeMap<usize, Vec<usize>>,
     priorities: &BTreeSet<[usize; 2]>,
 ) {
+    // The tree keeps the search from growing with the square of the number of lanes.
+    let widest = of_one.iter().map(|lane| lanes[*lane].width).fold(0.0, f64::max);
+    let boxes: Vec<Bounds> = of_one.iter().map(|lane| lanes[*lane].curve.bounds()).collect();
+    let tree = Tree::new(&boxes);
     for (i, &b) in of_one.iter().enumerate() {
-        for &a in &of_one[..i] {
+        let mut earlier = tree.near(&boxes[i].grown(CLOSE * widest));
+        earlier.retain(|index| (*index as usize) < i);
+        earlier.sort_unstable();
+        for a in earlier.into_iter().map(|index| of_one[index as usize]) {
             let [one, other] = [&lanes[a], &lanes[b]];
             let starts = [one, other].map(|lane| lane.curve.start().position);
             let parted = before_both(before, [a, b]) || (starts[0] - starts[1]).norm() < TOGETHER;

@@ -363,3 +363,18 @@ fn a_sidewalk_is_walked_along_its_middle_and_a_broken_line_painted_dash_by_dash(
         assert!((0.5 * turning - 3.0 * 0.12).abs() < 1e-9, "counter-clockwise, of a dash's area: {turning}");
     }
 }
+
+#[test]
+fn a_way_goes_straight_on_over_crossings_and_ends_where_the_roads_end() {
+    let arm = |name: &str| RoadSegment::new(40.0).named(name);
+    let crossing = CrossIntersection::new().connect("one", arm("east"), "one").connect("two", arm("south"), "one");
+    let net = crossing.connect("three", arm("west"), "one").connect("four", arm("north"), "one").build().unwrap();
+    let begin = net.lane_of("west", -1).unwrap();
+    let way = net.onward(begin, 1000.0);
+    assert_eq!((way.len(), way[0], way[2]), (3, begin, net.lane_of("east", 1).unwrap()));
+    assert_eq!(net.onward(begin, 1.0).len(), 2);
+    assert_eq!(net.onward(begin, 0.0), [begin]);
+    let ring = grid_city(2, 2, 50.0, 2).build().unwrap();
+    let round = ring.onward(ring.ids().next().unwrap(), 1e6);
+    assert!(round.len() >= 8 && round.len() <= ring.lanes().len(), "{} lanes", round.len());
+}

@@ -10,14 +10,30 @@ pub struct Fixture {
     name: String,
     body: Body,
     at: Pose,
+    is_scenery: bool,
+    is_joined: bool,
 }
 
-struct Still(Pose);
+struct Still {
+    at: Pose,
+    is_joined: bool,
+}
 
 impl Fixture {
     /// Makes an object with a given body that stands at the pose `at`. Messages call it `name`.
     pub fn new(name: &str, body: Body, at: Pose) -> Self {
-        Self { name: name.to_owned(), body, at }
+        Self { name: name.to_owned(), body, at, is_scenery: false, is_joined: false }
+    }
+
+    /// Lets the object overlap other objects of which this is said, as the walls of a house do.
+    pub fn joined(self) -> Self {
+        Self { is_joined: true, ..self }
+    }
+
+    /// Makes the object scenery: it exists for sensors, and for a car that runs into it. Drivers, traffic, clearances and
+    /// other signals take no account of it.
+    pub fn as_scenery(self) -> Self {
+        Self { is_scenery: true, ..self }
     }
 
     /// Makes a house of two storeys, 10 m by 8 m, that faces in the direction of the pose.
@@ -48,12 +64,19 @@ impl Place for Fixture {
     fn place(self, scenario: &mut Scenario) {
         let mut draft = scenario.object(&self.name);
         draft.body(self.body, self.at);
-        draft.geometric(Still(self.at));
+        draft.geometric(Still { at: self.at, is_joined: self.is_joined });
+        if self.is_scenery {
+            scenario.scenery.extend(scenario.objects.pop());
+        }
     }
 }
 
 impl Geometric for Still {
     fn poses(&self, poses: &mut [Option<Pose>]) {
-        poses[0] = Some(self.0);
+        poses[0] = Some(self.at);
+    }
+
+    fn is_joined(&self) -> bool {
+        self.is_joined
     }
 }

@@ -129,8 +129,7 @@ impl Place for Roadside {
             if chance.happens(self.fullness) {
                 let (name, body, at) = thing(&edge, &mut chance);
                 if room.takes(at.position, body.outline.reach()) {
-                    scenario.place(Fixture::new(name, body, at));
-                    scenario.scenery.extend(scenario.objects.pop());
+                    scenario.place(Fixture::new(name, body, at).as_scenery());
                 }
             }
         }
@@ -186,7 +185,8 @@ impl Room {
         let strips = network.strips().into_iter().filter(on_ground);
         let ground = strips.map(|strip| (strip.curve.bounds().grown(wide(&strip)), strip)).collect();
         let cars = scenario.cars.iter().map(EgoSetup::disc);
-        let mut taken: Vec<_> = cars.chain(scenario.objects.iter().flat_map(kept_free)).collect();
+        let mut taken: Vec<_> =
+            cars.chain(scenario.objects.iter().chain(&scenario.scenery).flat_map(kept_free)).collect();
         taken.iter_mut().for_each(|(_, radius)| *radius += FROM_BODIES);
         Self { ground, taken }
     }

@@ -140,6 +140,11 @@ pub trait Geometric: 'static {
         None
     }
 
+    /// Returns `true` if the object never moves and may overlap other such objects, as the walls of a house do.
+    fn is_joined(&self) -> bool {
+        false
+    }
+
     /// Reads the object's inputs and moves the object on by a tick.
     ///
     /// # Errors

@@ -146,7 +146,12 @@ impl Scene {
 
     /// Returns the error for two bodies that overlap; `None` if no bodies overlap.
     pub fn overlapping(&self) -> Option<Invalid> {
-        let (a, b) = overlapping(&self.bodies)?;
+        let mut joined = vec![false; self.bodies.len()];
+        for object in &self.objects {
+            let is_joined = matches!(&object.behaviour, Behaviour::Geometric(of) if of.is_joined());
+            joined[object.own.0..object.own.1].fill(is_joined);
+        }
+        let (a, b) = overlapping(&self.bodies, &joined)?;
         Some(Invalid::Overlap { first: self.name(a).to_owned(), second: self.name(b).to_owned() })
     }
 

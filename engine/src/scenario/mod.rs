@@ -166,8 +166,15 @@ impl Scenario {
     }
 
     /// Declares a parameter that was described as data, for example in a file.
-    pub fn parameter(&mut self, Declared { parameter, open, opens }: Declared) -> Param<Value> {
+    pub fn parameter(&mut self, Declared { parameter, open, opens, .. }: Declared) -> Param<Value> {
         self.described(parameter, open, opens, Read::value())
+    }
+
+    /// Declares a closed parameter that takes any text, such as the path of a file. It stays at `nominal` until a study sets
+    /// it, or opens it to several texts.
+    pub fn text(&mut self, name: &str, nominal: &str) -> Param<String> {
+        let text = self.declare(name, Domain::Choice(vec![nominal.into()]), Some(nominal.into()), Read::text());
+        text.taking_texts()
     }
 
     fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
@@ -186,7 +193,7 @@ impl Scenario {
     ) -> Param<T> {
         // A name that the test does not know is reported once the program has returned, together with all the others.
         let given = self.given.iter().find(|(given, _)| *given == parameter.name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(Declared { parameter, open, opens });
+        self.parameters.borrow_mut().push(Declared { open, opens, ..Declared::open(parameter) });
         Param::new(self, given.unwrap_or_default(), read)
     }
 

@@ -68,6 +68,13 @@ impl Read<Value> {
     }
 }
 
+impl Read<String> {
+    pub fn text() -> Self {
+        let with = |value: &Value| (!matches!(value, Value::List(_))).then(|| value.to_string());
+        Self { with: Rc::new(with), placeholder: String::new() }
+    }
+}
+
 impl<T: Into<Value> + Clone + 'static> Read<T> {
     /// Makes the conversion of values to the given levels.
     pub fn level<const N: usize>(levels: [T; N]) -> Self {
@@ -91,6 +98,12 @@ impl<T: Clone> Param<T> {
             }
         }
         parameter
+    }
+
+    /// Lets the parameter take any text.
+    pub(super) fn taking_texts(self) -> Self {
+        self.declared.borrow_mut()[self.index].takes_texts = true;
+        self
     }
 
     /// Sets the unit of the parameter's values.

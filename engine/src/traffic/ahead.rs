@@ -1,7 +1,7 @@
 //! Finds what lies ahead of a car and how fast the car may drive therefore.
 //!
 //! A car looks along its path: at the next body on it, at bodies that have turned off but still stick out into it, at
-//! cars that have the right to cross or join it first, at bends, and at the next line that it needs leave to pass. Each
+//! cars that have the right to cross or join it first, at bends and speed limits, and at the next line that it needs leave to pass. Each
 //! alone gives an acceleration by the model and a safe speed; the smallest values apply.
 
 use super::idm::safe_speed;
@@ -70,7 +70,7 @@ impl Ahead {
         lower(&mut self.safe, safe_speed(car.speed, distance + 0.5, 0.0, car.braking, dt));
     }
 
-    /// Takes account of a bend, `distance` metres ahead.
+    /// Takes account of a bend or of a speed limit, `distance` metres ahead.
     fn bend(&mut self, car: &Car, distance: f64, speed: f64) {
         let left = (distance - car.speed * BEND.0).max(0.0);
         let square = speed * speed + 2.0 * car.deceleration() * left;
@@ -121,6 +121,9 @@ impl View<'_> {
             let bend = lane.speed * car.grip;
             if bend < car.desired {
                 ahead.bend(car, base.max(0.0), bend);
+            }
+            for limit in lane.limits.iter().filter(|limit| limit.speed < car.desired && base + limit.to > 0.0) {
+                ahead.bend(car, (base + limit.from).max(0.0), limit.speed);
             }
             if !lane.rivals.is_empty() {
                 let claim = car.claim(id, base);

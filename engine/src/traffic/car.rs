@@ -246,7 +246,7 @@ impl TrafficCar {
         }
         number("place in metres along its lane", self.start.s, 0.0, map.length(self.start.lane))?;
         number("length in metres", self.length(), 0.1, 30.0)?;
-        number("width in metres", self.width(), 0.1, map.network.lane(self.start.lane).width)?;
+        number("width in metres", self.width(), 0.1, map.network.lane(self.start.lane).width_at(self.start.s))?;
         number("desired speed in m/s", self.desired, 0.0, 100.0)?;
         number("speed in m/s", self.speed, 0.0, 100.0)?;
         number("offset in metres to the right", -self.offset, -5.0, 5.0)?;

@@ -1,6 +1,6 @@
 //! Facts about lanes that traffic needs at every tick, computed once for each network.
 
-use crate::road::{Lane, LaneId, LaneKind, RoadNetwork};
+use crate::road::{Lane, LaneId, LaneKind, RoadNetwork, SpeedLimit};
 use std::sync::Arc;
 
 /// The comfortable lateral acceleration in bends, in m/s².
@@ -48,6 +48,8 @@ pub(super) struct Facts {
     /// The place where cars wait before they enter a conflict with another lane, in metres along the lane; negative if
     /// it lies before the beginning of the lane.
     pub line: f64,
+    /// The stretches with a speed limit.
+    pub limits: Box<[SpeedLimit]>,
     pub rivals: Box<[Rival]>,
     pub forks: Box<[Fork]>,
     beside: [Option<LaneId>; 2],
@@ -106,6 +108,7 @@ impl Map {
                 length: lane.length(),
                 speed: (LATERAL / lane.curve.greatest_curvature()).sqrt(),
                 line: if at_its_beginning { -BEFORE_LINE } else { zone - BEFORE_ZONE },
+                limits: lane.limits.as_slice().into(),
                 rivals,
                 forks: forks.into(),
                 beside: [lane.left, lane.right],

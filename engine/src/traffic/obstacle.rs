@@ -96,7 +96,7 @@ pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut 
         let forward = obstacle.pose.forward();
         for (id, foot) in lanes.iter().zip(&*feet) {
             let lane = map.network.lane(*id);
-            if drives_along(obstacle, forward, foot, lane.width) {
+            if drives_along(obstacle, forward, foot, lane.width_at(foot.s)) {
                 own.push(*id);
                 own.extend(&lane.successors);
             }

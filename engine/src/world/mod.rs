@@ -171,10 +171,14 @@ impl World {
     }
 }
 
-/// Returns the smallest indices of two bodies that cover the same ground at the start, if there are any.
-pub(crate) fn overlapping(bodies: &[BodyState]) -> Option<(usize, usize)> {
+/// Returns the smallest indices of two bodies that cover the same ground at the start, if there are any. Two bodies that are
+/// both `joined` may do so.
+pub(crate) fn overlapping(bodies: &[BodyState], joined: &[bool]) -> Option<(usize, usize)> {
     let pairs = (0..bodies.len()).flat_map(|i| (i + 1..bodies.len()).map(move |j| (i, j)));
     pairs.into_iter().find(|&(i, j)| {
+        if joined[i] && joined[j] {
+            return false;
+        }
         let (a, b) = (&bodies[i], &bodies[j]);
         let reach = a.body.outline.reach() + b.body.outline.reach();
         (a.pose.position - b.pose.position).norm() <= reach && distance(a, b) <= 0.0

@@ -70,3 +70,26 @@ fn a_platoon_drives_as_the_equations_integrate() {
         }
     }
 }
+
+#[test]
+fn cars_slow_down_before_a_speed_limit_and_keep_it() {
+    let centre = Curve::new(Pose { position: Vector2::zeros(), heading: 0.0 }, 0.0, 1000.0);
+    let limits =
+        vec![SpeedLimit { from: 0.0, to: 300.0, speed: 25.0 }, SpeedLimit { from: 300.0, to: 600.0, speed: 10.0 }];
+    let lane = SurveyedLane { limits, ..SurveyedLane::new(0, 1, [0.0, 1000.0], centre.into()) };
+    let road = SurveyedRoad { name: "road".to_owned(), length: 1000.0, centre: centre.into(), junction: None };
+    let net = Survey { roads: vec![road], lanes: vec![lane], ..Survey::default() }.build().unwrap();
+    let car = TrafficCar::at(place(&net, "road", 1, 5.0)).desired_speed(33.0).speed(20.0);
+    let mut traffic = Traffic::new(net, vec![car], 1).unwrap();
+    let mut fastest = [0.0_f64; 3];
+    while traffic.car(0).s < 950.0 {
+        traffic.step(DT, &[]);
+        let CarState { s, speed, .. } = traffic.car(0);
+        let part = usize::from(s > 300.0) + usize::from(s > 600.0);
+        fastest[part] = fastest[part].max(speed);
+    }
+    assert!(fastest[0] > 22.0 && fastest[0] <= 25.0, "{fastest:?}");
+    assert!(fastest[1] > 9.5 && fastest[1] <= 10.5, "{fastest:?}");
+    // Beyond the limits the car drives as fast as it wants to.
+    assert!(fastest[2] > 25.0, "{fastest:?}");
+}

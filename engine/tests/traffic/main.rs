@@ -11,8 +11,8 @@ mod orders;
 use nalgebra::Vector2;
 use paracosm_engine::object::Body;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, RoadNetwork, RoadSegment, Roundabout, Route, RoutePosition, TIntersection,
-    grid_city,
+    Composite, CrossIntersection, Curve, LaneKind, RoadNetwork, RoadSegment, Roundabout, Route, RoutePosition,
+    SpeedLimit, Survey, SurveyedLane, SurveyedRoad, TIntersection, grid_city,
 };
 use paracosm_engine::traffic::{CarState, Idm, Obstacle, Traffic, TrafficCar, TrafficError};
 use paracosm_engine::{Pose, Side};

@@ -33,7 +33,9 @@ pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     let [width, height] = view.size();
     let mut marks = vec![Contour::rectangle([0.0, 0.0], [width, height]).fill(GROUND)];
     let mut strips = network.strips();
-    strips.retain(|strip| (strip.left - strip.right) * view.scale > THINNEST);
+    // A road of many kilometres is thinner than that, and is drawn as a thin line.
+    let is_road = |strip: &Strip| matches!(strip.surface, Surface::Carriageway);
+    strips.retain(|strip| is_road(strip) || (strip.left - strip.right) * view.scale > THINNEST);
     for of_one in strips.chunk_by(|a, b| a.surface == b.surface) {
         let parts = of_one.iter().flat_map(Strip::solid_parts).filter(|part| {
             let aside = part.left.abs().max(part.right.abs());

@@ -1,6 +1,6 @@
 //! A picture of a road network from above, with ways and bodies on it.
 
-use super::body::body;
+use super::body::{body, class_colour};
 use super::drawing::{Colour, Contour, Drawing, Paint, PathSegment};
 use super::ground::{ground, lanes};
 use super::legend::scale_bar;
@@ -49,6 +49,12 @@ impl<'a> RoadPicture<'a> {
     /// Adds a vehicle with a length and a width in metres to the picture, with its front marked.
     pub fn body(mut self, pose: Pose, length: f64, width: f64, colour: Colour) -> Self {
         self.bodies.push((pose, Body::block(Class::Car, length, width, 1.0), colour));
+        self
+    }
+
+    /// Adds a thing to the picture, in the colour of its class.
+    pub fn thing(mut self, body: Body, pose: Pose) -> Self {
+        self.bodies.push((pose, body, class_colour(body.class)));
         self
     }
 

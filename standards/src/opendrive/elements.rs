@@ -4,7 +4,9 @@ use crate::xml::{Row, Schema, Supported, no_effect, read, refused};
 
 const FLAT: &str = "the world is flat";
 const RAILWAY: &str = "there are no railways";
-const NOT_DRAWN: &str = "objects and signals of files are not part of the world yet";
+const LOOK: &str = "objects have the usual look of their kind";
+const BORDERLESS: &str = "it has no body of its own";
+const STANDS: &str = "a signal stands where its s and t say";
 const SURFACE: &str = "surfaces have no properties besides their look";
 const LEGAL: &str = "no driver is told the rules of a country";
 const USERS: &str = "it is data for other programs";
@@ -55,8 +57,47 @@ pub(super) const ROWS: &[Row] = &[
     no_effect("lane", "access", LEGAL),
     no_effect("lane", "height", FLAT),
     no_effect("lane", "rule", LEGAL),
-    no_effect("road", "objects", NOT_DRAWN),
-    no_effect("road", "signals", NOT_DRAWN),
+    read("road", "objects|signals", ""),
+    read(
+        "objects",
+        "object",
+        "id name type subtype s t zOffset orientation hdg pitch roll length width height radius validLength dynamic perpToRoad",
+    ),
+    read(
+        "object",
+        "repeat",
+        "s length distance tStart tEnd lengthStart lengthEnd widthStart widthEnd heightStart heightEnd radiusStart radiusEnd \
+         zOffsetStart zOffsetEnd detachFromReferenceLine",
+    ),
+    read("object", "outlines", ""),
+    read("object|outlines", "outline", "id closed fillType laneType outer"),
+    read("outline", "cornerRoad", "id s t dz height"),
+    read("outline", "cornerLocal", "id u v z height"),
+    no_effect("object", "material", LOOK),
+    no_effect("object", "markings", LOOK),
+    no_effect("object", "skeleton", LOOK),
+    no_effect("object", "surface", SURFACE),
+    no_effect("object", "borders", BORDERLESS),
+    no_effect("object", "parkingSpace", BORDERLESS),
+    no_effect("object|signal", "validity", LEGAL),
+    no_effect("objects", "objectReference", BORDERLESS),
+    no_effect("objects", "tunnel", FLAT),
+    no_effect("objects", "bridge", FLAT),
+    read(
+        "signals",
+        "signal",
+        "id name type subtype s t zOffset orientation hOffset pitch roll height width length dynamic country countryRevision \
+         value unit text temporary",
+    ),
+    no_effect("signals", "signalReference", LEGAL),
+    no_effect("signal", "dependency", GROUPS),
+    no_effect("signal", "reference", GROUPS),
+    no_effect("signal", "semantics", LEGAL),
+    no_effect("signal", "positionRoad", STANDS),
+    no_effect("signal", "positionInertial", STANDS),
+    no_effect("signal", "staticBoard", LOOK),
+    no_effect("signal", "vmsBoard", LOOK),
+    no_effect("signal", "displayArea", LOOK),
     no_effect("road|junction", "surface", SURFACE),
     no_effect("road", "railroad", RAILWAY),
     no_effect("OpenDRIVE", "controller", GROUPS),
@@ -72,10 +113,10 @@ pub(super) const ROWS: &[Row] = &[
     no_effect("junction", "elevationGrid", FLAT),
     no_effect("junction", "crossPath", "people walk where their scenario says"),
     no_effect("junction", "roadSection", "people walk where their scenario says"),
-    no_effect("junction", "objects", NOT_DRAWN),
+    no_effect("junction", "objects", "only the objects of roads are read"),
     no_effect("OpenDRIVE", "junctionGroup", GROUPS),
     no_effect("OpenDRIVE", "station", RAILWAY),
-    no_effect("OpenDRIVE", "vmsGroup", NOT_DRAWN),
+    no_effect("OpenDRIVE", "vmsGroup", GROUPS),
 ];
 
 /// The elements that occur at most once within their parent.

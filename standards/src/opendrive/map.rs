@@ -2,6 +2,7 @@
 
 use super::junction::Junction;
 use super::note::Note;
+use super::object::Object;
 use super::road::Road;
 use std::sync::Arc;
 
@@ -22,5 +23,10 @@ impl Map {
     /// Returns the index of the road with an identifier.
     pub fn road(&self, id: &str) -> Option<usize> {
         self.roads.iter().position(|road| road.id == id)
+    }
+
+    /// Returns the objects and signals of all roads, in the order of the file.
+    pub fn objects(&self) -> impl Iterator<Item = &Object> {
+        self.roads.iter().flat_map(|road| &road.objects)
     }
 }

@@ -4,7 +4,7 @@
 //! network numbers them to the right, so that lane -1 of the file is lane 1 of the network. Roads have the names of their
 //! identifiers.
 
-use super::arcs::{Beside, reversed};
+use super::arcs::{Beside, just_before, reversed};
 use super::map::Map;
 use super::paving;
 use super::road::{Direction, End, Lane, LaneChange, Link, Road, Section, Traffic};
@@ -19,6 +19,11 @@ const NARROWEST: f64 = 1.5;
 /// The greatest distance in metres between the end of a lane and the beginning of the next lane. A lane that becomes narrow
 /// beside the lane that it joins ends there.
 pub(super) const GAP: f64 = 0.5;
+
+/// The distance in metres between two places at which the width of a lane is taken, and the greatest difference of widths that
+/// are the same.
+const WIDTHS: f64 = 1.0;
+const SAME: f64 = 0.001;
 
 /// A lane of the file: the indices of the road and of the section, and the number.
 type Key = (usize, usize, i32);
@@ -86,9 +91,12 @@ impl Map {
             None => LaneKind::Road,
             Some(_) => turn(&arcs),
         };
-        let width = road.width(s, lane.number, 0.5 * (section.s + section.end)).max(0.1);
+        let width_at = |at: f64| road.width(s, lane.number, at).max(0.1);
+        let width = width_at(0.5 * (section.s + section.end));
         let line = (!arcs.is_empty()).then(|| Centreline::new(arcs))?;
-        Some(SurveyedLane { kind, width, ..SurveyedLane::new(index, -lane.number, span, line) })
+        let limits = road.stretches(s, lane, span, line.length());
+        let widths = widths(span, line.length(), |at| width_at(just_before(at, section.s)));
+        Some(SurveyedLane { kind, width, widths, limits, ..SurveyedLane::new(index, -lane.number, span, line) })
     }
 
     /// Returns the lane with a number beside a lane, if it leads in the same direction and cars may change to it.
@@ -191,6 +199,17 @@ impl Road {
         cuts.dedup();
         cuts
     }
+}
+
+/// Returns the widths along a lane, at places along the lane; nothing if the width does not change. `span` is the beginning and
+/// the end of the lane in metres along the road.
+fn widths([from, to]: [f64; 2], length: f64, width_at: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let count = (length / WIDTHS).ceil().max(1.0);
+    let share = |i: usize| i as f64 / count;
+    let widths: Vec<_> =
+        (0..=count as usize).map(|i| [share(i) * length, width_at(from + share(i) * (to - from))]).collect();
+    let first = widths[0][1];
+    if widths.iter().all(|[_, width]| (width - first).abs() < SAME) { Vec::new() } else { widths }
 }
 
 /// Returns the kind of a lane of a junction, by the angle that it turns.

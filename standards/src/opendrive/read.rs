@@ -3,6 +3,7 @@
 use super::cubics::{Cubic, Cubics, Extreme};
 use super::links::{self, Names};
 use super::map::Map;
+use super::object;
 use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
@@ -63,7 +64,7 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
     let (predecessor, successor) = links::of_road(element, names)?;
     let offset = cubics(lanes, "laneOffset", "s", 0.0)?;
     check(&offset, [0.0, length], (lanes, "laneOffset"), BORDERS)?;
-    Ok(Road {
+    let mut road = Road {
         id: element.required("id")?.to_owned(),
         name: element.text("name").unwrap_or_default().to_owned(),
         length,
@@ -77,7 +78,10 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         superelevation: profile("lateralProfile", "superelevation")?,
         sections: sections(lanes, length)?,
         limits: road_limits(element)?,
-    })
+        objects: Vec::new(),
+    };
+    road.objects = object::objects(element, &road)?;
+    Ok(road)
 }
 
 /// Returns the number in an attribute, which must be positive.

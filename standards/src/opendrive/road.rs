@@ -1,6 +1,7 @@
 //! A road of a file: its reference line, its cross-section of lanes, and its links.
 
 use super::cubics::Cubics;
+use super::object::Object;
 use super::plan_view::{PlanView, wrapped};
 use nalgebra::Vector2;
 
@@ -34,6 +35,8 @@ pub struct Road {
     /// The speed limits of the road: the place in metres along the road from which a limit holds, and the limit in m/s;
     /// `None` where there is no limit.
     pub limits: Vec<(f64, Option<f64>)>,
+    /// The objects and signals of the road, in the order of the file.
+    pub objects: Vec<Object>,
 }
 
 /// The side of a road on which the traffic drives.

@@ -45,10 +45,12 @@ pub fn write(network: &RoadNetwork, name: &str) -> Result<String, LaneByLane> {
     }
     let roads = roads(network).ok_or(LaneByLane)?;
     let mut places: BTreeMap<LaneId, Place> = BTreeMap::new();
+    let mut junctions: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (road, of) in roads.iter().enumerate() {
+        of.junction.into_iter().for_each(|junction| junctions.entry(junction).or_default().push(road));
         places.extend(of.lanes.iter().map(|(number, lane)| (*lane, Place { road, number: *number })));
     }
-    let file = File { network, roads: &roads, places };
+    let file = File { network, roads: &roads, places, junctions };
     let mut xml = Writer::new();
     xml.within("OpenDRIVE", &[], |xml| {
         let bounds = network.bounds();
@@ -73,8 +75,10 @@ pub fn write(network: &RoadNetwork, name: &str) -> Result<String, LaneByLane> {
 /// Returns the roads of the file; `None` if the network was described lane by lane.
 fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
     let names: Vec<&str> = network.elements().collect();
-    let mut roads: Vec<Road> =
-        network.even_roads()?.iter().map(|road| even(network, road, names[road.element])).collect();
+    let mut of_element: Vec<Vec<LaneId>> = vec![Vec::new(); names.len()];
+    network.ids().for_each(|id| of_element[network.lane(id).element].push(id));
+    let even = |road: &EvenRoad| even(network, road, &of_element[road.element], names[road.element]);
+    let mut roads: Vec<Road> = network.even_roads()?.iter().map(even).collect();
     // A junction without roads that lead to it is no junction of the standard.
     let is_entered =
         |lane: &&Lane| lane.predecessors.iter().any(|before| network.lane(*before).element != lane.element);
@@ -104,10 +108,9 @@ fn roads(network: &RoadNetwork) -> Option<Vec<Road>> {
     Some(roads)
 }
 
-fn even(network: &RoadNetwork, road: &EvenRoad, name: &str) -> Road {
-    let of_road = network.ids().filter(|id| network.lane(*id).element == road.element);
+fn even(network: &RoadNetwork, road: &EvenRoad, lanes: &[LaneId], name: &str) -> Road {
     // Lanes 1, 2, ... of the network lie to the right, where the numbers of the file are negative.
-    let lanes = of_road.map(|id| (-network.lane(id).number, id)).collect();
+    let lanes = lanes.iter().map(|id| (-network.lane(*id).number, *id)).collect();
     let EvenRoad { centre, lane_width, sidewalk, .. } = *road;
     Road { name: name.to_owned(), junction: None, line: centre, offset: 0.0, width: lane_width, lanes, sidewalk }
 }
@@ -116,6 +119,8 @@ struct File<'a> {
     network: &'a RoadNetwork,
     roads: &'a [Road],
     places: BTreeMap<LaneId, Place>,
+    /// The roads of each junction.
+    junctions: BTreeMap<usize, Vec<usize>>,
 }
 
 impl File<'_> {
@@ -232,14 +237,10 @@ impl File<'_> {
 
     /// Writes the junction of an element, if lanes lead over it.
     fn junction(&self, element: usize, name: &str, xml: &mut Writer) {
-        let roads: Vec<usize> =
-            (0..self.roads.len()).filter(|road| self.roads[*road].junction == Some(element)).collect();
-        if roads.is_empty() {
-            return;
-        }
+        let Some(roads) = self.junctions.get(&element) else { return };
         xml.within("junction", &[("name", &name), ("id", &element), ("type", &"default")], |xml| {
             let mut id = 0;
-            for road in &roads {
+            for road in roads {
                 let mut incoming: BTreeMap<usize, Vec<(i32, i32)>> = BTreeMap::new();
                 for (number, lane) in &self.roads[*road].lanes {
                     for before in &self.lane(*lane).predecessors {
@@ -256,7 +257,7 @@ impl File<'_> {
                     id += 1;
                 }
             }
-            for (high, low) in self.priorities(&roads) {
+            for (high, low) in self.priorities(roads) {
                 xml.empty("priority", &[("high", &high), ("low", &low)]);
             }
         });
@@ -264,14 +265,14 @@ impl File<'_> {
 
     /// Returns pairs of roads of a junction: traffic on the first road has priority over traffic on the second road.
     fn priorities(&self, roads: &[usize]) -> Vec<(usize, usize)> {
-        let mut pairs = Vec::new();
+        let (mut pairs, mut known) = (Vec::new(), BTreeSet::new());
         for low in roads {
             for (_, lane) in &self.roads[*low].lanes {
                 for conflict in self.lane(*lane).conflicts.iter().filter(|conflict| conflict.gives_way) {
                     let high = self.places[&conflict.with].road;
                     let both =
                         self.lane(conflict.with).conflicts.iter().any(|back| back.with == *lane && back.gives_way);
-                    if !both && !pairs.contains(&(high, *low)) {
+                    if !both && known.insert((high, *low)) {
                         pairs.push((high, *low));
                     }
                 }

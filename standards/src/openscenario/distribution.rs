@@ -108,7 +108,7 @@ impl Opened {
         }
         let declared: Vec<Option<Value>> = self.names.iter().map(|name| nominal(name)).collect();
         parameter.default = self.nearest(&declared);
-        Declared { parameter, open: true, opens }
+        Declared { opens, ..Declared::open(parameter) }
     }
 
     /// Returns the value that is nearest to the values of the declarations: the same words, and the nearest numbers.

@@ -88,7 +88,7 @@ impl Parameters {
             };
             let mut parameter = Parameter::new(declaration.name.as_str(), domain);
             parameter.default = Some(value);
-            Declared { parameter, open: false, opens: None }
+            Declared { open: false, ..Declared::open(parameter) }
         });
         opened.chain(closed)
     }

@@ -29,6 +29,8 @@ const BEYOND: f64 = 1.0;
 const LATEST: f64 = 3600.0;
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
+/// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
+const ONWARD: f64 = 5000.0;
 /// The outermost element of a file.
 const ROOT: &str = "OpenSCENARIO";
 
@@ -149,7 +151,7 @@ impl Xosc {
         let names = board.entities.iter().map(|entity| entity.name.as_str().into()).collect();
         let mut parameter = Parameter::new(EGO, Domain::Choice(names));
         parameter.default = Some(usual.as_str().into());
-        let chosen = s.parameter(Declared { parameter, open: false, opens: None }).value();
+        let chosen = s.parameter(Declared { open: false, ..Declared::open(parameter) }).value();
         let ego = board.entities.iter().position(|entity| chosen == entity.name.as_str().into()).unwrap_or_default();
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
@@ -271,13 +273,13 @@ fn ego(board: &Storyboard) -> usize {
     named.or_else(|| board.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
 }
 
-/// Returns the ego vehicle, with the way along its lane to the end of the roads.
+/// Returns the ego vehicle, with the way along its lane and straight on.
 fn car(stage: &Stage, ego: usize, network: &Arc<RoadNetwork>) -> AutonomousVehicle {
     let actor = &stage.cast.actors[ego];
     let Pose { position, heading } = actor.middle();
     let pose = Pose { position, heading };
     let seen = network.project_along(&pose);
-    let way = seen.map(|seen| (network.path(&[seen.lane]), seen.s));
+    let way = seen.map(|seen| (network.path(&network.onward(seen.lane, ONWARD)), seen.s));
     let car = match way {
         Some((way, at)) => AutonomousVehicle::along(way).starting(at),
         None => AutonomousVehicle::along(Path::straight(position, position + pose.forward())),

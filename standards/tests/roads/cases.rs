@@ -82,6 +82,41 @@ fn speed_limits_have_metres_and_seconds() {
 }
 
 #[test]
+fn speed_limits_hold_along_the_lanes_of_the_network() {
+    let lane = r#"<width sOffset="0" a="3.5" b="0" c="0" d="0"/>"#;
+    let limited = format!(r#"{lane}<speed sOffset="10" max="20"/><speed sOffset="30" max="no limit"/>"#);
+    let road = r#"<link/><type s="0" type="town"><speed max="36" unit="km/h"/></type>"#;
+    let left = r#"<left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+        <speed sOffset="20" max="0"/></lane></left><center>"#;
+    let text = with(&[(lane, &limited), ("<link/>", road), ("<center>", left)]);
+    let network = parse(text).expect("it is sound").network().expect("it has lanes");
+    let limit = |number: i32, s: f64| network.lane(network.lane_of("1", number).expect("the lane")).limit_at(s);
+    for (s, expected) in [(0.0, Some(10.0)), (9.9, Some(10.0)), (10.1, Some(20.0)), (29.9, Some(20.0)), (30.1, None)] {
+        assert_eq!(limit(1, s), expected, "{s} m along the road");
+    }
+    // The lane on the left leads back. A limit of 0 counts as the least limit.
+    for (s, expected) in [(0.0, Some(1.0)), (29.9, Some(1.0)), (30.1, Some(10.0)), (49.9, Some(10.0))] {
+        assert_eq!(limit(-1, s), expected, "{s} m along the lane");
+    }
+}
+
+#[test]
+fn lanes_of_a_network_have_their_widths_at_every_place() {
+    let width = r#"<width sOffset="0" a="3.5" b="0" c="0" d="0"/>"#;
+    let wider = r#"<width sOffset="0" a="3" b="0" c="0" d="0"/><width sOffset="30" a="3" b="0.05" c="0" d="0"/>"#;
+    for (width, expected) in [(width, [3.5; 3]), (wider, [3.0, 3.0, 3.75])] {
+        let network = parse(with(&[(r#"<width sOffset="0" a="3.5" b="0" c="0" d="0"/>"#, width)]));
+        let network = network.expect("it is sound").network().expect("it has lanes");
+        let lane = network.lane(network.lane_of("1", 1).expect("the lane"));
+        for (s, expected) in [0.0, 20.0, 45.0].into_iter().zip(expected) {
+            // The middle of a lane that becomes wider is slightly longer than the road.
+            assert!((lane.width_at(s) - expected).abs() < 1e-3, "{} instead of {expected}", lane.width_at(s));
+        }
+        assert_eq!(lane.widths.is_empty(), expected[2] == 3.5);
+    }
+}
+
+#[test]
 fn heights_are_left_out_and_a_note_says_so() {
     let map = read("geometries.xodr");
     let road: &Road = &map.roads[0];
@@ -360,7 +395,7 @@ fn pairs(text: &str) -> BTreeSet<(String, String)> {
 /// The files in which elements occur that are read or have no effect, and the texts with elements that are refused.
 fn covered() -> BTreeMap<(String, String), String> {
     let mut covered = BTreeMap::new();
-    for name in ["geometries.xodr", "junction.xodr", "without_effect.xodr"] {
+    for name in ["geometries.xodr", "junction.xodr", "objects.xodr", "without_effect.xodr"] {
         read(name);
         for pair in pairs(&fs::read_to_string(file(name)).expect("the file is readable")) {
             covered.entry(pair).or_insert(format!("files/{name}"));

@@ -4,5 +4,7 @@ mod cases;
 mod judge;
 mod lanes;
 mod networks;
+mod objects;
 mod others;
 mod round_trip;
+mod traffic;

@@ -148,7 +148,7 @@ fn lane_margin(car: &BodyState, network: &RoadNetwork) -> f64 {
         return -network.project(car.pose.position).distance;
     };
     let aside = car.body.outline.enclosing(car.pose.heading - seen.heading).y;
-    0.5 * network.lane(seen.lane).width - seen.offset.abs() - aside
+    0.5 * network.lane(seen.lane).width_at(seen.s) - seen.offset.abs() - aside
 }
 
 #[cfg(test)]

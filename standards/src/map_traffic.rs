@@ -1,0 +1,310 @@
+//! The scenario `map-traffic`: the roads of any file of OpenDRIVE, full of traffic. The ego vehicle drives one of many ways over
+//! the lanes of the map.
+//!
+//! The parameter `roads` has the path of the file, or `town` for a town that comes with the software. The ego vehicle begins at a
+//! random place, and takes a random lane wherever its lane has several next lanes. All choices follow from the values of the test.
+//!
+//! Objects and signals of the map stand where the file has them. Objects on a lane are in the way of everybody. All others are
+//! scenery: sensors see them, and a car can run into them.
+//!
+//! The speed limits of the map hold for the traffic. The ego vehicle is to keep the lowest limit of its way, times `pace`.
+
+use crate::opendrive::{Map, write};
+use crate::xml::ReadError;
+use paracosm_engine::object::Body;
+use paracosm_engine::road::{LaneId, LaneKind, Path, RoadError, RoadNetwork, RoutePosition, grid_city};
+use paracosm_engine::traffic::TrafficCar;
+use paracosm_engine::{
+    AutonomousVehicle, Environment, EnvironmentCars, Fixture, Monitor, Pose, Program, Roadside, Scenario, Weather,
+};
+use std::collections::BTreeMap;
+use std::path::Path as FilePath;
+use std::sync::{Arc, Mutex, PoisonError};
+use thiserror::Error;
+
+/// The name of the town that comes with the software.
+const TOWN: &str = "town";
+/// The speed in m/s where the map has no limit: 50 km/h.
+const USUAL: f64 = 50.0 / 3.6;
+/// The greatest speed in m/s that cars want to drive, where limits are higher.
+const FASTEST: f64 = 36.0;
+/// The duration of a run in seconds.
+const DURATION: f64 = 45.0;
+/// The least length of the ego vehicle's way in metres.
+const SHORTEST: f64 = 40.0;
+/// The distance in metres from the end of its way at which the ego vehicle has arrived.
+const ARRIVED: f64 = 15.0;
+/// The number of places from which ways of the ego vehicle are tried.
+const TRIES: usize = 64;
+/// The least width in metres of a lane on which cars begin.
+const NARROWEST: f64 = 2.4;
+/// The distance in metres that a car keeps from the end of the lane on which it begins.
+const MARGIN: f64 = 4.5;
+/// The room that a car has for itself at the start: metres, and seconds at its speed.
+const ROOM: (f64, f64) = (8.0, 1.5);
+/// The width in metres of the strip that a car needs at the start.
+const STRIP: f64 = 2.2;
+/// The deceleration in m/s² with which a car at the start could stop before the next junction.
+const GENTLE: f64 = 1.5;
+
+/// The distance in metres that a car keeps from a body on the lanes at the start.
+const CLEAR: f64 = 15.0;
+/// The distance in metres between two points of a body that are compared with the lanes, and the metres by which a body may reach
+/// over the edge of a lane.
+const STEP: f64 = 1.0;
+const EDGE: f64 = 0.3;
+/// The distance in metres over which a car looks ahead at the start.
+const FORESEEN: f64 = 300.0;
+
+/// Returns the program of the scenario. It reads each file of roads once.
+pub fn map_traffic() -> Program {
+    let known = Arc::new(Known::default());
+    let about = "a way over the roads of any map (OpenDRIVE), in traffic";
+    Program::of("map-traffic", about, move |s| build(&known, s))
+}
+
+/// The networks of the files that were read, by the value of the parameter.
+type Known = Mutex<BTreeMap<String, Roads>>;
+
+/// The network of a file, and the bodies of its objects and signals.
+#[derive(Debug, Clone)]
+struct Roads {
+    network: Arc<RoadNetwork>,
+    things: Arc<[Thing]>,
+}
+
+/// The body of an object or a signal.
+#[derive(Debug, Clone, Copy)]
+struct Thing {
+    body: Body,
+    at: Pose,
+    /// True if the body is on a lane.
+    is_in_the_way: bool,
+}
+
+/// The reason why the roads of a test cannot be used.
+#[derive(Debug, Error)]
+enum NoRoads {
+    #[error(transparent)]
+    File(#[from] ReadError),
+    #[error("{file}: {error}")]
+    Network { file: String, error: RoadError },
+    #[error("{file}: the longest way over its lanes is {found:.0} m, expected at least {SHORTEST} m")]
+    NoWay { file: String, found: f64 },
+    #[error(
+        "{file}: its roads have room for {room} of {asked} cars; set fewer cars, for example with --set cars={room} or \
+         --open cars=0..{room}"
+    )]
+    NoRoom { file: String, room: usize, asked: usize },
+}
+
+fn build(known: &Known, s: &mut Scenario) {
+    let roads = s.text("roads", TOWN).value();
+    let cars = s.interval("cars", 0.0..=40.0).default(12.0).value().round() as usize;
+    let route = s.choice("route", [1, 2, 3, 4, 5, 6, 7, 8]).default(1).value();
+    let pace = s.interval("pace", 0.6..=1.2).default(1.0).value();
+    let seed = s.nominal_choice("traffic_seed", [1, 2, 3, 4, 5, 6, 7, 8], 1).value();
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let usual = Weather::default();
+    let air = [("fog", usual.fog), ("light", usual.light), ("rain", usual.rain)];
+    let [fog, light, rain] = air.map(|(name, nominal)| s.nominal(name, 0.0..=1.0, nominal).atmospheric());
+    let fullness = s.nominal("roadside", 0.0..=1.0, 0.0).value();
+
+    let planned = read(known, &roads).and_then(|Roads { network, things }| {
+        let begin = |seed| places(&network, &things, seed);
+        let way = Way::drawn(&network, &roads, begin(route as u64))?;
+        let speed = pace * way.limit;
+        let others = others(&network, &way, speed, (seed as u64, begin(seed as u64)));
+        let room = others.len();
+        if room < cars {
+            return Err(NoRoads::NoRoom { file: roads.clone(), room, asked: cars });
+        }
+        let others = others.into_iter().take(cars).collect();
+        Ok((network, things, way, speed, others))
+    });
+    let (network, things, way, speed, others) = match planned {
+        Ok(planned) => planned,
+        Err(why) => return s.refuse(&why.to_string()),
+    };
+    s.tick(0.02);
+    let streets = s.place(network);
+    s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
+    let car = s.place(AutonomousVehicle::along(way.path).starting(way.start).speed(speed));
+    s.place(EnvironmentCars::on(&streets, others).seed(seed as u64));
+    for Thing { body, at, is_in_the_way } in things.iter() {
+        let fixture = Fixture::new(&body.class.to_string(), *body, *at).joined();
+        s.place(if *is_in_the_way { fixture } else { fixture.as_scenery() });
+    }
+    s.place(Roadside::new(fullness));
+
+    s.duration(DURATION);
+    let arrived = car.remaining().at_most(ARRIVED);
+    s.end(&arrived);
+    s.monitor(Monitor::no_collision(&car));
+    s.monitor(Monitor::right_of_way(&car, 1.0));
+    s.monitor(Monitor::activity(&car, 30.0));
+}
+
+/// Returns the roads and the things of a file, or of the town.
+fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
+    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(roads) = known.get(roads) {
+        return Ok(roads.clone());
+    }
+    let map = if roads == TOWN { town() } else { Map::read(FilePath::new(roads)) }?;
+    let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error })?;
+    let things = map.objects().flat_map(|object| object.parts.iter().map(move |part| (object, *part)));
+    let things = things.filter_map(|(object, (body, at))| {
+        let is_in_the_way = is_on_lane(&network, &body, &at);
+        // A signal over a lane hangs, and a car drives below it.
+        (!object.is_signal || !is_in_the_way).then_some(Thing { body, at, is_in_the_way })
+    });
+    let read = Roads { things: things.collect(), network: network.clone() };
+    known.insert(roads.to_owned(), read.clone());
+    Ok(read)
+}
+
+/// Returns `true` if a body is on a lane.
+fn is_on_lane(network: &RoadNetwork, body: &Body, at: &Pose) -> bool {
+    let half = body.outline.half_extent();
+    let (ahead, aside) = if half.x >= half.y { (at.forward(), half.y) } else { (at.left(), half.x) };
+    let along = half.max() - aside;
+    let steps = (2.0 * along / STEP).ceil();
+    (0..=steps as usize).any(|i| {
+        let share = if steps > 0.0 { 2.0 * i as f64 / steps - 1.0 } else { 0.0 };
+        let place = network.project(at.position + ahead * (along * share));
+        place.distance < 0.5 * network.lane(place.lane).width_at(place.s) + aside - EDGE
+    })
+}
+
+/// Returns the map of the town: nine junctions and the streets between them, as a file of OpenDRIVE has them.
+fn town() -> Result<Map, ReadError> {
+    let city = grid_city(3, 3, 90.0, 2).build().expect("the streets meet at the junctions");
+    let text = write(&city, TOWN).expect("the town is made of our elements");
+    Map::parse(FilePath::new("town.xodr"), text)
+}
+
+/// A way of the ego vehicle.
+struct Way {
+    path: Path,
+    /// The place at which the car begins, in metres along the path.
+    start: f64,
+    /// The lowest speed limit of the lanes of the way in m/s.
+    limit: f64,
+}
+
+impl Way {
+    /// Returns the first of the ways from many places that is long enough for a whole run, or the longest of these ways.
+    fn drawn(network: &RoadNetwork, roads: &str, places: impl Iterator<Item = RoutePosition>) -> Result<Self, NoRoads> {
+        let mut longest: Option<(f64, Vec<LaneId>, f64)> = None;
+        for (index, place) in places.take(TRIES).enumerate() {
+            let wanted = DURATION * network.lane(place.lane).limit_at(place.s).unwrap_or(USUAL).min(FASTEST);
+            let mut lanes = vec![place.lane];
+            let mut length = network.lane(place.lane).length() - place.s;
+            while length < wanted {
+                let next = &network.lane(lanes[lanes.len() - 1]).successors;
+                let Some(lane) = next.get((index + lanes.len()) % next.len().max(1)) else { break };
+                lanes.push(*lane);
+                length += network.lane(*lane).length();
+            }
+            if longest.as_ref().is_none_or(|(most, ..)| length > *most) {
+                longest = Some((length, lanes, place.s));
+            }
+            if length >= wanted {
+                break;
+            }
+        }
+        match longest {
+            Some((length, lanes, start)) if length >= SHORTEST => {
+                let limit = limits(network, &lanes).reduce(f64::min).unwrap_or(USUAL).min(FASTEST);
+                Ok(Self { path: network.path(&lanes), start, limit })
+            }
+            other => Err(NoRoads::NoWay { file: roads.to_owned(), found: other.map_or(0.0, |(length, ..)| length) }),
+        }
+    }
+}
+
+/// Returns the speed limits of lanes, in m/s.
+fn limits(network: &RoadNetwork, lanes: &[LaneId]) -> impl Iterator<Item = f64> {
+    lanes.iter().flat_map(|lane| &network.lane(*lane).limits).map(|limit| limit.speed)
+}
+
+/// Returns random places on roads at which a car can begin, in random order.
+fn places(network: &RoadNetwork, things: &[Thing], seed: u64) -> impl Iterator<Item = RoutePosition> {
+    let fits = |place: &RoutePosition| {
+        let lane = network.lane(place.lane);
+        let here = lane.curve.point(place.s);
+        let near = |thing: &Thing| (thing.at.position - here).norm() < CLEAR + thing.body.outline.reach();
+        lane.width_at(place.s) >= NARROWEST
+            && (MARGIN..=lane.length() - MARGIN).contains(&place.s)
+            && !things.iter().any(|thing| thing.is_in_the_way && near(thing))
+    };
+    TrafficCar::scattered(network, usize::MAX, seed).into_iter().map(|car| car.start()).filter(fits)
+}
+
+/// The room of a car at its start.
+struct Room {
+    lane: LaneId,
+    s: f64,
+    pose: Pose,
+    /// The metres that the car needs before and behind it.
+    metres: f64,
+}
+
+impl Room {
+    fn of(network: &RoadNetwork, place: RoutePosition, speed: f64) -> Self {
+        let RoutePosition { lane, s } = place;
+        Self { lane, s, pose: network.lane(lane).curve.at(s), metres: ROOM.0 + ROOM.1 * speed }
+    }
+
+    /// Returns `true` if the room of the car meets the room of another car.
+    fn meets(&self, other: &Self) -> bool {
+        let metres = self.metres.max(other.metres);
+        let aside = self.pose.to_local(other.pose.position);
+        self.lane == other.lane && (self.s - other.s).abs() < metres || aside.x.abs() < metres && aside.y.abs() < STRIP
+    }
+}
+
+/// Returns cars for all places on the roads at which there is room for a car that drives, in random order.
+fn others(
+    network: &RoadNetwork,
+    way: &Way,
+    speed: f64,
+    (seed, places): (u64, impl Iterator<Item = RoutePosition>),
+) -> Vec<TrafficCar> {
+    let lane = way.path.lane_pieces().next().map(|(_, lane)| lane);
+    let ego = lane.map(|lane| Room::of(network, RoutePosition { lane, s: way.start }, 2.0 * speed));
+    let mut taken: Vec<Room> = ego.into_iter().collect();
+    let all: Vec<LaneId> = network.ids().collect();
+    let desired = limits(network, &all).reduce(f64::max).unwrap_or(USUAL).min(FASTEST);
+    let mut cars = Vec::new();
+    for (index, place) in places.enumerate() {
+        let car = TrafficCar::at(place).desired_speed(desired).varied(1000 * seed + index as u64);
+        let free = free_metres(network, place);
+        let lane = network.lane(place.lane);
+        let bend = (GENTLE / lane.curve.greatest_curvature()).sqrt();
+        let most = lane.limit_at(place.s).unwrap_or(USUAL).min(FASTEST);
+        let speed = (2.0 * GENTLE * free).sqrt().min(bend).min(0.9 * most);
+        let room = Room::of(network, place, speed);
+        if !taken.iter().any(|other| room.meets(other)) {
+            taken.push(room);
+            cars.push(car.changing_lanes().speed(speed));
+        }
+    }
+    cars
+}
+
+/// Returns the metres from a place to the next lane of a junction, at most [`FORESEEN`].
+fn free_metres(network: &RoadNetwork, place: RoutePosition) -> f64 {
+    let mut lane = network.lane(place.lane);
+    let mut metres = lane.length() - place.s;
+    while metres < FORESEEN {
+        match *lane.successors {
+            [next] if network.lane(next).kind == LaneKind::Road => lane = network.lane(next),
+            [] => return FORESEEN,
+            _ => return metres,
+        }
+        metres += lane.length();
+    }
+    FORESEEN
+}
