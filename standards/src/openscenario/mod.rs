@@ -2,21 +2,28 @@
 
 mod action;
 mod catalogs;
+mod clock;
+mod clothoid;
 mod condition;
 mod elements;
 mod entity;
+mod measure;
+mod names;
+mod nurbs;
 mod parameters;
 mod place;
 mod play;
 mod position;
+mod profile;
 mod program;
 mod project;
+mod route;
+mod rule;
 mod scope;
 mod state;
 mod story;
 mod transition;
 mod variable;
-mod way;
 
 pub use elements::elements;
 pub use program::Xosc;

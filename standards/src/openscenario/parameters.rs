@@ -1,6 +1,6 @@
 //! The parameters of a scenario: their declarations, the values that a distribution lists for them, and their constraints.
 
-use super::condition::Rule;
+use super::rule::Rule;
 use super::scope::{Node, Scope};
 use crate::xml::{Flaw, ReadError};
 use paracosm_engine::Scenario;

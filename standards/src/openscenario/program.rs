@@ -1,8 +1,9 @@
 //! A scenario of a file as a program: the same world, streams and signals as those of any other program.
 
 use super::catalogs::{CatalogFiles, declare};
-use super::condition::{Check, Condition, Measure};
+use super::condition::{Check, Condition};
 use super::elements::schema;
+use super::measure::Measure;
 use super::parameters::Distribution;
 use super::play::Stage;
 use super::scope::{Node, Scope};
@@ -299,7 +300,8 @@ impl Geometric for Director {
 impl Geometric for Shown {
     fn poses(&self, poses: &mut [Option<Pose>]) {
         if self.has_body {
-            poses[0] = Some(self.stage.borrow().cast.actors[self.index].middle());
+            let actor = &self.stage.borrow().cast.actors[self.index];
+            poses[0] = actor.present.then(|| actor.middle());
         }
     }
 
