@@ -327,7 +327,7 @@ impl Action {
 /// Reads the greatest acceleration, deceleration and speed within an element; `None` if it has no limits.
 fn limits(node: Node<'_>) -> Result<Option<[f64; 3]>, ReadError> {
     let Some(limits) = node.first("DynamicConstraints") else { return Ok(None) };
-    let most = |name| limits.number_or(name, f64::INFINITY);
+    let most = |name| if limits.element.text(name).is_some() { limits.length(name) } else { Ok(f64::INFINITY) };
     Ok(Some([most("maxAcceleration")?, most("maxDeceleration")?, most("maxSpeed")?]))
 }
 

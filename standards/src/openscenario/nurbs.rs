@@ -17,7 +17,7 @@ impl Nurbs {
     /// Reads an element `Nurbs` with `count` control points.
     pub fn read(node: Node<'_>, count: usize) -> Result<Self, ReadError> {
         let weight =
-            |point: Node<'_>| if point.element.text("weight").is_some() { point.length("weight") } else { Ok(1.0) };
+            |point: Node<'_>| if point.element.text("weight").is_some() { point.positive("weight") } else { Ok(1.0) };
         let weights = node.all("ControlPoint").map(weight).collect::<Result<Vec<_>, ReadError>>()?;
         let knots = node.all("Knot").map(|knot| knot.number("value")).collect::<Result<Vec<_>, ReadError>>()?;
         let order = node.whole("order")?;
@@ -51,7 +51,13 @@ impl Nurbs {
         let (p, count) = (self.degree, self.weights.len());
         let (first, last) = (self.knots[p], self.knots[count]);
         let at = first + (last - first) * u.clamp(0.0, 1.0);
-        let span = self.knots.partition_point(|knot| *knot <= at).clamp(p + 1, count) - 1;
+        // The last span that is not empty, for the last place.
+        let after = if at < last {
+            self.knots.partition_point(|knot| *knot <= at)
+        } else {
+            self.knots.partition_point(|knot| *knot < last)
+        };
+        let span = after.clamp(p + 1, count) - 1;
         // The functions of the degrees 0 to p that are not 0 at this place.
         let mut values = vec![1.0];
         for degree in 1..=p {
@@ -84,5 +90,12 @@ mod tests {
             assert!((libm::hypot(x, y) - 1.0).abs() < 1e-12, "({x}, {y})");
         }
         assert_eq!(quarter.shares(1.0), [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_knot_that_occurs_more_often_than_needed_changes_nothing() {
+        let curve = Nurbs { degree: 2, weights: vec![1.0; 4], knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0] };
+        assert_eq!(curve.shares(1.0), [0.0, 0.0, 1.0, 0.0]);
+        assert_eq!(curve.shares(0.5), [0.25, 0.5, 0.25, 0.0]);
     }
 }

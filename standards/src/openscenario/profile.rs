@@ -47,7 +47,10 @@ impl Profile {
         }
         let follows = node.one_of("followingMode", &[("follow", true), ("position", false)])?;
         let constraints = node.first("DynamicConstraints");
-        let most = |name| constraints.map_or(Ok(f64::INFINITY), |given| given.number_or(name, f64::INFINITY));
+        let most = |name| match constraints.filter(|given| given.element.text(name).is_some()) {
+            Some(given) => given.positive(name),
+            None => Ok(f64::INFINITY),
+        };
         let limits = Limits {
             acceleration: [most("maxAcceleration")?, most("maxDeceleration")?],
             jerk: [most("maxAccelerationRate")?, most("maxDecelerationRate")?],

@@ -92,6 +92,14 @@ fn a_mistake_in_an_action_or_a_condition_is_reported() {
         ),
         (
             "actions.xosc",
+            "weight=\"1\"",
+            "weight=\"0\"",
+            "`weight=\"0\"` of <ControlPoint> is not allowed, expected a number above 0",
+        ),
+        ("actions.xosc", "maxDeceleration=\"2\"", "maxDeceleration=\"0\"", "expected a number above 0"),
+        ("actions.xosc", "maxDeceleration=\"1\"", "maxDeceleration=\"-1\"", "expected a number that is not negative"),
+        (
+            "actions.xosc",
             "parameterRef=\"$count\"",
             "parameterRef=\"$coun\"",
             "names no parameter of the file (did you mean `count`?)",

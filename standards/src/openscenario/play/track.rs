@@ -19,6 +19,8 @@ const SPACING: f64 = 0.05;
 
 /// The distance in metres between two vertices of a curve through control points.
 const STRIDE: f64 = 1.0;
+/// The greatest number of strides of a curve.
+const MOST: f64 = 100_000.0;
 /// The part of a stride after a vertex at which the influence of control points is read. The standard does not say where on the curve the
 /// time of a control point holds. With this number the places are those of esmini.
 const LATER: f64 = 0.3;
@@ -71,7 +73,7 @@ impl Track {
     /// its greatest influence.
     pub fn nurbs(points: &[(Vector2<f64>, f64)], nurbs: &Nurbs) -> Self {
         let reach: f64 = points.windows(2).map(|pair| (pair[1].0 - pair[0].0).norm()).sum();
-        let count = 1 + (reach / STRIDE) as usize;
+        let count = 1 + (reach / STRIDE).min(MOST) as usize;
         let u = |i: usize| i as f64 / count as f64;
         let functions: Vec<_> = (0..=count).map(|i| nurbs.functions(u(i) + LATER / count as f64)).collect();
         let peaks: Vec<(f64, f64)> = (0..points.len())
@@ -84,7 +86,8 @@ impl Track {
         let time = |u: f64| {
             let next = peaks.partition_point(|(peak, _)| *peak <= u).clamp(1, peaks.len() - 1);
             let (before, after) = (peaks[next - 1], peaks[next]);
-            before.1 + (after.1 - before.1) * (u - before.0) / (after.0 - before.0)
+            let share = if after.0 > before.0 { (u - before.0) / (after.0 - before.0) } else { 1.0 };
+            before.1 + (after.1 - before.1) * share
         };
         let place = |u: f64| -> Vector2<f64> {
             points.iter().zip(nurbs.shares(u)).map(|((point, _), share)| point * share).sum()
