@@ -1,11 +1,11 @@
 //! Actions as a scenario describes them.
 
-use super::catalogs::Catalogs;
-use super::condition::{Metric, MetricKind};
-use super::position::{Names, Position};
+use super::measure::{Metric, MetricKind};
+use super::names::Names;
+use super::position::{Position, Route, Way};
+use super::profile::Profile;
 use super::scope::Node;
 use super::transition::{Dynamics, SHAPES, Shape};
-use super::way::{self, Way};
 use crate::xml::ReadError;
 
 /// An action of one entity.
@@ -16,6 +16,7 @@ pub(super) enum Action {
         dynamics: Dynamics,
         target: Target,
     },
+    Profile(Profile),
     /// The distance to an entity.
     Gap {
         entity: usize,
@@ -25,6 +26,8 @@ pub(super) enum Action {
         ahead: Option<bool>,
         limits: Option<[f64; 3]>,
     },
+    /// The distance to an entity to the side.
+    Beside(Beside),
     LaneChange {
         dynamics: Dynamics,
         lane: Lane,
@@ -37,12 +40,20 @@ pub(super) enum Action {
         continuous: bool,
     },
     Trajectory(Box<Trajectory>),
+    /// Follows a route.
+    Route(Route),
+    /// Follows the shortest route to a position.
+    Acquire(Position),
     Synchronize(Box<Synchronization>),
     /// Hands the entity over to its controller.
     Activate {
         lateral: Option<bool>,
         longitudinal: Option<bool>,
     },
+    /// Puts the entity into the world.
+    Add(Position),
+    /// Takes the entity out of the world.
+    Delete,
     /// Has no effect in this world.
     Nothing,
 }
@@ -64,7 +75,7 @@ pub(super) enum Target {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Gap {
     Metres(f64),
-    /// The distance that the entity travels in so many seconds.
+    /// The distance that the other entity travels in so many seconds.
     Seconds(f64),
 }
 
@@ -86,6 +97,20 @@ pub(super) enum Lateral {
     Relative { entity: usize, value: f64 },
 }
 
+/// The distance that an entity keeps to another entity to the side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Beside {
+    pub entity: usize,
+    /// The distance in metres; `None` for the distance at the beginning.
+    pub metres: Option<f64>,
+    /// `true` if the distance is between boxes, `false` if it is between reference points.
+    pub freespace: bool,
+    /// `true` to the left of the other entity, `false` to its right, `None` on the side at the beginning.
+    pub left: Option<bool>,
+    pub continuous: bool,
+    pub limits: Option<[f64; 3]>,
+}
+
 /// A way that an entity follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Trajectory {
@@ -100,12 +125,20 @@ pub(super) struct Trajectory {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Synchronization {
     pub master: usize,
-    pub master_target: way::Target,
-    pub target: way::Target,
-    /// The speed at the arrival in m/s; `None` if it does not matter.
-    pub final_speed: Option<f64>,
-    /// The distance in metres before the target from which on the entity has its final speed.
-    pub steady: f64,
+    pub master_target: Position,
+    pub target: Position,
+    /// The speed at the arrival; `None` if it does not matter.
+    pub final_speed: Option<Target>,
+    pub steady: Steady,
+    /// The metres within which the master and the entity have reached their targets.
+    pub tolerances: [f64; 2],
+}
+
+/// The part of the way before a target on which an entity has its final speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Steady {
+    Metres(f64),
+    Seconds(f64),
 }
 
 /// The times of a way.
@@ -119,18 +152,19 @@ pub(super) struct Timing {
 
 impl Action {
     /// Reads an element `PrivateAction`.
-    pub fn private(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
+    pub fn private(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let kind = node.choice("a kind of action such as LongitudinalAction")?;
         let inner = || kind.choice("a kind of action");
         match kind.name() {
             "TeleportAction" => Ok(Self::Teleport(Position::read(kind.child("Position")?, names)?)),
             "LongitudinalAction" => Self::longitudinal(inner()?, names),
             "LateralAction" => Self::lateral(inner()?, names),
-            "RoutingAction" => Self::routing(inner()?, names, catalogs),
-            "SynchronizeAction" => Self::synchronize(kind, names, catalogs),
+            "RoutingAction" => Self::routing(inner()?, names),
+            "SynchronizeAction" => Self::synchronize(kind, names),
             "ControllerAction" => {
-                let mut actions = kind.elements().filter(|action| action.name() == "ActivateControllerAction");
-                actions.next().map_or(Ok(Self::Nothing), Self::activate)
+                // An action that assigns a controller may activate it, too.
+                let activate = kind.first("ActivateControllerAction").or_else(|| kind.first("AssignControllerAction"));
+                activate.map_or(Ok(Self::Nothing), Self::activate)
             }
             "ActivateControllerAction" => Self::activate(kind),
             "VisibilityAction" | "AppearanceAction" => Ok(Self::Nothing),
@@ -138,26 +172,38 @@ impl Action {
         }
     }
 
-    fn synchronize(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
-        let absolute = node.first("FinalSpeed").map(|speed| speed.child("AbsoluteSpeed")).transpose()?;
-        let final_speed = absolute.map(|speed| speed.length("value")).transpose()?;
-        let steady = absolute.and_then(|speed| speed.elements().next());
-        let steady = match (steady, final_speed) {
-            (Some(steady), _) if steady.name() == "TargetDistanceSteadyState" => steady.length("distance")?,
-            (Some(steady), Some(speed)) => steady.length("time")? * speed,
-            _ => 0.0,
+    fn synchronize(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+        let master = names.entity(node, "masterEntityRef")?;
+        let last =
+            node.first("FinalSpeed").map(|speed| speed.choice("AbsoluteSpeed or RelativeSpeedToMaster")).transpose()?;
+        let final_speed = match last {
+            Some(speed) if speed.name() == "AbsoluteSpeed" => Some(Target::Absolute(speed.length("value")?)),
+            Some(speed) => Some(Target::relative(speed, master)?),
+            None => None,
         };
+        let steady = match last.and_then(|speed| speed.elements().next()) {
+            Some(steady) if steady.name() == "TargetDistanceSteadyState" => Steady::Metres(steady.length("distance")?),
+            Some(steady) => Steady::Seconds(steady.length("time")?),
+            None => Steady::Metres(0.0),
+        };
+        let within = |name| if node.element.text(name).is_some() { node.length(name) } else { Ok(0.0) };
         Ok(Self::Synchronize(Box::new(Synchronization {
-            master: names.entity(node, "masterEntityRef")?,
-            master_target: way::Target::read(node.child("TargetPositionMaster")?, names, catalogs)?,
-            target: way::Target::read(node.child("TargetPosition")?, names, catalogs)?,
+            master,
+            master_target: Position::read(node.child("TargetPositionMaster")?, names)?,
+            target: Position::read(node.child("TargetPosition")?, names)?,
             final_speed,
             steady,
+            tolerances: [within("targetToleranceMaster")?, within("targetTolerance")?],
         })))
     }
 
     fn activate(node: Node<'_>) -> Result<Self, ReadError> {
         let truth = |name| node.element.text(name).map(|_| node.truth_or(name, false)).transpose();
+        if node.name() == "AssignControllerAction" {
+            let [lateral, longitudinal] = [truth("activateLateral")?, truth("activateLongitudinal")?];
+            let is_active = [lateral, longitudinal].contains(&Some(true));
+            return Ok(if is_active { Self::Activate { lateral, longitudinal } } else { Self::Nothing });
+        }
         Ok(Self::Activate { lateral: truth("lateral")?, longitudinal: truth("longitudinal")? })
     }
 
@@ -168,13 +214,17 @@ impl Action {
                 let dynamics = Dynamics::read(node.child("SpeedActionDynamics")?)?;
                 Ok(Self::Speed { dynamics, target: Target::read(target, names)? })
             }
+            "SpeedProfileAction" => {
+                let other = node.element.text("entityRef").map(|_| names.entity(node, "entityRef")).transpose()?;
+                Profile::read(node, other).map(Self::Profile)
+            }
             "LongitudinalDistanceAction" => {
                 let gap = match node.optional("distance")? {
                     Some(_) => Gap::Metres(node.length("distance")?),
                     None => Gap::Seconds(node.length("timeGap")?),
                 };
                 let ahead = match node.element.text("displacement") {
-                    None => Some(true),
+                    None => Some(false),
                     Some(_) => node.one_of(
                         "displacement",
                         &[
@@ -184,20 +234,16 @@ impl Action {
                         ],
                     )?,
                 };
-                let limits = node.first("DynamicConstraints").map(|limits| {
-                    let most = |name| limits.number_or(name, f64::INFINITY);
-                    Ok([most("maxAcceleration")?, most("maxDeceleration")?, most("maxSpeed")?])
-                });
                 Ok(Self::Gap {
                     entity: names.entity(node, "entityRef")?,
                     gap,
                     how: Metric::read(node, MetricKind::Longitudinal)?,
                     continuous: node.truth_or("continuous", false)?,
                     ahead,
-                    limits: limits.transpose()?,
+                    limits: limits(node)?,
                 })
             }
-            _ => Err(node.refused("use a SpeedAction or a LongitudinalDistanceAction")),
+            _ => Err(node.refused("use a SpeedAction, a SpeedProfileAction or a LongitudinalDistanceAction")),
         }
     }
 
@@ -233,13 +279,33 @@ impl Action {
                     continuous: node.truth_or("continuous", false)?,
                 })
             }
+            "LateralDistanceAction" => {
+                let sides =
+                    [("any", None), ("leftToReferencedEntity", Some(true)), ("rightToReferencedEntity", Some(false))];
+                let given =
+                    node.element.text("displacement").map(|_| node.one_of("displacement", &sides)).transpose()?;
+                Ok(Self::Beside(Beside {
+                    entity: names.entity(node, "entityRef")?,
+                    metres: node.element.text("distance").map(|_| node.length("distance")).transpose()?,
+                    freespace: node.truth_or("freespace", false)?,
+                    left: given.flatten(),
+                    continuous: node.truth_or("continuous", false)?,
+                    limits: limits(node)?,
+                }))
+            }
             _ => Err(node.refused("use a LaneChangeAction or a LaneOffsetAction")),
         }
     }
 
-    fn routing(node: Node<'_>, names: Names<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
-        if node.name() != "FollowTrajectoryAction" {
-            return Err(node.refused("use a FollowTrajectoryAction"));
+    fn routing(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+        match node.name() {
+            "AssignRouteAction" => {
+                let given = node.choice("Route or CatalogReference")?;
+                return Route::read(given, names).map(Self::Route);
+            }
+            "AcquirePositionAction" => return Position::read(node.child("Position")?, names).map(Self::Acquire),
+            "FollowTrajectoryAction" => (),
+            _ => return Err(node.refused("use an AssignRouteAction or a FollowTrajectoryAction")),
         }
         let given = match node.first("TrajectoryRef") {
             Some(reference) => reference.choice("Trajectory")?,
@@ -248,7 +314,7 @@ impl Action {
                 .find(|inner| ["Trajectory", "CatalogReference"].contains(&inner.name()))
                 .ok_or_else(|| node.element.lacks("Trajectory"))?,
         };
-        catalogs.resolved(given, &["Trajectory"], |given| Self::trajectory(node, given, names))
+        names.catalogs.resolved(given, &["Trajectory"], |given| Self::trajectory(node, given, names))
     }
 
     fn trajectory(node: Node<'_>, given: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
@@ -258,15 +324,26 @@ impl Action {
     }
 }
 
+/// Reads the greatest acceleration, deceleration and speed within an element; `None` if it has no limits.
+fn limits(node: Node<'_>) -> Result<Option<[f64; 3]>, ReadError> {
+    let Some(limits) = node.first("DynamicConstraints") else { return Ok(None) };
+    let most = |name| if limits.element.text(name).is_some() { limits.length(name) } else { Ok(f64::INFINITY) };
+    Ok(Some([most("maxAcceleration")?, most("maxDeceleration")?, most("maxSpeed")?]))
+}
+
 impl Target {
     fn read(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
-        let value = node.number("value")?;
         if node.name() != "RelativeTargetSpeed" {
-            return Ok(Self::Absolute(value));
+            return Ok(Self::Absolute(node.number("value")?));
         }
+        Self::relative(node, names.entity(node, "entityRef")?)
+    }
+
+    /// Reads the attributes of a speed that is relative to the speed of an entity.
+    fn relative(node: Node<'_>, entity: usize) -> Result<Self, ReadError> {
         Ok(Self::Relative {
-            entity: names.entity(node, "entityRef")?,
-            value,
+            entity,
+            value: node.number("value")?,
             is_factor: node.one_of("speedTargetValueType", &[("delta", false), ("factor", true)])?,
             continuous: node.truth_or("continuous", false)?,
         })

@@ -11,24 +11,22 @@ const DRIVER: &str = "the system under test is the controller";
 const SIGNALS: &str = "there are no traffic signals yet";
 const SWARMS: &str = "there are no swarms of vehicles yet; name the entities one by one";
 const TRAILERS: &str = "there are no trailers: vehicles drive without them";
-const ROUTES: &str = "there are no routes yet; use a FollowTrajectoryAction, or a LanePosition";
-const CURVES: &str = "use a Polyline, a Clothoid or a ClothoidSpline";
-const PARAMETERS: &str = "parameters do not change during a run; use a VariableAction";
+const ROUTES: &str = "use an AssignRouteAction";
 const COMMANDS: &str = "no file runs a command";
 const NAMED: &str = "name the entities one by one";
 const CONTROL: &str = "use an ActivateControllerAction";
 const CHANCE: &str = "use a UniformDistribution, a NormalDistribution with a Range, or a ProbabilityDistributionSet";
-const PROFILE: &str = "use a SpeedAction or a LongitudinalDistanceAction";
-const LATERAL: &str = "use a LaneOffsetAction";
 const PLACES: &str = "use a WorldPosition";
-const ENTITIES: &str = "all entities are in the world from the beginning to the end";
-const CONDITIONS: &str = "use a condition on time, speed, distance or the state of an element";
 
 pub(super) const ROWS: &[Row] = &[
     read("OpenSCENARIO", "FileHeader", "author date description revMajor revMinor"),
     no_effect("FileHeader", "License", OTHERS),
     no_effect("FileHeader|MiscObject|Pedestrian|Vehicle", "Properties", OTHERS),
-    read("Maneuver|MiscObject|OpenSCENARIO|Pedestrian|Story|Trajectory|Vehicle", "ParameterDeclarations", ""),
+    read(
+        "Environment|Maneuver|MiscObject|OpenSCENARIO|Pedestrian|Route|Story|Trajectory|Vehicle",
+        "ParameterDeclarations",
+        "",
+    ),
     read("ParameterDeclarations", "ParameterDeclaration", "name parameterType value"),
     read("ParameterDeclaration", "ConstraintGroup", ""),
     read("ConstraintGroup", "ValueConstraint", "rule value"),
@@ -48,7 +46,7 @@ pub(super) const ROWS: &[Row] = &[
     no_effect("RoadNetwork", "SceneGraphFile|UsedArea", OTHERS),
     refused("RoadNetwork", "TrafficSignals", SIGNALS),
     read(
-        "DistanceCondition|ReachPositionCondition|TeleportAction|TimeToCollisionConditionTarget|Vertex",
+        "AcquirePositionAction|AddEntityAction|DistanceCondition|ReachPositionCondition|TeleportAction|TimeToCollisionConditionTarget|Vertex|Waypoint",
         "Position",
         "",
     ),
@@ -59,7 +57,7 @@ pub(super) const ROWS: &[Row] = &[
         "entityRef dx dy dz",
     ),
     read(
-        "LanePosition|RelativeLanePosition|RelativeObjectPosition|RelativeRoadPosition|RelativeWorldPosition|RoadPosition|TrajectoryPosition",
+        "LanePosition|RelativeLanePosition|RelativeObjectPosition|RelativeRoadPosition|RelativeWorldPosition|RoadPosition|RoutePosition|TrajectoryPosition",
         "Orientation",
         "h p r type",
     ),
@@ -67,8 +65,13 @@ pub(super) const ROWS: &[Row] = &[
     read("Position|TargetPosition|TargetPositionMaster", "RelativeRoadPosition", "entityRef ds dt"),
     read("Position|TargetPosition|TargetPositionMaster", "LanePosition", "laneId offset roadId s"),
     read("Position|TargetPosition|TargetPositionMaster", "RelativeLanePosition", "entityRef dLane ds offset dsLane"),
-    refused("Position|TargetPosition|TargetPositionMaster", "RoutePosition", ROUTES),
-    refused("Catalog", "Route", ROUTES),
+    read("Position|TargetPosition|TargetPositionMaster", "RoutePosition", ""),
+    read("RoutePosition", "RouteRef|InRoutePosition", ""),
+    read("InRoutePosition", "FromLaneCoordinates", "laneId laneOffset pathS"),
+    read("InRoutePosition", "FromRoadCoordinates", "pathS t"),
+    read("InRoutePosition", "FromCurrentEntity", "entityRef"),
+    read("AssignRouteAction|Catalog|RouteRef", "Route", "closed name"),
+    read("Route", "Waypoint", "routeStrategy"),
     refused("Position|TargetPosition|TargetPositionMaster", "GeoPosition", PLACES),
     read("FollowTrajectoryAction|TrajectoryPosition", "TrajectoryRef", ""),
     read("Catalog|FollowTrajectoryAction|TrajectoryRef", "Trajectory", "closed name"),
@@ -76,7 +79,7 @@ pub(super) const ROWS: &[Row] = &[
     read("Shape", "Polyline", ""),
     read("Polyline", "Vertex", "time"),
     read(
-        "EnvironmentAction|FollowTrajectoryAction|ManeuverGroup|ObjectController|ScenarioObject|TrajectoryRef",
+        "AssignRouteAction|EnvironmentAction|FollowTrajectoryAction|ManeuverGroup|ObjectController|RouteRef|ScenarioObject|TrajectoryRef",
         "CatalogReference",
         "catalogName entryName",
     ),
@@ -96,15 +99,24 @@ pub(super) const ROWS: &[Row] = &[
     refused("ScenarioObject", "ExternalObjectReference", NAMED),
     read("ScenarioObject", "ObjectController", "name"),
     no_effect("Catalog|ObjectController", "Controller", DRIVER),
-    refused("Entities", "EntitySelection", NAMED),
-    read("Actors|CollisionCondition|TimeToCollisionConditionTarget|TriggeringEntities", "EntityRef", "entityRef"),
-    refused("CollisionCondition", "ByType", NAMED),
+    read("Entities", "EntitySelection", "name"),
+    read("EntitySelection", "Members", ""),
+    read("Members", "ByType", "objectType"),
+    read(
+        "Actors|CollisionCondition|Members|TimeToCollisionConditionTarget|TriggeringEntities",
+        "EntityRef",
+        "entityRef",
+    ),
+    read("CollisionCondition", "ByType", "type"),
     read("Storyboard", "Init", ""),
     read("Init", "Actions", ""),
     read("Action|Actions", "GlobalAction", ""),
     read("GlobalAction", "EnvironmentAction", ""),
-    no_effect("Catalog|EnvironmentAction", "Environment", WEATHER),
-    refused("GlobalAction", "EntityAction", ENTITIES),
+    read("Catalog|EnvironmentAction", "Environment", "name"),
+    read("Environment", "TimeOfDay", "animation dateTime"),
+    no_effect("Environment", "Weather|RoadCondition", WEATHER),
+    read("GlobalAction", "EntityAction", "entityRef"),
+    read("EntityAction", "AddEntityAction|DeleteEntityAction", ""),
     refused("GlobalAction", "InfrastructureAction", SIGNALS),
     refused("GlobalAction", "TrafficAction", SWARMS),
     refused("Action|Actions", "UserDefinedAction", COMMANDS),
@@ -122,7 +134,7 @@ pub(super) const ROWS: &[Row] = &[
         "entityRef continuous distance freespace timeGap displacement coordinateSystem",
     ),
     read(
-        "LongitudinalDistanceAction",
+        "LateralDistanceAction|LongitudinalDistanceAction|SpeedProfileAction",
         "DynamicConstraints",
         "maxAcceleration maxAccelerationRate maxDeceleration maxDecelerationRate maxSpeed",
     ),
@@ -136,15 +148,26 @@ pub(super) const ROWS: &[Row] = &[
     read("LaneOffsetAction", "LaneOffsetTarget", ""),
     read("LaneOffsetTarget", "RelativeTargetLaneOffset", "entityRef value"),
     read("LaneOffsetTarget", "AbsoluteTargetLaneOffset", "value"),
-    refused("LateralAction", "LateralDistanceAction", LATERAL),
+    read(
+        "LateralAction",
+        "LateralDistanceAction",
+        "continuous coordinateSystem displacement distance entityRef freespace",
+    ),
     no_effect("PrivateAction", "VisibilityAction|AppearanceAction", LOOKS),
     read(
         "ControllerAction|PrivateAction",
         "ActivateControllerAction",
         "controllerRef objectControllerRef lateral longitudinal animation lighting",
     ),
-    refused("ControllerAction", "AssignControllerAction|OverrideControllerValueAction", CONTROL),
-    refused("RoutingAction", "AssignRouteAction|AcquirePositionAction|RandomRouteAction", ROUTES),
+    read(
+        "ControllerAction",
+        "AssignControllerAction",
+        "activateAnimation activateLateral activateLighting activateLongitudinal objectControllerRef",
+    ),
+    no_effect("AssignControllerAction", "CatalogReference|Controller|ObjectController", DRIVER),
+    refused("ControllerAction", "OverrideControllerValueAction", CONTROL),
+    read("RoutingAction", "AssignRouteAction|AcquirePositionAction", ""),
+    refused("RoutingAction", "RandomRouteAction", ROUTES),
     read("RoutingAction", "FollowTrajectoryAction", "initialDistanceOffset"),
     read("FollowTrajectoryAction", "TimeReference", ""),
     read("TimeReference", "None", ""),
@@ -166,11 +189,12 @@ pub(super) const ROWS: &[Row] = &[
     read("ByEntityCondition", "EntityCondition", ""),
     read("EntityCondition", "EndOfRoadCondition|StandStillCondition", "duration"),
     read("EntityCondition", "CollisionCondition", ""),
-    refused(
-        "EntityCondition",
-        "OffroadCondition|RelativeClearanceCondition|AngleCondition|RelativeAngleCondition",
-        CONDITIONS,
-    ),
+    read("EntityCondition", "OffroadCondition", "duration"),
+    read("EntityCondition", "RelativeClearanceCondition", "distanceBackward distanceForward freeSpace oppositeLanes"),
+    read("RelativeClearanceCondition", "RelativeLaneRange", "from to"),
+    read("RelativeClearanceCondition", "EntityRef", "entityRef"),
+    read("EntityCondition", "AngleCondition", "angle angleTolerance angleType coordinateSystem"),
+    read("EntityCondition", "RelativeAngleCondition", "angle angleTolerance angleType coordinateSystem entityRef"),
     read(
         "EntityCondition",
         "TimeHeadwayCondition",
@@ -197,7 +221,7 @@ pub(super) const ROWS: &[Row] = &[
         "entityRef freespace relativeDistanceType rule value coordinateSystem routingAlgorithm",
     ),
     read("ByValueCondition", "ParameterCondition", "parameterRef rule value"),
-    refused("ByValueCondition", "TimeOfDayCondition", CONDITIONS),
+    read("ByValueCondition", "TimeOfDayCondition", "dateTime rule"),
     read("ByValueCondition", "SimulationTimeCondition", "rule value"),
     read("ByValueCondition", "StoryboardElementStateCondition", "storyboardElementRef state storyboardElementType"),
     refused("ByValueCondition", "UserDefinedValueCondition", COMMANDS),
@@ -235,24 +259,29 @@ pub(super) const ROWS: &[Row] = &[
     read("Rule", "AddValue", "value"),
     read("Rule", "MultiplyByValue", "value"),
     read("ByValueCondition", "VariableCondition", "variableRef rule value"),
-    refused("GlobalAction", "ParameterAction", PARAMETERS),
+    read("GlobalAction", "ParameterAction", "parameterRef"),
+    read("ParameterAction", "SetAction", "value"),
+    read("ParameterAction", "ModifyAction", ""),
     refused("GlobalAction", "SetMonitorAction", OTHERS),
-    refused("LongitudinalAction", "SpeedProfileAction", PROFILE),
+    read("LongitudinalAction", "SpeedProfileAction", "entityRef followingMode"),
+    read("SpeedProfileAction", "SpeedProfileEntry", "speed time"),
     read("PrivateAction", "SynchronizeAction", "masterEntityRef targetToleranceMaster targetTolerance"),
     read("SynchronizeAction", "TargetPositionMaster|TargetPosition|FinalSpeed", ""),
     read("FinalSpeed", "AbsoluteSpeed", "value"),
-    read("AbsoluteSpeed", "TargetDistanceSteadyState", "distance"),
-    read("AbsoluteSpeed", "TargetTimeSteadyState", "time"),
-    refused("FinalSpeed", "RelativeSpeedToMaster", "use an AbsoluteSpeed"),
-    read("TargetPosition|TargetPositionMaster", "TrajectoryPosition", "s t"),
+    read("AbsoluteSpeed|RelativeSpeedToMaster", "TargetDistanceSteadyState", "distance"),
+    read("AbsoluteSpeed|RelativeSpeedToMaster", "TargetTimeSteadyState", "time"),
+    read("FinalSpeed", "RelativeSpeedToMaster", "speedTargetValueType value"),
+    read("Position|TargetPosition|TargetPositionMaster", "TrajectoryPosition", "s t"),
     read("Shape", "Clothoid", "curvature curvaturePrime curvatureDot length startTime stopTime"),
     read("Clothoid", "Position", ""),
     read("Shape", "ClothoidSpline", "timeEnd"),
     read("ClothoidSpline", "ClothoidSplineSegment", "curvatureStart curvatureEnd length hOffset timeStart"),
     read("ClothoidSplineSegment", "PositionStart", ""),
     read("PositionStart", "WorldPosition|LanePosition|RoadPosition", "x y z h p r roadId laneId s t offset"),
-    refused("Shape", "Nurbs", CURVES),
-    refused("Position", "TrajectoryPosition", "use a LanePosition or a WorldPosition"),
+    read("Shape", "Nurbs", "order"),
+    read("Nurbs", "ControlPoint", "time weight"),
+    read("ControlPoint", "Position", ""),
+    read("Nurbs", "Knot", "value"),
 ];
 
 /// The elements that occur at most once within their parent.

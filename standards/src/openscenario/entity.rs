@@ -23,6 +23,22 @@ pub(super) struct Entity {
     pub is_controlled: bool,
 }
 
+/// A name for entities, by their indices.
+pub(super) type Selection = (String, Vec<usize>);
+
+/// The type of an entity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ObjectType {
+    Vehicle,
+    Pedestrian,
+    Miscellaneous,
+}
+
+impl ObjectType {
+    pub const NAMES: [(&str, Self); 3] =
+        [("vehicle", Self::Vehicle), ("pedestrian", Self::Pedestrian), ("miscellaneous", Self::Miscellaneous)];
+}
+
 /// The limits of a vehicle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Limits {
@@ -33,12 +49,12 @@ pub(super) struct Limits {
 }
 
 impl Entity {
-    /// Reads all entities of a scenario.
-    pub fn all(entities: Node<'_>, catalogs: &Catalogs<'_>) -> Result<Vec<Self>, ReadError> {
+    /// Reads all entities of a scenario, and the selections of entities with the indices of their members.
+    pub fn all(entities: Node<'_>, catalogs: &Catalogs<'_>) -> Result<(Vec<Self>, Vec<Selection>), ReadError> {
         let mut read: Vec<(Self, u32)> = Vec::new();
         for object in entities.elements() {
-            if object.name() != "ScenarioObject" {
-                return Err(object.refused("name the entities one by one"));
+            if object.name() == "EntitySelection" {
+                continue;
             }
             let name = object.required("name")?.into_owned();
             if let Some((_, first)) = read.iter().find(|(other, _)| other.name == name) {
@@ -52,7 +68,42 @@ impl Entity {
             })?;
             read.push((entity, object.element.line()));
         }
-        Ok(read.into_iter().map(|(entity, _)| entity).collect())
+        let all: Vec<Self> = read.into_iter().map(|(entity, _)| entity).collect();
+        let selections = entities.all("EntitySelection").map(|selection| Self::selection(selection, &all));
+        let selections = selections.collect::<Result<_, ReadError>>()?;
+        Ok((all, selections))
+    }
+
+    fn selection(selection: Node<'_>, all: &[Self]) -> Result<Selection, ReadError> {
+        let mut members = Vec::new();
+        for member in selection.child("Members")?.elements() {
+            if member.name() == "EntityRef" {
+                let name = member.required("entityRef")?;
+                let names = || all.iter().map(|entity| entity.name.as_str());
+                let index = names().position(|known| known == name);
+                members.push(index.ok_or_else(|| member.dangling("entityRef", "entity", names()))?);
+            } else {
+                let wanted = member.one_of("objectType", &ObjectType::NAMES)?;
+                members.extend((0..all.len()).filter(|index| all[*index].object_type() == wanted));
+            }
+        }
+        Ok((selection.required("name")?.into_owned(), members))
+    }
+
+    /// Returns the type of the entity.
+    pub fn object_type(&self) -> ObjectType {
+        match self.body.class {
+            _ if self.vehicle.is_some() => ObjectType::Vehicle,
+            Class::Pedestrian => ObjectType::Pedestrian,
+            _ => ObjectType::Miscellaneous,
+        }
+    }
+
+    /// Returns the least of the given limits and the entity's own: the greatest acceleration, deceleration and speed.
+    pub fn within(&self, limits: [f64; 3]) -> [f64; 3] {
+        let [acceleration, deceleration, speed] = limits;
+        self.vehicle
+            .map_or(limits, |own| [acceleration.min(own.acceleration), deceleration.min(own.deceleration), speed])
     }
 
     fn one(node: Node<'_>, name: String, is_controlled: bool) -> Result<Self, ReadError> {

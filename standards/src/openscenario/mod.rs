@@ -2,24 +2,31 @@
 
 mod action;
 mod catalogs;
+mod clock;
+mod clothoid;
 mod condition;
 mod distribution;
 mod elements;
 mod entity;
 mod export;
+mod measure;
+mod names;
+mod nurbs;
 mod parameters;
 mod place;
 mod play;
 mod polyline;
 mod position;
+mod profile;
 mod program;
 mod project;
+mod route;
+mod rule;
 mod scope;
 mod state;
 mod story;
 mod transition;
 mod variable;
-mod way;
 
 pub use elements::elements;
 pub use export::{EgoAs, Export};

@@ -1,7 +1,7 @@
 //! The parameters of a scenario as parameters of tests: their declarations, their values, and their constraints.
 
-use super::condition::Rule;
 use super::distribution::{Distribution, Opened, parsed};
+use super::rule::Rule;
 use super::scope::{Node, Scope, references};
 use crate::xml::{ExpressionFlaw, ReadError};
 use paracosm_engine::{Constraint, Declared, Scenario};

@@ -1,6 +1,7 @@
 //! Places on the lanes of a map, and the way along them.
 
-use crate::opendrive::{End, Link, Map, Road};
+use super::route::Legs;
+use crate::opendrive::{End, Lane, LaneType, Link, Map, Road};
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
 use std::f64::consts::PI;
@@ -41,6 +42,39 @@ impl Place {
         Pose { position: road.point(self.s, t + self.offset), heading: wrapped(heading + self.turn) }
     }
 
+    /// Returns the direction along the road in which the place faces, in radians.
+    pub fn heading(&self, map: &Map) -> f64 {
+        let along = map.roads[self.road].line.at(self.s).heading;
+        if self.is_against() { along + PI } else { along }
+    }
+
+    /// Returns `true` if the traffic on a lane at the place goes in the direction of the road.
+    pub fn leads_along(&self, lane: i32, map: &Map) -> bool {
+        let road = &map.roads[self.road];
+        driving_turn(road, road.section_at(self.s), lane) == 0.0
+    }
+
+    /// Returns the numbers of the lanes at the place on which cars drive.
+    pub fn driven_lanes<'m>(&self, map: &'m Map) -> impl Iterator<Item = i32> + use<'m> {
+        let road = &map.roads[self.road];
+        let lanes = road.sections[road.section_at(self.s)].lanes.iter();
+        lanes.filter(|lane| lane.number != 0 && lane.kind.is_driven()).map(|lane| lane.number)
+    }
+
+    /// Returns `true` if the place is beside all lanes of its road. The outermost lanes may be of the type `none`, which is no road.
+    pub fn is_offroad(&self, map: &Map) -> bool {
+        let road = &map.roads[self.road];
+        let section = road.section_at(self.s);
+        let t = self.t(map);
+        let is_below = |lane: &&Lane| {
+            let (middle, half) =
+                (road.middle(section, lane.number, self.s), 0.5 * road.width(section, lane.number, self.s));
+            (t - middle).abs() <= half
+        };
+        let mut below = road.sections[section].lanes.iter().filter(|lane| lane.kind != LaneType::None).filter(is_below);
+        below.next().is_none()
+    }
+
     /// Returns `true` if the place faces against the direction of the road.
     pub fn is_against(&self) -> bool {
         libm::cos(self.turn) < 0.0
@@ -70,6 +104,11 @@ impl Place {
 
     /// Moves the place along its lane by `metres` metres in the direction that it faces. Returns `false` at the end of the road.
     pub fn advance(&mut self, metres: f64, map: &Map) -> bool {
+        self.follow(metres, None, map)
+    }
+
+    /// Moves the place like [`Self::advance`]. At junctions it takes the roads of a route.
+    pub fn follow(&mut self, metres: f64, route: Option<&Legs>, map: &Map) -> bool {
         let mut rest = if self.is_against() { -metres } else { metres };
         loop {
             let road = &map.roads[self.road];
@@ -82,7 +121,7 @@ impl Place {
             }
             let border = if wanted < start { start } else { end };
             rest -= (border - self.s) * rest / (wanted - self.s);
-            if !self.cross(section, border == end, &mut rest, map) {
+            if !self.cross(section, border == end, &mut rest, route, map) {
                 self.s = border;
                 return false;
             }
@@ -103,7 +142,7 @@ impl Place {
     }
 
     /// Moves the place over a border of a section to the next section. Returns `false` if there is none.
-    fn cross(&mut self, section: usize, at_end: bool, rest: &mut f64, map: &Map) -> bool {
+    fn cross(&mut self, section: usize, at_end: bool, rest: &mut f64, route: Option<&Legs>, map: &Map) -> bool {
         let road = &map.roads[self.road];
         let lane = road.sections[section].lane(self.lane);
         let next = lane.and_then(|lane| if at_end { lane.successors.first() } else { lane.predecessors.first() });
@@ -114,7 +153,7 @@ impl Place {
             return true;
         }
         let end = if at_end { End::End } else { End::Start };
-        let Some((to, at, lane)) = road.link(end).and_then(|link| self.beyond(link, next.copied(), map)) else {
+        let Some((to, at, lane)) = road.link(end).and_then(|link| self.beyond(link, next.copied(), route, map)) else {
             return false;
         };
         let entered = &map.roads[to];
@@ -129,8 +168,9 @@ impl Place {
         true
     }
 
-    /// Returns the road, the end and the lane that are entered over a link. At a junction this is the straightest way.
-    fn beyond(&self, link: Link, next: Option<i32>, map: &Map) -> Option<(usize, End, i32)> {
+    /// Returns the road, the end and the lane that are entered over a link. At a junction this is the road of the route, or the
+    /// straightest way.
+    fn beyond(&self, link: Link, next: Option<i32>, route: Option<&Legs>, map: &Map) -> Option<(usize, End, i32)> {
         match link {
             Link::Road(to, at) => Some((to, at, next.unwrap_or(self.lane))),
             Link::Junction(junction) => {
@@ -145,9 +185,10 @@ impl Place {
                         End::End => (0.0, PI),
                     };
                     let bend = wrapped(road.line.at(far).heading + back - heading).abs();
-                    Some((bend, (connection.to, connection.at, lane)))
+                    let is_beside = !route.is_some_and(|route| route.goes(self.road, connection.to));
+                    Some((is_beside, bend, (connection.to, connection.at, lane)))
                 });
-                ways.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, way)| way)
+                ways.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, way)| way)
             }
         }
     }
@@ -155,17 +196,22 @@ impl Place {
     /// Returns the distance along the road to another place in metres; negative if the other place is behind. `None` if no road
     /// leads there within 2 km.
     pub fn distance_to(&self, other: &Self, map: &Map) -> Option<f64> {
+        self.distance_along(other, None, map)
+    }
+
+    /// Returns the distance like [`Self::distance_to`], along the roads of a route.
+    pub fn distance_along(&self, other: &Self, route: Option<&Legs>, map: &Map) -> Option<f64> {
         if self.road == other.road {
             let ahead = other.s - self.s;
             return Some(if self.is_against() { -ahead } else { ahead });
         }
-        self.ahead_to(other, map).or_else(|| {
+        self.ahead_to(other, route, map).or_else(|| {
             let back = Self { turn: wrapped(self.turn + PI), ..*self };
-            back.ahead_to(other, map).map(|metres| -metres)
+            back.ahead_to(other, route, map).map(|metres| -metres)
         })
     }
 
-    fn ahead_to(&self, other: &Self, map: &Map) -> Option<f64> {
+    fn ahead_to(&self, other: &Self, route: Option<&Legs>, map: &Map) -> Option<f64> {
         let (mut here, mut metres) = (*self, 0.0);
         while metres < SIGHT {
             let road = &map.roads[here.road];
@@ -175,7 +221,7 @@ impl Place {
             let section = road.section_at(here.s);
             let mut none = 0.0;
             let at_end = !here.is_against();
-            if !here.cross(section, at_end, &mut none, map) {
+            if !here.cross(section, at_end, &mut none, route, map) {
                 return None;
             }
             if here.road == other.road {

@@ -1,5 +1,9 @@
-//! Positions as a scenario describes them. A position is found in the world when an action or a condition needs it.
+//! Positions as a scenario describes them, with the ways and the routes between them. A position is found in the world when an action or a
+//! condition needs it.
 
+use super::clothoid::Clothoid;
+use super::names::Names;
+use super::nurbs::Nurbs;
 use super::scope::Node;
 use crate::xml::ReadError;
 
@@ -20,6 +24,47 @@ pub(super) enum Position {
     RelativeWorld { entity: usize, dx: f64, dy: f64, turn: Turn },
     /// A place that differs from an entity's place by a vector as the entity sees it.
     RelativeObject { entity: usize, dx: f64, dy: f64, turn: Turn },
+    /// A place `s` metres along a way, and `t` metres to its left.
+    Along { way: Box<Way>, s: f64, t: f64, turn: Turn },
+    /// A place on a route.
+    OnRoute { route: Route, place: RoutePlace, turn: Turn },
+}
+
+/// A place on a route. The distance `s` in metres counts from the beginning of the route.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum RoutePlace {
+    /// `offset` metres to the left of the middle of a lane of the road that is there.
+    Lane { s: f64, lane: i32, offset: f64 },
+    /// `t` metres to the left of the reference line of the road that is there.
+    Road { s: f64, t: f64 },
+    /// The place of an entity.
+    Entity(usize),
+}
+
+/// A route: the shortest way along roads through all waypoints.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Route {
+    pub waypoints: Vec<Position>,
+}
+
+/// A way that an entity follows.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Way {
+    /// Straight lines between vertices.
+    Polyline { vertices: Vec<Vertex>, closed: bool },
+    /// Clothoids, each of which begins where the one before ends. Without a start, the way begins at the entity that follows it.
+    Clothoids { start: Option<Box<Position>>, segments: Vec<Clothoid>, end: f64 },
+    /// A curve through control points.
+    Nurbs { points: Vec<Vertex>, nurbs: Nurbs },
+}
+
+/// A vertex of a polyline, with the time in seconds at which the entity is there.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Vertex {
+    pub position: Position,
+    pub time: f64,
+    /// `true` if the position gives the heading of the entity, `false` if the entity faces along its way.
+    pub faces: bool,
 }
 
 /// The heading at a position, in radians.
@@ -29,30 +74,6 @@ pub(super) enum Turn {
     Absolute(f64),
     /// An angle from the direction of the lane, of the road or of the entity.
     Relative(f64),
-}
-
-/// The names that a scenario declares, in their order.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Names<'a> {
-    pub entities: &'a [String],
-    pub variables: &'a [String],
-}
-
-impl Names<'_> {
-    /// Returns the index of the entity that an attribute names.
-    pub fn entity(self, node: Node<'_>, attribute: &'static str) -> Result<usize, ReadError> {
-        let name = node.required(attribute)?;
-        let index = self.entities.iter().position(|known| *known == name);
-        index.ok_or_else(|| node.dangling(attribute, "entity", self.entities.iter().map(String::as_str)))
-    }
-
-    /// Returns the index of the variable that an attribute names.
-    pub fn variable(self, node: Node<'_>, attribute: &'static str) -> Result<usize, ReadError> {
-        let name = node.element.required(attribute)?;
-        let name = name.strip_prefix('$').unwrap_or(name);
-        let index = self.variables.iter().position(|known| known == name);
-        index.ok_or_else(|| node.dangling(attribute, "variable", self.variables.iter().map(String::as_str)))
-    }
 }
 
 impl Turn {
@@ -114,7 +135,89 @@ impl Position {
                     Self::RelativeObject { entity, dx, dy, turn }
                 }
             }
+            "TrajectoryPosition" => {
+                let given = kind.child("TrajectoryRef")?.choice("Trajectory or CatalogReference")?;
+                let way = names.catalogs.resolved(given, &["Trajectory"], |given| Way::read(given, names))?;
+                let (s, t) = (kind.number("s")?, kind.number_or("t", 0.0)?);
+                Self::Along { way: Box::new(way), s, t, turn: Turn::read(kind)? }
+            }
+            "RoutePosition" => {
+                let given = kind.child("RouteRef")?.choice("Route or CatalogReference")?;
+                let place = kind.child("InRoutePosition")?.choice("FromRoadCoordinates or FromLaneCoordinates")?;
+                let place = match place.name() {
+                    "FromLaneCoordinates" => RoutePlace::Lane {
+                        s: place.length("pathS")?,
+                        lane: place.whole("laneId")?,
+                        offset: place.number_or("laneOffset", 0.0)?,
+                    },
+                    "FromRoadCoordinates" => RoutePlace::Road { s: place.length("pathS")?, t: place.number("t")? },
+                    _ => RoutePlace::Entity(names.entity(place, "entityRef")?),
+                };
+                Self::OnRoute { route: Route::read(given, names)?, place, turn: Turn::read(kind)? }
+            }
             _ => return Err(kind.refused("use a LanePosition, a RoadPosition or a WorldPosition")),
         })
+    }
+}
+
+impl Route {
+    /// Reads an element `Route`, or a `CatalogReference` to one.
+    pub fn read(given: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+        names.catalogs.resolved(given, &["Route"], |route| {
+            let waypoint = |waypoint: Node<'_>| Position::read(waypoint.child("Position")?, names);
+            let mut waypoints = route.all("Waypoint").map(waypoint).collect::<Result<Vec<_>, ReadError>>()?;
+            if waypoints.len() < 2 {
+                return Err(route.element.lacks("Waypoint"));
+            }
+            if route.truth_or("closed", false)? {
+                waypoints.push(waypoints[0].clone());
+            }
+            Ok(Self { waypoints })
+        })
+    }
+}
+
+impl Way {
+    /// Reads an element `Trajectory`.
+    pub fn read(trajectory: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+        let shape = trajectory.child("Shape")?.choice("Polyline")?;
+        let vertex = |vertex: Node<'_>| {
+            let given = vertex.child("Position")?;
+            let faces =
+                given.elements().any(|kind| kind.first("Orientation").is_some() || kind.element.text("h").is_some());
+            Ok(Vertex { position: Position::read(given, names)?, time: vertex.number_or("time", 0.0)?, faces })
+        };
+        match shape.name() {
+            "Polyline" => {
+                let vertices = shape.all("Vertex").map(vertex).collect::<Result<_, ReadError>>()?;
+                Ok(Self::Polyline { vertices, closed: trajectory.truth_or("closed", false)? })
+            }
+            "Clothoid" => {
+                let prime =
+                    if shape.element.text("curvaturePrime").is_some() { "curvaturePrime" } else { "curvatureDot" };
+                let segment = Clothoid {
+                    curvature: shape.number("curvature")?,
+                    rate: shape.number(prime)?,
+                    length: shape.length("length")?,
+                    turn: 0.0,
+                    time: shape.number_or("startTime", 0.0)?,
+                };
+                let start = Some(Box::new(Position::read(shape.child("Position")?, names)?));
+                Ok(Self::Clothoids { start, segments: vec![segment], end: shape.number_or("stopTime", 0.0)? })
+            }
+            "ClothoidSpline" => {
+                let first = shape.first("ClothoidSplineSegment").and_then(|segment| segment.first("PositionStart"));
+                let start = first.map(|position| Position::read(position, names)).transpose()?.map(Box::new);
+                let segments = shape.all("ClothoidSplineSegment").enumerate();
+                let segments = segments.map(|(index, segment)| Clothoid::read(segment, index == 0));
+                let segments = segments.collect::<Result<_, ReadError>>()?;
+                Ok(Self::Clothoids { start, segments, end: shape.number_or("timeEnd", 0.0)? })
+            }
+            "Nurbs" => {
+                let points = shape.all("ControlPoint").map(vertex).collect::<Result<Vec<_>, ReadError>>()?;
+                Ok(Self::Nurbs { nurbs: Nurbs::read(shape, points.len())?, points })
+            }
+            _ => Err(shape.refused("use a Polyline, a Clothoid, a ClothoidSpline or a Nurbs")),
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! A scenario of a file as a program: the same world, streams and signals as those of any other program.
 
 use super::catalogs::{CatalogFiles, declare};
-use super::condition::{Check, Condition, Measure};
+use super::condition::{Check, Condition};
 use super::distribution::Distribution;
 use super::elements::schema;
+use super::measure::Measure;
 use super::parameters::{Parameters, declared_names};
 use super::play::Stage;
 use super::scope::{Node, Scope};
@@ -318,7 +319,8 @@ impl Geometric for Director {
 impl Geometric for Shown {
     fn poses(&self, poses: &mut [Option<Pose>]) {
         if self.has_body {
-            poses[0] = Some(self.stage.borrow().cast.actors[self.index].middle());
+            let actor = &self.stage.borrow().cast.actors[self.index];
+            poses[0] = actor.present.then(|| actor.middle());
         }
     }
 

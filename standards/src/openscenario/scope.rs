@@ -138,6 +138,12 @@ impl<'a> Node<'a> {
         self.parsed(attribute, "a number that is not negative", sound)
     }
 
+    /// Returns the number in an attribute, which must exist and must be above 0.
+    pub fn positive(self, attribute: &'static str) -> Result<f64, ReadError> {
+        let sound = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+        self.parsed(attribute, "a number above 0", sound)
+    }
+
     /// Returns the whole number in an attribute, which must exist. A parameter may write it with decimals.
     pub fn whole(self, attribute: &'static str) -> Result<i32, ReadError> {
         let whole = |text: &str| {

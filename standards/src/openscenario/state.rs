@@ -22,4 +22,9 @@ impl State {
         ("stopTransition", Self::StopTransition),
         ("skipTransition", Self::SkipTransition),
     ];
+
+    /// Returns `true` for a transition, and `false` for a state.
+    pub fn is_transition(self) -> bool {
+        !matches!(self, Self::Standby | Self::Running | Self::Complete)
+    }
 }

@@ -2,9 +2,11 @@
 
 use super::action::Action;
 use super::catalogs::{Catalogs, declare};
+use super::clock::Clock;
 use super::condition::{Trigger, trigger};
 use super::entity::Entity;
-use super::position::Names;
+use super::names::Names;
+use super::position::Position;
 use super::scope::{Node, Scope};
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
@@ -14,6 +16,8 @@ use crate::xml::ReadError;
 pub(super) struct Storyboard {
     pub entities: Vec<Entity>,
     pub variables: Vec<Variable>,
+    /// The time of day at the beginning.
+    pub clock: Clock,
     /// The initial actions, each with its entity.
     pub init: Vec<(usize, Action)>,
     /// All elements of all stories. An element comes before the elements within it.
@@ -49,6 +53,8 @@ pub(super) enum Kind {
     Action(Vec<usize>, Action),
     /// A change of the variable with this index.
     Change(usize, Change),
+    /// A new time of day.
+    Clock(Clock),
 }
 
 /// The effect of an event on the other running events of its maneuver.
@@ -78,14 +84,13 @@ impl Kind {
             Self::Group => "maneuverGroup",
             Self::Maneuver => "maneuver",
             Self::Event(_) => "event",
-            Self::Action(..) | Self::Change(..) => "action",
+            Self::Action(..) | Self::Change(..) | Self::Clock(_) => "action",
         }
     }
 }
 
 /// The reader of a storyboard.
 struct Reader<'a> {
-    catalogs: &'a Catalogs<'a>,
     names: Names<'a>,
     items: Vec<Item>,
 }
@@ -93,37 +98,49 @@ struct Reader<'a> {
 impl Storyboard {
     /// Reads the entities and the storyboard of a scenario.
     pub fn read(root: Node<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
-        let entities = Entity::all(root.child("Entities")?, catalogs)?;
+        let (entities, selections) = Entity::all(root.child("Entities")?, catalogs)?;
         let mut variables = Variable::all(root)?;
         let entity_names: Vec<_> = entities.iter().map(|entity| entity.name.clone()).collect();
         let variable_names: Vec<_> = variables.iter().map(|variable| variable.name.clone()).collect();
-        let names = Names { entities: &entity_names, variables: &variable_names };
+        let declared = variables.len() - root.scope.names().count();
+        let types: Vec<_> = entities.iter().map(Entity::object_type).collect();
+        let names = Names {
+            entities: &entity_names,
+            types: &types,
+            selections: &selections,
+            variables: &variable_names,
+            declared,
+            catalogs,
+        };
         let board = root.child("Storyboard")?;
         let mut init = Vec::new();
+        let mut clock = Clock { seconds: 0.0, runs: false };
         let actions = board.child("Init")?.child("Actions")?;
         for actor in actions.elements() {
             match actor.name() {
                 "Private" => {
-                    let entity = names.entity(actor, "entityRef")?;
+                    let group = names.group(actor, "entityRef")?;
                     for action in actor.all("PrivateAction") {
-                        init.push((entity, Action::private(action, names, catalogs)?));
+                        let action = Action::private(action, names)?;
+                        init.extend(group.iter().map(|entity| (*entity, action.clone())));
                     }
                 }
-                "GlobalAction" => {
-                    if let Kind::Change(variable, change) = global(actor, names)? {
-                        change.apply(&mut variables[variable].value);
-                    }
-                }
+                "GlobalAction" => match global(actor, names)? {
+                    Kind::Clock(now) => clock = now,
+                    Kind::Change(variable, change) => change.apply(&mut variables[variable].value),
+                    Kind::Action(group, action) => init.extend(group.iter().map(|entity| (*entity, action.clone()))),
+                    _ => (),
+                },
                 _ => return Err(actor.refused("use a Private or a GlobalAction")),
             }
         }
-        let mut reader = Reader { catalogs, names, items: Vec::new() };
+        let mut reader = Reader { names, items: Vec::new() };
         for story in board.all("Story") {
             reader.story(story)?;
         }
         let items = reader.items;
         let stop = board.first("StopTrigger").map(|stop| trigger(stop, names)).transpose()?;
-        Ok(Self { init, items, stop: stop.filter(|stop| !stop.is_empty()), entities, variables })
+        Ok(Self { clock, init, items, stop: stop.filter(|stop| !stop.is_empty()), entities, variables })
     }
 }
 
@@ -131,9 +148,22 @@ impl Storyboard {
 fn global(node: Node<'_>, names: Names<'_>) -> Result<Kind, ReadError> {
     let kind = node.choice("a kind of action such as VariableAction")?;
     match kind.name() {
-        "EnvironmentAction" => Ok(Kind::Action(Vec::new(), Action::Nothing)),
-        "VariableAction" => Change::read(kind, names).map(|(variable, change)| Kind::Change(variable, change)),
-        _ => Err(kind.refused("use a VariableAction or an EnvironmentAction")),
+        "EnvironmentAction" => {
+            Ok(Clock::read(kind, names)?.map_or(Kind::Action(Vec::new(), Action::Nothing), Kind::Clock))
+        }
+        "VariableAction" | "ParameterAction" => {
+            Change::read(kind, names).map(|(variable, change)| Kind::Change(variable, change))
+        }
+        "EntityAction" => {
+            let entity = names.entity(kind, "entityRef")?;
+            let action = kind.choice("AddEntityAction or DeleteEntityAction")?;
+            let action = match action.name() {
+                "AddEntityAction" => Action::Add(Position::read(action.child("Position")?, names)?),
+                _ => Action::Delete,
+            };
+            Ok(Kind::Action(vec![entity], action))
+        }
+        _ => Err(kind.refused("use a VariableAction, an EntityAction or an EnvironmentAction")),
     }
 }
 
@@ -146,6 +176,8 @@ impl Reader<'_> {
         };
         let read = |name| node.first(name).map(|found| trigger(found, self.names)).transpose();
         let (start, stop) = (read("StartTrigger")?, read("StopTrigger")?);
+        // Without conditions, an element starts at once, and nothing stops it.
+        let start = start.filter(|start| !start.is_empty());
         self.items.push(Item { name, kind, parent, start, stop, most_runs });
         Ok(self.items.len() - 1)
     }
@@ -170,9 +202,9 @@ impl Reader<'_> {
         if actors.truth_or("selectTriggeringEntities", false)? {
             return Err(actors.refused("name the actors, and set selectTriggeringEntities to false"));
         }
-        let actors = actors.all("EntityRef").map(|actor| self.names.entity(actor, "entityRef"));
-        let actors = actors.collect::<Result<Vec<_>, _>>()?;
-        let catalogs = self.catalogs;
+        let actors = actors.all("EntityRef").map(|actor| self.names.group(actor, "entityRef"));
+        let actors = actors.collect::<Result<Vec<_>, _>>()?.concat();
+        let catalogs = self.names.catalogs;
         for maneuver in node.elements().filter(|node| ["Maneuver", "CatalogReference"].contains(&node.name())) {
             catalogs.resolved(maneuver, &["Maneuver"], |node| self.maneuver(node, group, &actors))?;
         }
@@ -187,9 +219,7 @@ impl Reader<'_> {
             for action in event.all("Action") {
                 let inner = action.choice("PrivateAction or GlobalAction")?;
                 let kind = match inner.name() {
-                    "PrivateAction" => {
-                        Kind::Action(actors.to_vec(), Action::private(inner, self.names, self.catalogs)?)
-                    }
+                    "PrivateAction" => Kind::Action(actors.to_vec(), Action::private(inner, self.names)?),
                     "GlobalAction" => global(inner, self.names)?,
                     _ => return Err(inner.refused("use a PrivateAction or a GlobalAction")),
                 };

@@ -1,6 +1,6 @@
 //! Variables of a scenario: values that actions change during a run, and that conditions read.
 
-use super::position::Names;
+use super::names::Names;
 use super::scope::Node;
 use crate::xml::{ReadError, Value};
 
@@ -20,7 +20,7 @@ pub(super) enum Change {
 }
 
 impl Variable {
-    /// Reads the variables that a scenario declares.
+    /// Reads the variables that a scenario declares. Its parameters follow as further variables, because actions change them, too.
     pub fn all(root: Node<'_>) -> Result<Vec<Self>, ReadError> {
         let declarations = root.first("VariableDeclarations");
         let declared = declarations.into_iter().flat_map(|all| all.all("VariableDeclaration"));
@@ -28,14 +28,23 @@ impl Variable {
             let value = Value::of(&declaration.text("value")?.unwrap_or_default());
             Ok(Self { name: declaration.required("name")?.into_owned(), value })
         };
-        declared.map(read).collect()
+        let parameters = root
+            .scope
+            .names()
+            .map(|name| Ok(Self { name: name.to_owned(), value: Value::of(root.scope.get(name).unwrap_or_default()) }));
+        declared.map(read).chain(parameters).collect()
     }
 }
 
 impl Change {
-    /// Reads an element `VariableAction`: the index of the variable and the change.
+    /// Reads an element `VariableAction` or `ParameterAction`: the index of the variable and the change.
     pub fn read(node: Node<'_>, names: Names<'_>) -> Result<(usize, Self), ReadError> {
-        let variable = names.variable(node, "variableRef")?;
+        let variable = if node.name() == "ParameterAction" {
+            let local = || node.refused("only a parameter of the whole scenario changes; use a VariableAction");
+            names.parameter(node, "parameterRef")?.ok_or_else(local)?
+        } else {
+            names.variable(node, "variableRef")?
+        };
         let kind = node.choice("SetAction or ModifyAction")?;
         let change = match kind.name() {
             "SetAction" => Self::Set(Value::of(&kind.required("value")?)),

@@ -6,4 +6,5 @@ mod golden;
 mod others;
 mod page;
 mod parameters;
+mod semantics;
 mod worlds;

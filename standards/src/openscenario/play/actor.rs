@@ -3,11 +3,16 @@
 use crate::opendrive::Map;
 use crate::openscenario::entity::Entity;
 use crate::openscenario::place::Place;
+use crate::openscenario::project::project;
+use crate::openscenario::route::Legs;
 use nalgebra::Vector2;
 use paracosm_engine::{LedMotion, Pose};
 
 /// The speed in m/s below which an entity stands.
 const STANDING: f64 = 0.01;
+
+/// The number of ticks after which an entity at the end of its road has no speed.
+const STOPS_AFTER: f64 = 2.5;
 
 /// An entity in a run.
 #[derive(Debug, Clone)]
@@ -18,6 +23,10 @@ pub(in crate::openscenario) struct Actor {
     pub pose: Pose,
     /// The speed in m/s in the direction of the heading; negative if the entity moves backwards.
     pub speed: f64,
+    /// `false` while the entity is not in the world.
+    pub present: bool,
+    /// The velocity in m/s.
+    pub velocity: Vector2<f64>,
     /// The change of the speed over the last tick in m/s².
     pub acceleration: f64,
     /// The speed in m/s to the left of the direction of the lane.
@@ -28,6 +37,10 @@ pub(in crate::openscenario) struct Actor {
     pub standing: f64,
     /// The seconds for which the entity has been at the end of its road.
     pub stuck: f64,
+    /// The seconds for which the entity has been beside all lanes; `None` if no condition asks for them.
+    pub offroad: Option<f64>,
+    /// The roads of the route that the entity follows at junctions; `None` if it has no route.
+    pub route: Option<Legs>,
     /// The metres that the entity has covered on the way that it follows; `None` if it follows none.
     pub on_track: Option<f64>,
     /// The motion of this tick, which the actions change.
@@ -54,6 +67,8 @@ pub(in crate::openscenario) struct Step {
     pub angle: f64,
     /// The metres that the entity moves aside, at the cost of its motion along the lane.
     pub aside: f64,
+    /// `true` if an action has put the entity at a place, where it stays to the end of the tick.
+    pub stays: bool,
     /// The pose at the end of the tick, if an action determines it.
     pub pose: Option<Pose>,
     /// The place on a lane at the end of the tick, if an action that determines the pose is over.
@@ -69,11 +84,15 @@ impl Actor {
             place: Whereabouts::Free(pose),
             pose,
             speed: 0.0,
+            present: true,
+            velocity: Vector2::zeros(),
             acceleration: 0.0,
             lateral_speed: 0.0,
             travelled: 0.0,
             standing: 0.0,
             stuck: 0.0,
+            offroad: None,
+            route: None,
             on_track: None,
             step: Step::default(),
         }
@@ -82,6 +101,7 @@ impl Actor {
     /// Puts the entity at a place.
     pub fn put(&mut self, place: Whereabouts, map: &Map) {
         self.place = place;
+        self.stuck = 0.0;
         self.pose = match place {
             Whereabouts::OnLane(place) => place.pose(map),
             Whereabouts::Free(pose) => pose,
@@ -109,17 +129,17 @@ impl Actor {
     /// Moves the entity on by a tick of `dt` seconds, as its actions say.
     pub fn advance(&mut self, dt: f64, map: &Map) {
         let from = self.pose;
-        let Step { before, offset, angle, aside, pose, landed } = std::mem::take(&mut self.step);
+        let Step { before, offset, angle, aside, stays, pose, landed } = std::mem::take(&mut self.step);
         if let Some(pose) = pose {
             self.put(landed.map_or(Whereabouts::Free(pose), Whereabouts::OnLane), map);
         } else {
-            let metres = along(self.speed * dt, aside);
+            let metres = if stays { 0.0 } else { along(self.speed * dt, aside) };
             let arrived = match &mut self.place {
                 Whereabouts::OnLane(place) => {
                     if let Some(offset) = offset {
                         place.offset = offset;
                     }
-                    let moved = place.advance(metres, map);
+                    let moved = place.follow(metres, self.route.as_ref(), map);
                     self.pose = place.pose(map);
                     self.pose.heading = paracosm_engine::road::wrapped(self.pose.heading + angle);
                     !moved
@@ -130,10 +150,17 @@ impl Actor {
                     false
                 }
             };
-            self.stuck = if arrived { self.stuck + dt } else { 0.0 };
-            if arrived {
+            self.stuck = if arrived || self.stuck > 0.0 && metres == 0.0 { self.stuck + dt } else { 0.0 };
+            if self.stuck > STOPS_AFTER * dt {
                 self.speed = 0.0;
             }
+        }
+        if let Some(seconds) = &mut self.offroad {
+            let is_off = match &self.place {
+                Whereabouts::OnLane(place) => place.is_offroad(map),
+                Whereabouts::Free(pose) => project(pose, map).is_none_or(|place| place.is_offroad(map)),
+            };
+            *seconds = if is_off { *seconds + dt } else { 0.0 };
         }
         self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
         self.finish(dt, before, from);
@@ -152,6 +179,7 @@ impl Actor {
 
     fn finish(&mut self, dt: f64, before: f64, from: Pose) {
         self.acceleration = (self.speed - before) / dt;
+        self.velocity = (self.pose.position - from.position) / dt;
         self.travelled += (self.pose.position - from.position).norm();
         self.standing = if self.speed.abs() < STANDING { self.standing + dt } else { 0.0 };
     }

@@ -4,9 +4,9 @@ use super::actor::{Actor, Whereabouts};
 use super::track::Track;
 use crate::opendrive::Map;
 use crate::openscenario::place::{Place, driving_turn};
-use crate::openscenario::position::{Position, Turn};
+use crate::openscenario::position::{Position, Route, RoutePlace, Turn, Way};
 use crate::openscenario::project::project;
-use crate::openscenario::way::{Target, Way};
+use crate::openscenario::route::{Legs, Stop};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -25,6 +25,12 @@ pub(in crate::openscenario) enum Lost {
     OffRoad { entity: String },
     #[error("no road leads from `{from}` to `{to}` within 2 km")]
     NoWay { from: String, to: String },
+    #[error("`{entity}` is the car of the driver, which stays in the world")]
+    Own { entity: String },
+    #[error("a waypoint of the route is beside all roads")]
+    OffRoute,
+    #[error("no road leads from road `{from}` to road `{to}`")]
+    NoRoute { from: String, to: String },
 }
 
 /// The least distance in metres beyond the end of a road at which a position is not on the road.
@@ -38,8 +44,7 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
     };
     match position {
         Position::World { x, y, heading } => {
-            let pose = Pose { position: Vector2::new(*x, *y), heading: *heading };
-            Ok(project(&pose, map).map_or(Whereabouts::Free(pose), Whereabouts::OnLane))
+            Ok(placed(Pose { position: Vector2::new(*x, *y), heading: *heading }, map))
         }
         Position::Lane { road, lane, s, offset, turn } => {
             let (index, s) = road_at(road, *s, map)?;
@@ -74,29 +79,60 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
         }
         Position::RelativeWorld { entity, dx, dy, turn } => {
             let from = actors[*entity].pose;
-            Ok(Whereabouts::Free(Pose {
-                position: from.position + Vector2::new(*dx, *dy),
-                heading: turned(from, *turn),
-            }))
+            let position = from.position + Vector2::new(*dx, *dy);
+            Ok(placed(Pose { position, heading: turned(from, *turn) }, map))
         }
         Position::RelativeObject { entity, dx, dy, turn } => {
             let from = actors[*entity].pose;
             let position = from.position + from.turn_to_plane(Vector2::new(*dx, *dy));
-            Ok(Whereabouts::Free(Pose { position, heading: turned(from, *turn) }))
+            Ok(placed(Pose { position, heading: turned(from, *turn) }, map))
+        }
+        Position::Along { way, s, t, turn } => {
+            let track = track(way, None, actors, map)?;
+            let here = track.map_or(Pose { position: Vector2::zeros(), heading: 0.0 }, |track| track.at(*s));
+            let position = here.position + here.left() * *t;
+            Ok(placed(Pose { position, heading: turned(here, *turn) }, map))
+        }
+        Position::OnRoute { route, place, turn } => {
+            let legs = legs(route, actors, map)?;
+            match place {
+                RoutePlace::Lane { s, lane, offset } => {
+                    let (road, s) = legs.at(*s);
+                    Ok(Whereabouts::OnLane(on_lane(road, *lane, s, *offset, *turn, map)?))
+                }
+                RoutePlace::Road { s, t } => {
+                    let (road, s) = legs.at(*s);
+                    Ok(Whereabouts::OnLane(beside(road, s, *t, *turn, map)))
+                }
+                RoutePlace::Entity(entity) => Ok(actors[*entity].place),
+            }
         }
     }
 }
 
-/// Returns the place of a target.
-pub(super) fn find_target(target: &Target, actors: &[Actor], map: &Map) -> Result<Whereabouts, Lost> {
-    match target {
-        Target::At(position) => find(position, actors, map),
-        Target::Along { way, s, t } => {
-            let track = track(way, None, actors, map)?;
-            let here = track.map_or(Pose { position: Vector2::zeros(), heading: 0.0 }, |track| track.at(*s));
-            Ok(Whereabouts::Free(Pose { position: here.position + here.left() * *t, ..here }))
-        }
-    }
+/// Returns the roads of a route.
+pub(super) fn legs(route: &Route, actors: &[Actor], map: &Map) -> Result<Legs, Lost> {
+    let place = |waypoint: &Position| match find(waypoint, actors, map)? {
+        Whereabouts::OnLane(place) => Ok(place),
+        Whereabouts::Free(_) => Err(Lost::OffRoute),
+    };
+    let places = route.waypoints.iter().map(place).collect::<Result<Vec<_>, Lost>>()?;
+    through(&places, map)
+}
+
+/// Returns the roads of the shortest way through places.
+pub(super) fn through(places: &[Place], map: &Map) -> Result<Legs, Lost> {
+    let stops: Vec<Stop> =
+        places.iter().map(|place| Stop { road: place.road, s: place.s, forward: !place.is_against() }).collect();
+    Legs::through(&stops, map).map_err(|[from, to]| {
+        let [from, to] = [from, to].map(|road| map.roads[road].id.clone());
+        Lost::NoRoute { from, to }
+    })
+}
+
+/// Returns the place on the lane under a pose, or the pose itself beside all roads.
+fn placed(pose: Pose, map: &Map) -> Whereabouts {
+    project(&pose, map).map_or(Whereabouts::Free(pose), Whereabouts::OnLane)
 }
 
 /// Returns a way that an entity at the pose `from` follows; `None` for a way without a beginning.
@@ -110,8 +146,14 @@ pub(super) fn track(way: &Way, from: Option<Pose>, actors: &[Actor], map: &Map) 
     match way {
         Way::Polyline { vertices, closed } => {
             let again = vertices.first().filter(|_| *closed);
-            let all = vertices.iter().chain(again).map(|vertex| Ok((pose(&vertex.position)?, vertex.time)));
+            let all =
+                vertices.iter().chain(again).map(|vertex| Ok((pose(&vertex.position)?, vertex.time, vertex.faces)));
             Ok(Track::polyline(all.collect::<Result<Vec<_>, Lost>>()?))
+        }
+        Way::Nurbs { points, nurbs } => {
+            let points = points.iter().map(|point| Ok((pose(&point.position)?.position, point.time)));
+            let points = points.collect::<Result<Vec<_>, Lost>>()?;
+            Ok(Some(Track::nurbs(&points, nurbs)))
         }
         Way::Clothoids { start, segments, end } => {
             let start = start.as_deref().map(pose).transpose()?.or(from);

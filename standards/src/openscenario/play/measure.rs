@@ -3,11 +3,14 @@
 use super::actor::{Actor, Whereabouts};
 use super::cast::Cast;
 use super::find::find;
-use crate::openscenario::condition::{Direction, Goal, Measure, Metric, MetricKind, System};
+use crate::openscenario::measure::{Bearing, Clearance, Direction, Goal, Measure, Metric, MetricKind, System};
+use crate::openscenario::place::Place;
 use crate::openscenario::state::State;
 use crate::xml::Value;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
+use paracosm_engine::road::wrapped;
+use std::f64::consts::PI;
 
 /// A target of a distance: a position with its heading, and the box around it.
 struct Mark {
@@ -25,6 +28,10 @@ impl Cast {
         let actor = |index: usize| &self.actors[index];
         match measure {
             Measure::Time => self.time,
+            Measure::TimeOfDay => {
+                let (clock, since) = self.clock;
+                clock.seconds + if clock.runs { self.time - since } else { 0.0 }
+            }
             Measure::Constant(number) => *number,
             Measure::Variable(index) => match &self.variables[*index].value {
                 Value::Number(number) => *number,
@@ -48,25 +55,61 @@ impl Cast {
             }
             Measure::TimeToCollision { entity, to, how } => {
                 let (from, mark) = (actor(*entity), self.mark(to));
-                let closing = mark.as_ref().map_or(0.0, |mark| {
-                    let away = mark.pose.position - from.pose.position;
-                    let apart = mark.velocity - from.pose.forward() * from.speed;
-                    -apart.dot(&away) / away.norm().max(f64::MIN_POSITIVE)
-                });
+                let closing = mark.as_ref().map_or(0.0, |mark| self.closing(from, mark, *how));
                 let distance = self.distance(from, &mark, *how).abs();
                 if closing <= 0.0 { f64::INFINITY } else { distance / closing }
             }
-            Measure::Touching { entity, other } => f64::from(u8::from(touching(actor(*entity), actor(*other)))),
+            Measure::Touching { entity, others } => {
+                f64::from(u8::from(others.iter().any(|other| touching(actor(*entity), actor(*other)))))
+            }
             Measure::EndOfRoad { entity } => actor(*entity).stuck,
+            Measure::Offroad { entity } => actor(*entity).offroad.unwrap_or(0.0),
+            Measure::Clearance(area) => f64::from(u8::from(self.is_clear(area))),
+            Measure::Turned { entity, from, wanted } => {
+                let actor = actor(*entity);
+                let from = match from {
+                    Bearing::World => 0.0,
+                    Bearing::Lane => actor.on_lane().map_or(0.0, |place| place.pose(&self.map).heading - place.turn),
+                    Bearing::Entity(other) => self.actors[*other].pose.heading,
+                };
+                wrapped(actor.pose.heading - from - wanted).abs()
+            }
         }
+    }
+
+    /// Returns `true` if there is an area of the lanes around an entity, and if no other entity is in it.
+    fn is_clear(&self, area: &Clearance) -> bool {
+        let from = &self.actors[area.entity];
+        let Some(here) = from.on_lane() else { return true };
+        let lane = here.lane_below(&self.map);
+        let how = Metric { kind: MetricKind::Longitudinal, freespace: area.freespace, system: System::Road };
+        // There is no lane 0 to drive on.
+        let left = |other: i32| {
+            let skipped = if lane.signum() == other.signum() { 0 } else { other.signum() };
+            f64::from(other - lane - skipped) * if here.is_against() { -1.0 } else { 1.0 }
+        };
+        let covers = |other: i32, along: bool| {
+            (area.lanes.is_empty() || area.lanes.iter().any(|[first, last]| (*first..=*last).contains(&left(other))))
+                && (area.opposite || along == here.leads_along(lane, &self.map))
+        };
+        let mut lanes = here.driven_lanes(&self.map);
+        let exists = lanes.any(|other| covers(other, here.leads_along(other, &self.map)));
+        let is_in = |index: usize| {
+            let Some(there) = self.actors[index].on_lane().filter(|_| self.actors[index].present) else { return false };
+            let other = there.lane_below(&self.map);
+            covers(other, there.leads_along(other, &self.map))
+                && (-area.reach[1]..=area.reach[0]).contains(&self.distance_to(from, index, how))
+        };
+        let counts = |index: &usize| *index != area.entity && (area.others.is_empty() || area.others.contains(index));
+        exists && !(0..self.actors.len()).filter(counts).any(is_in)
     }
 
     fn mark(&self, goal: &Goal) -> Option<Mark> {
         match goal {
+            Goal::Entity(other) if !self.actors[*other].present => None,
             Goal::Entity(other) => {
-                let Actor { place, pose, entity, speed, .. } = &self.actors[*other];
-                let velocity = pose.forward() * *speed;
-                Some(Mark { at: *place, pose: *pose, middle: entity.middle, half: entity.half, velocity })
+                let Actor { place, pose, entity, velocity, .. } = &self.actors[*other];
+                Some(Mark { at: *place, pose: *pose, middle: entity.middle, half: entity.half, velocity: *velocity })
             }
             Goal::Place(position) => {
                 let at = find(position, &self.actors, &self.map).ok()?;
@@ -82,6 +125,28 @@ impl Cast {
     /// Returns the distance from an entity to a mark in metres; negative if the mark is behind, or to the right.
     pub(super) fn distance_to(&self, from: &Actor, other: usize, how: Metric) -> f64 {
         self.distance(from, &self.mark(&Goal::Entity(other)), how)
+    }
+
+    /// Returns the speed in m/s at which the distance from an entity to a mark becomes shorter.
+    fn closing(&self, from: &Actor, mark: &Mark, how: Metric) -> f64 {
+        let away = mark.pose.position - from.pose.position;
+        let velocity = from.velocity;
+        let along = |axis: Vector2<f64>| -(mark.velocity - velocity).dot(&axis) * away.dot(&axis).signum();
+        match (how.kind, how.system, from.on_lane(), &mark.at) {
+            (MetricKind::Straight, ..) => along(away.normalize()),
+            (MetricKind::Longitudinal, System::Lane | System::Road, Some(here), Whereabouts::OnLane(there)) => {
+                let speed = |place: &Place, velocity: Vector2<f64>| {
+                    let heading = place.heading(&self.map);
+                    velocity.dot(&Pose { position: Vector2::zeros(), heading }.forward())
+                };
+                let theirs = speed(there, mark.velocity);
+                let theirs = if there.is_against() == here.is_against() { theirs } else { -theirs };
+                let metres = here.distance_to(there, &self.map).unwrap_or(0.0);
+                (speed(here, velocity) - theirs) * metres.signum()
+            }
+            (MetricKind::Longitudinal, ..) => along(from.pose.forward()),
+            (MetricKind::Lateral, ..) => along(from.pose.left()),
+        }
     }
 
     fn distance(&self, from: &Actor, mark: &Option<Mark>, how: Metric) -> f64 {
@@ -106,10 +171,12 @@ impl Cast {
                 if !how.freespace {
                     return along;
                 }
-                let (front, rear) =
-                    (from.entity.middle.x + from.entity.half.x, from.entity.middle.x - from.entity.half.x);
-                let (theirs, half) = (mark.middle.x, mark.half.x);
-                let gap = if along >= 0.0 { along + theirs - half - front } else { rear - (along + theirs + half) };
+                let (rear, front) =
+                    reach(from.entity.middle, from.entity.half, from.pose.heading - here.heading(&self.map));
+                // The direction in which the entity goes, at the mark.
+                let ahead = there.heading(&self.map) + if there.is_against() == here.is_against() { 0.0 } else { PI };
+                let (last, first) = reach(mark.middle, mark.half, mark.pose.heading - ahead);
+                let gap = if along >= 0.0 { along + last - front } else { rear - (along + first) };
                 signed(gap, along)
             }
         }
@@ -119,6 +186,15 @@ impl Cast {
 /// Returns a gap with the sign of the direction in which it lies; 0 if boxes overlap.
 fn signed(gap: f64, direction: f64) -> f64 {
     gap.max(0.0).copysign(direction)
+}
+
+/// Returns how far a box reaches along a way, from the reference point: its least and its greatest distance in metres. `turn` is the
+/// angle from the way to the heading of the box.
+fn reach(middle: Vector2<f64>, half: Vector2<f64>, turn: f64) -> (f64, f64) {
+    let (sin, cos) = (libm::sin(turn), libm::cos(turn));
+    let at = middle.x * cos - middle.y * sin;
+    let extent = half.x * cos.abs() + half.y * sin.abs();
+    (at - extent, at + extent)
 }
 
 /// Returns the gaps between the box of an entity and the box of a mark along and across the entity, negative if they overlap.
@@ -145,7 +221,7 @@ fn touching(a: &Actor, b: &Actor) -> bool {
         };
         gaps(one, &mark).max() <= 0.0
     };
-    overlaps(a, b) && overlaps(b, a)
+    a.present && b.present && overlaps(a, b) && overlaps(b, a)
 }
 
 fn speed(actor: &Actor, direction: Direction) -> f64 {

@@ -4,8 +4,9 @@ use super::actor::Actor;
 use super::cast::Cast;
 use super::synchronize::synchronize;
 use super::track::Track;
-use crate::openscenario::action::{Gap, Synchronization, Target};
-use crate::openscenario::condition::Metric;
+use crate::openscenario::action::{Beside, Gap, Synchronization, Target};
+use crate::openscenario::measure::Metric;
+use crate::openscenario::profile::Course;
 use crate::openscenario::project::project;
 use crate::openscenario::transition::Transition;
 
@@ -15,6 +16,11 @@ pub(super) enum Motion {
     Speed {
         transition: Transition,
         follows: Option<Target>,
+    },
+    /// `time` is the time in seconds since the beginning.
+    Profile {
+        course: Course,
+        time: f64,
     },
     LaneChange(Transition),
     LaneOffset {
@@ -29,6 +35,12 @@ pub(super) enum Motion {
         ahead: Option<bool>,
         limits: Option<[f64; 3]>,
     },
+    /// `metres` is the wanted distance to the left of the other entity, and `speed` the speed to the left in m/s.
+    Beside {
+        beside: Beside,
+        metres: f64,
+        speed: f64,
+    },
     Synchronize(Box<Synchronization>),
     /// `timing` is the factor and the offset of the times of the vertices.
     Trajectory {
@@ -38,17 +50,19 @@ pub(super) enum Motion {
     },
 }
 
-/// The share of the missing distance that an entity without limits makes up in a second.
-const EAGERNESS: f64 = 1.0;
-/// The distance in metres and the speed in m/s below which a distance has been reached.
-const CLOSE: f64 = 0.01;
+/// A time that falls short of another by less than this many seconds is the other: ticks are sums of rounded numbers.
+const TOLERANCE: f64 = 1e-6;
+/// The stiffness of the spring that brings an entity to its distance, in 1/s² for a limit of 1 m/s².
+const STIFFNESS: f64 = 0.4;
+/// An entity that misses its distance by less than this many metres has reached it.
+const CLOSE: f64 = 0.1;
 
 impl Motion {
     /// Returns `true` if the action moves its entity along, and `true` if it moves the entity aside.
     pub fn domains(&self) -> (bool, bool) {
         match self {
-            Self::Speed { .. } | Self::Gap { .. } | Self::Synchronize(_) => (true, false),
-            Self::LaneChange(_) | Self::LaneOffset { .. } => (false, true),
+            Self::Speed { .. } | Self::Profile { .. } | Self::Gap { .. } | Self::Synchronize(_) => (true, false),
+            Self::LaneChange(_) | Self::LaneOffset { .. } | Self::Beside { .. } => (false, true),
             // An entity that keeps its speed on its way can still be accelerated.
             Self::Trajectory { timing, .. } => (timing.is_some(), true),
         }
@@ -65,6 +79,12 @@ impl Motion {
                 }
                 cast.actors[entity].speed = transition.value();
                 transition.is_over() && follows.is_none()
+            }
+            Self::Profile { course, time } => {
+                *time += dt;
+                let (speed, over) = course.at(*time);
+                cast.actors[entity].speed = speed;
+                over
             }
             Self::LaneChange(transition) => {
                 let actor = &mut cast.actors[entity];
@@ -95,11 +115,32 @@ impl Motion {
                 }
                 let theirs = cast.actors[*other].speed;
                 let actor = &mut cast.actors[entity];
+                let limits = limits.map(|limits| actor.entity.within(limits));
                 actor.speed = match limits {
-                    Some(limits) => approach(actor.speed, theirs, missing, *limits, dt),
+                    Some(limits) => approach(actor.speed, theirs, missing, limits, dt),
                     None => theirs + missing / dt,
                 };
-                !*continuous && missing.abs() < CLOSE && (actor.speed - theirs).abs() < CLOSE
+                !*continuous && missing.abs() < CLOSE
+            }
+            Self::Beside { beside, metres, speed } => {
+                let other = &cast.actors[beside.entity];
+                let (Some(here), Some(there)) = (cast.actors[entity].on_lane(), other.on_lane()) else { return true };
+                // All distances and speeds are to the left of the road.
+                let wanted = there.t(&cast.map) + if there.is_against() { -*metres } else { *metres };
+                let missing = wanted - here.t(&cast.map);
+                let theirs = if there.is_against() { -other.lateral_speed } else { other.lateral_speed };
+                let limits = beside.limits.map(|limits| cast.actors[entity].entity.within(limits));
+                *speed = limits.map_or(missing / dt, |limits| approach(*speed, theirs, missing, limits, dt));
+                let (offset, left) = (here.offset + *speed * dt, if here.is_against() { -*speed } else { *speed });
+                let actor = &mut cast.actors[entity];
+                actor.step.offset = Some(offset);
+                let over = !beside.continuous && (missing - *speed * dt).abs() < CLOSE;
+                actor.step.angle = if over || actor.speed == 0.0 || limits.is_none() {
+                    0.0
+                } else {
+                    libm::atan2(left, actor.speed.abs())
+                };
+                over
             }
             Self::Synchronize(sync) => synchronize(sync, entity, cast, dt),
             Self::Trajectory { track, s, timing } => follow(track, s, *timing, entity, cast, dt),
@@ -115,13 +156,14 @@ fn finished(transition: &Transition, actor: &mut Actor) -> bool {
     transition.is_over()
 }
 
-/// Returns the speed at which an entity makes up a missing distance within its limits, so that it arrives at the speed `theirs`.
+/// Returns the speed at the end of a tick of an entity that makes up a missing distance within its limits. The standard leaves the
+/// controller open. This one is a spring with critical damping, which comes to its distance without passing it: its acceleration is
+/// `k missing - 2 sqrt(k) (speed - theirs)`. The spring is stiffer for an entity with greater limits.
 fn approach(speed: f64, theirs: f64, missing: f64, limits: [f64; 3], dt: f64) -> f64 {
     let [acceleration, deceleration, most] = limits;
-    let limit = if missing >= 0.0 { deceleration } else { acceleration };
-    let faster = (2.0 * limit * missing.abs()).sqrt().min(EAGERNESS * missing.abs());
-    let wanted = (theirs + faster.copysign(missing)).clamp(0.0, most);
-    wanted.clamp(speed - deceleration * dt, speed + acceleration * dt)
+    let stiffness = STIFFNESS * if missing < 0.0 { acceleration } else { deceleration };
+    let wanted = stiffness * missing - 2.0 * stiffness.sqrt() * (speed - theirs);
+    (speed + wanted.clamp(-deceleration, acceleration) * dt).clamp(-most, most)
 }
 
 /// Moves an entity along a way for a tick. Returns `true` at the end of the way.
@@ -138,7 +180,7 @@ fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize,
             let time = if scale > 0.0 { (now - offset) / scale } else { f64::INFINITY };
             *s = track.at_time(time);
             actor.speed = (*s - before) / dt;
-            time >= track.end()
+            time >= track.end() - TOLERANCE
         }
     };
     *s = s.clamp(0.0, track.length());

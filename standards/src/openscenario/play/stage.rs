@@ -1,13 +1,14 @@
 //! The state machine of a storyboard: which elements start, run and end at a tick (OpenSCENARIO XML 1.3, section 6.6).
 
-use super::actor::Actor;
+use super::actor::{Actor, Step};
 use super::cast::Cast;
 use super::find::Lost;
 use super::motion::Motion;
-use super::watch::Watch;
+use super::watch::{Question, Watch};
 use crate::opendrive::Map;
 use crate::openscenario::action::Action;
-use crate::openscenario::condition::{Condition, Measure, Trigger};
+use crate::openscenario::condition::{Condition, Trigger};
+use crate::openscenario::measure::Measure;
 use crate::openscenario::state::State;
 use crate::openscenario::story::{Item, Kind, Priority, Storyboard};
 use paracosm_engine::Lead;
@@ -22,6 +23,10 @@ pub(in crate::openscenario) struct Stage {
     behind: Option<f64>,
     /// `true` once the stop trigger has come.
     pub stopped: bool,
+    /// The number of transitions so far.
+    moment: u64,
+    /// The numbers of transitions at the beginnings of the last tick and of the tick before it.
+    began: [u64; 2],
     /// The first action that could not begin, by its name, and the reason.
     lost: Option<(String, Lost)>,
 }
@@ -30,8 +35,8 @@ pub(in crate::openscenario) struct Stage {
 struct Playing {
     item: Item,
     state: State,
-    /// The transition of this tick.
-    transition: Option<State>,
+    /// The last transition, with the number of transitions up to it.
+    transition: Option<(State, u64)>,
     runs: u32,
     start: Option<Watch>,
     stop: Option<Watch>,
@@ -42,7 +47,10 @@ struct Playing {
 impl Stage {
     /// Sets the stage: all entities are where the initial actions put them.
     pub fn new(board: Storyboard, map: Arc<Map>, ego: usize, lead: Lead) -> Result<Self, Lost> {
-        let Storyboard { entities, variables, init, items, stop } = board;
+        let asked =
+            Self::conditions(&board).flat_map(|condition| &condition.check.measures).filter_map(Measure::offroad);
+        let asked: Vec<usize> = asked.collect();
+        let Storyboard { entities, variables, clock, init, items, stop } = board;
         let mut inputs = 0..;
         let mut watch = |trigger: &Option<Trigger>| trigger.as_ref().map(|trigger| Watch::new(trigger, &mut inputs));
         let playing = |item: Item| Playing {
@@ -57,22 +65,36 @@ impl Stage {
         let items = items.into_iter().map(playing).collect();
         let actors = entities.into_iter().map(Actor::new).collect();
         let mut stage = Self {
-            cast: Cast { map, actors, variables, ego, lead, time: 0.0 },
+            cast: Cast { map, actors, variables, ego, lead, clock: (clock, 0.0), time: 0.0 },
             items,
             stop: None,
             behind: None,
             stopped: false,
+            moment: 0,
+            began: [0; 2],
             lost: None,
         };
+        asked.into_iter().for_each(|entity| stage.cast.actors[entity].offroad = Some(0.0));
         stage.stop = stop.map(|stop| Watch::new(&stop, &mut inputs));
         // The initial actions are an action of a story that has begun.
         let kind = Kind::Action(Vec::new(), Action::Nothing);
         let item = Item { name: String::new(), kind, parent: None, start: None, stop: None, most_runs: 1 };
         let mut motions = Vec::new();
+        // An entity that an action adds later is absent until then, unless an initial action gives it a place.
+        for playing in &stage.items {
+            if let Kind::Action(actors, Action::Add(_)) = &playing.item.kind {
+                actors.iter().for_each(|entity| stage.cast.actors[*entity].present = *entity == ego);
+            }
+        }
         for (entity, action) in &init {
+            stage.cast.actors[*entity].present |= matches!(action, Action::Teleport(_));
             if let Some(motion) = stage.cast.begin(*entity, action)? {
                 motions.push((*entity, motion));
             }
+        }
+        for actor in &mut stage.cast.actors {
+            actor.step = Step::default();
+            actor.velocity = actor.pose.forward() * actor.speed;
         }
         let (state, transition) = (State::Running, None);
         stage.items.push(Playing { item, state, transition, runs: 0, start: None, stop: None, motions });
@@ -94,15 +116,27 @@ impl Stage {
         triggers.flatten().flatten().flatten()
     }
 
-    /// Returns `true` if an element with a name and of a kind is in a state, or has just made a transition.
-    fn is_in(&self, name: &str, kind: &str, state: State) -> bool {
+    /// Returns `true` if an element with a name and of a kind is in a state, or has made a transition since a moment.
+    fn is_in(&self, name: &str, kind: &str, state: State, since: u64) -> bool {
         let named = self.items.iter().filter(|playing| playing.item.name == name && playing.item.kind.name() == kind);
-        named.into_iter().any(|playing| playing.state == state || playing.transition == Some(state))
+        let made = |(transition, moment): (State, u64)| transition == state && moment > since;
+        named.into_iter().any(|playing| playing.state == state || playing.transition.is_some_and(made))
+    }
+
+    /// Answers a question for a state. A transition counts once, and within the tick after it at the latest.
+    fn answer(&self, question: &Question) -> bool {
+        self.is_in(&question.element, question.kind, question.state, question.since.max(self.began[1]))
+    }
+
+    /// Moves an element to a state by a transition.
+    fn change(&mut self, index: usize, state: State, transition: State) {
+        self.moment += 1;
+        (self.items[index].state, self.items[index].transition) = (state, Some((transition, self.moment)));
     }
 
     /// Returns the value of a measure.
     pub fn measure(&self, measure: &Measure) -> f64 {
-        self.cast.measure(measure, |name, kind, state| self.is_in(name, kind, state))
+        self.cast.measure(measure, |name, kind, state| self.is_in(name, kind, state, self.began[0]))
     }
 
     /// Plays a tick of `dt` seconds. `truths` are the values of all conditions at its beginning.
@@ -110,9 +144,10 @@ impl Stage {
     /// # Errors
     /// An action cannot begin: the name of the action, and the reason.
     pub fn play(&mut self, truths: &[bool], dt: f64) -> Result<(), (String, Lost)> {
-        let time = self.cast.time;
-        self.stopped |= self.stop.as_mut().is_some_and(|stop| stop.check(time, truths));
-        self.items.iter_mut().for_each(|playing| playing.transition = None);
+        self.began = [self.moment, self.began[0]];
+        let mut stop = self.stop.take();
+        self.stopped |= self.check(&mut stop, truths) == Some(true);
+        self.stop = stop;
         self.cast.actors.iter_mut().for_each(|actor| actor.step.before = actor.speed);
         for index in 0..self.items.len() {
             self.update(index, truths);
@@ -122,6 +157,9 @@ impl Stage {
             self.complete(index);
         }
         for index in 0..self.cast.actors.len() {
+            if !self.cast.actors[index].present {
+                continue;
+            }
             if index != self.cast.ego || self.cast.lead.driven().is_none() {
                 self.cast.actors[index].advance(dt, &self.cast.map);
             }
@@ -139,21 +177,32 @@ impl Stage {
         }
     }
 
+    /// Returns `true` if a trigger is true; `None` without a trigger.
+    fn check(&self, watch: &mut Option<Watch>, truths: &[bool]) -> Option<bool> {
+        let watch = watch.as_mut()?;
+        Some(watch.check(self.cast.time, truths, self.moment, &|question| self.answer(question)))
+    }
+
     /// Starts an element, or stops it, if its triggers say so.
     fn update(&mut self, index: usize, truths: &[bool]) {
-        let time = self.cast.time;
         let runs = self.items[index].item.parent.is_none_or(|parent| self.items[parent].state == State::Running);
-        let playing = &mut self.items[index];
-        let state = playing.state;
-        let check = |watch: &mut Watch| watch.check(time, truths);
-        let fires = match state {
-            State::Standby if runs => playing.start.as_mut().is_none_or(check),
-            State::Running => playing.stop.as_mut().is_some_and(check),
-            _ => false,
-        };
-        match state {
-            State::Standby if fires => self.start(index),
-            State::Running if fires => self.halt(index),
+        match self.items[index].state {
+            State::Standby if runs => {
+                let mut watch = self.items[index].start.take();
+                let fires = self.check(&mut watch, truths) != Some(false);
+                self.items[index].start = watch;
+                if fires {
+                    self.start(index);
+                }
+            }
+            State::Running => {
+                let mut watch = self.items[index].stop.take();
+                let fires = self.check(&mut watch, truths) == Some(true);
+                self.items[index].stop = watch;
+                if fires {
+                    self.halt(index);
+                }
+            }
             _ => (),
         }
     }
@@ -168,16 +217,14 @@ impl Stage {
             let running: Vec<usize> = (0..self.items.len()).filter(beside).collect();
             match priority {
                 Priority::Skip if !running.is_empty() => {
-                    self.items[index].transition = Some(State::SkipTransition);
-                    self.count_run(index);
+                    self.count_run(index, State::SkipTransition);
                     return;
                 }
                 Priority::Override => running.into_iter().for_each(|other| self.halt(other)),
                 Priority::Skip | Priority::Parallel => (),
             }
         }
-        let playing = &mut self.items[index];
-        (playing.state, playing.transition) = (State::Running, Some(State::StartTransition));
+        self.change(index, State::Running, State::StartTransition);
         // What lies within starts afresh.
         for inner in index + 1..self.items.len() {
             if self.items[inner].item.parent == Some(index) {
@@ -189,11 +236,21 @@ impl Stage {
         if let Kind::Change(variable, change) = &self.items[index].item.kind {
             change.apply(&mut self.cast.variables[*variable].value);
         }
+        if let Kind::Clock(clock) = &self.items[index].item.kind {
+            self.cast.clock = (*clock, self.cast.time);
+        }
         if let Kind::Action(actors, action) = self.items[index].item.kind.clone() {
             for entity in actors {
                 match self.cast.begin(entity, &action) {
-                    Ok(Some(motion)) => self.take_over(index, entity, motion),
-                    Ok(None) => (),
+                    Ok(Some(motion)) => {
+                        self.end_others(entity, motion.domains());
+                        self.items[index].motions.push((entity, motion));
+                    }
+                    // A speed or a distance that is reached at once ends what moved the entity along before.
+                    Ok(None) => {
+                        let along = matches!(action, Action::Speed { .. } | Action::Gap { .. } | Action::Delete);
+                        self.end_others(entity, (along, action == Action::Delete));
+                    }
                     Err(lost) => {
                         let name = self.items[index].item.name.clone();
                         self.lost.get_or_insert((name, lost));
@@ -203,21 +260,20 @@ impl Stage {
         }
     }
 
-    /// Adds a motion to an action. The motion ends the motions of the same entity in the same domains.
-    fn take_over(&mut self, index: usize, entity: usize, motion: Motion) {
-        let (along, aside) = motion.domains();
+    /// Ends the motions of an entity along, or aside, or both.
+    fn end_others(&mut self, entity: usize, (along, aside): (bool, bool)) {
         let clashes = |other: &Motion| {
             let (also_along, also_aside) = other.domains();
             along && also_along || aside && also_aside
         };
-        for playing in &mut self.items {
+        for other in 0..self.items.len() {
+            let playing = &mut self.items[other];
             let count = playing.motions.len();
             playing.motions.retain(|(of, other)| *of != entity || !clashes(other));
             if count > 0 && playing.motions.is_empty() && playing.state == State::Running {
-                (playing.state, playing.transition) = (State::Complete, Some(State::StopTransition));
+                self.change(other, State::Complete, State::StopTransition);
             }
         }
-        self.items[index].motions.push((entity, motion));
     }
 
     /// Stops an element and all elements within it.
@@ -225,11 +281,10 @@ impl Stage {
         let mut stopped = vec![index];
         let mut next = 0;
         while let Some(parent) = stopped.get(next).copied() {
-            let playing = &mut self.items[parent];
-            if playing.state != State::Complete {
-                (playing.state, playing.transition) = (State::Complete, Some(State::StopTransition));
+            if self.items[parent].state != State::Complete {
+                self.change(parent, State::Complete, State::StopTransition);
             }
-            playing.motions.clear();
+            self.items[parent].motions.clear();
             stopped
                 .extend((parent + 1..self.items.len()).filter(|inner| self.items[*inner].item.parent == Some(parent)));
             next += 1;
@@ -250,26 +305,25 @@ impl Stage {
             return;
         }
         let over = match self.items[index].item.kind {
-            Kind::Action(..) | Kind::Change(..) => self.items[index].motions.is_empty(),
+            Kind::Action(..) | Kind::Change(..) | Kind::Clock(_) => self.items[index].motions.is_empty(),
             _ => {
                 let mut inner = self.items[index + 1..].iter().filter(|inner| inner.item.parent == Some(index));
                 inner.all(|inner| inner.state == State::Complete)
             }
         };
         if over {
-            self.items[index].transition = Some(State::EndTransition);
-            self.count_run(index);
+            self.count_run(index, State::EndTransition);
         }
     }
 
-    /// Counts a run of an element: it waits for its next run, or it is complete.
-    fn count_run(&mut self, index: usize) {
+    /// Counts a run of an element that ends by a transition: the element waits for its next run, or it is complete.
+    fn count_run(&mut self, index: usize, transition: State) {
         let playing = &mut self.items[index];
         playing.runs += 1;
         let again = playing.runs < playing.item.most_runs;
-        playing.state = if again { State::Standby } else { State::Complete };
         if again {
             playing.start.iter_mut().chain(&mut playing.stop).for_each(Watch::reset);
         }
+        self.change(index, if again { State::Standby } else { State::Complete }, transition);
     }
 }

@@ -2,10 +2,10 @@
 
 use super::actor::{Actor, Whereabouts};
 use super::cast::Cast;
-use super::find::{Lost, check_lane, find, find_target, neighbour, track};
+use super::find::{Lost, check_lane, find, legs, neighbour, through, track};
 use super::motion::Motion;
 use crate::openscenario::action::{Action, Gap, Lane, Lateral, Target, Trajectory};
-use crate::openscenario::condition::Metric;
+use crate::openscenario::measure::Metric;
 use crate::openscenario::place::Place;
 use crate::openscenario::transition::{Dynamics, Extent, Shape};
 
@@ -23,9 +23,30 @@ impl Cast {
             Action::Teleport(position) => {
                 let place = find(position, &self.actors, &self.map)?;
                 self.actors[entity].put(place, &self.map);
+                self.actors[entity].step.stays = true;
+                None
+            }
+            Action::Add(position) => {
+                let place = find(position, &self.actors, &self.map)?;
+                self.actors[entity].put(place, &self.map);
+                self.actors[entity].step.stays = true;
+                self.actors[entity].present = true;
+                None
+            }
+            Action::Delete if entity == self.ego => {
+                return Err(Lost::Own { entity: self.actors[entity].entity.name.clone() });
+            }
+            Action::Delete => {
+                self.actors[entity].present = false;
                 None
             }
             Action::Speed { dynamics, target } => self.speed(entity, *dynamics, *target),
+            Action::Profile(profile) => {
+                let added = profile.relative_to.map_or(0.0, |other| self.actors[other].speed);
+                let actor = &self.actors[entity];
+                let course = profile.begin(actor.speed, actor.acceleration, added);
+                Some(Motion::Profile { course, time: 0.0 })
+            }
             Action::Gap { entity: other, gap, how, continuous, ahead, limits } => {
                 let motion = Motion::Gap {
                     other: *other,
@@ -40,6 +61,15 @@ impl Cast {
                     self.close_up(entity, *other, *gap, *how, *ahead)?;
                 }
                 (limits.is_some() || *continuous).then_some(motion)
+            }
+            Action::Beside(beside) => {
+                let (here, there) = (self.on_lane(entity)?, self.on_lane(beside.entity)?);
+                let apart = here.t(&self.map) - there.t(&self.map);
+                let side = if there.is_against() { -apart } else { apart };
+                let left = beside.left.unwrap_or(side >= 0.0);
+                let widths = if beside.freespace { self.half_widths(entity, beside.entity) } else { 0.0 };
+                let metres = beside.metres.unwrap_or((apart.abs() - widths).max(0.0)) + widths;
+                Some(Motion::Beside { beside: *beside, metres: if left { metres } else { -metres }, speed: 0.0 })
             }
             Action::LaneChange { dynamics, lane, offset } => {
                 let mut place = self.on_lane(entity)?;
@@ -78,9 +108,21 @@ impl Cast {
                 }
                 motion
             }
+            Action::Route(route) => {
+                self.actors[entity].route = Some(legs(route, &self.actors, &self.map)?);
+                None
+            }
+            Action::Acquire(position) => {
+                let from = self.on_lane(entity)?;
+                let Whereabouts::OnLane(to) = find(position, &self.actors, &self.map)? else {
+                    return Err(Lost::OffRoute);
+                };
+                self.actors[entity].route = Some(through(&[from, to], &self.map)?);
+                None
+            }
             Action::Synchronize(sync) => {
                 for target in [&sync.master_target, &sync.target] {
-                    find_target(target, &self.actors, &self.map)?;
+                    find(target, &self.actors, &self.map)?;
                 }
                 Some(Motion::Synchronize(sync.clone()))
             }
@@ -133,6 +175,11 @@ impl Cast {
         Ok(())
     }
 
+    /// Returns half of the sum of the widths of two entities in metres.
+    fn half_widths(&self, entity: usize, other: usize) -> f64 {
+        self.actors[entity].entity.half.y + self.actors[other].entity.half.y
+    }
+
     /// Returns the place of an entity on its lane.
     fn on_lane(&self, entity: usize) -> Result<Place, Lost> {
         let actor = &self.actors[entity];
@@ -145,7 +192,7 @@ impl Cast {
         let to_other = self.distance_to(actor, other, how);
         let wanted = match gap {
             Gap::Metres(metres) => metres,
-            Gap::Seconds(seconds) => seconds * actor.speed.abs(),
+            Gap::Seconds(seconds) => seconds * self.actors[other].speed.abs(),
         };
         let leads = ahead.unwrap_or(to_other < 0.0);
         if leads { to_other + wanted } else { to_other - wanted }

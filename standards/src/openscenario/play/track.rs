@@ -1,8 +1,10 @@
 //! Ways through the world that an entity follows vertex by vertex.
 
-use crate::openscenario::way::Clothoid;
+use crate::openscenario::clothoid::Clothoid;
+use crate::openscenario::nurbs::Nurbs;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
+use paracosm_engine::road::wrapped;
 
 /// A way, with the distance along it and the time at each vertex.
 #[derive(Debug, Clone)]
@@ -15,17 +17,32 @@ pub(super) struct Track {
 /// The distance in metres between two vertices of a clothoid.
 const SPACING: f64 = 0.05;
 
+/// The distance in metres between two vertices of a curve through control points.
+const STRIDE: f64 = 1.0;
+/// The greatest number of strides of a curve.
+const MOST: f64 = 100_000.0;
+/// The part of a stride after a vertex at which the influence of control points is read. The standard does not say where on the curve the
+/// time of a control point holds. With this number the places are those of esmini.
+const LATER: f64 = 0.3;
+/// The part of a curve before and after a place that gives its direction.
+const NEAR: f64 = 1e-6;
+/// The greatest number of metres before and after a vertex of a polyline within which an entity turns.
+const CORNER: f64 = 2.0;
+
 #[derive(Debug, Clone, Copy)]
 struct Vertex {
     pose: Pose,
     s: f64,
     time: f64,
+    /// `true` if the heading of the pose is the entity's, `false` if the entity faces along the way.
+    faces: bool,
 }
 
 impl Track {
-    /// Makes a polyline through vertices with their times; `None` without vertices.
-    pub fn polyline(vertices: Vec<(Pose, f64)>) -> Option<Self> {
-        let all = measured(vertices);
+    /// Makes a polyline through vertices with their times; `None` without vertices. A vertex may give the heading of the entity.
+    pub fn polyline(vertices: Vec<(Pose, f64, bool)>) -> Option<Self> {
+        let mut all = measured(vertices.iter().map(|(pose, time, _)| (*pose, *time)).collect());
+        all.iter_mut().zip(&vertices).for_each(|(vertex, (.., faces))| vertex.faces = *faces);
         (!all.is_empty()).then_some(Self { vertices: all, curved: false })
     }
 
@@ -50,6 +67,42 @@ impl Track {
             }
         }
         Self { vertices: measured(all), curved: true }
+    }
+
+    /// Makes a curve through control points with their times. The time of a control point belongs to the place on which the point has
+    /// its greatest influence.
+    pub fn nurbs(points: &[(Vector2<f64>, f64)], nurbs: &Nurbs) -> Self {
+        let reach: f64 = points.windows(2).map(|pair| (pair[1].0 - pair[0].0).norm()).sum();
+        let count = 1 + (reach / STRIDE).min(MOST) as usize;
+        let u = |i: usize| i as f64 / count as f64;
+        let functions: Vec<_> = (0..=count).map(|i| nurbs.functions(u(i) + LATER / count as f64)).collect();
+        let peaks: Vec<(f64, f64)> = (0..points.len())
+            .map(|point| {
+                let greatest =
+                    |a: &usize, b: &usize| functions[*a][point].total_cmp(&functions[*b][point]).then(b.cmp(a));
+                (u((0..=count).max_by(greatest).unwrap_or(0)), points[point].1)
+            })
+            .collect();
+        let time = |u: f64| {
+            let next = peaks.partition_point(|(peak, _)| *peak <= u).clamp(1, peaks.len() - 1);
+            let (before, after) = (peaks[next - 1], peaks[next]);
+            let share = if after.0 > before.0 { (u - before.0) / (after.0 - before.0) } else { 1.0 };
+            before.1 + (after.1 - before.1) * share
+        };
+        let place = |u: f64| -> Vector2<f64> {
+            points.iter().zip(nurbs.shares(u)).map(|((point, _), share)| point * share).sum()
+        };
+        let heading = |u: f64| {
+            let ahead = place(u + NEAR) - place(u - NEAR);
+            libm::atan2(ahead.y, ahead.x)
+        };
+        let mut before = heading(0.0);
+        let vertex = |i: usize| {
+            // The heading goes on beyond half a turn.
+            before += wrapped(heading(u(i)) - before);
+            (Pose { position: place(u(i)), heading: before }, time(u(i)))
+        };
+        Self { vertices: measured((0..=count).map(vertex).collect()), curved: true }
     }
 
     /// Returns the length in metres.
@@ -79,12 +132,38 @@ impl Track {
         let share = if b.s > a.s { ((s - a.s) / (b.s - a.s)).clamp(0.0, 1.0) } else { 1.0 };
         let heading = if self.curved {
             a.pose.heading + (b.pose.heading - a.pose.heading) * share
-        } else if ahead.norm() > 0.0 {
-            libm::atan2(ahead.y, ahead.x)
         } else {
-            a.pose.heading
+            self.direction(next - 1, s)
         };
         Pose { position: a.pose.position + ahead * share, heading }
+    }
+
+    /// Returns the heading at a distance along a polyline, on the line after a vertex. It changes evenly between vertices that give the
+    /// heading. Otherwise it is the direction of the line, and changes evenly to the lines before and after near the ends of the line.
+    fn direction(&self, vertex: usize, s: f64) -> f64 {
+        let line = |first: usize| {
+            let (a, b) = (self.vertices.get(first)?, self.vertices.get(first + 1)?);
+            let ahead = b.pose.position - a.pose.position;
+            (ahead.norm() > 0.0).then(|| (libm::atan2(ahead.y, ahead.x), b.s - a.s))
+        };
+        let Some((here, length)) = line(vertex) else { return self.vertices[vertex].pose.heading };
+        let towards = |other: Option<(f64, f64)>, metres: f64| {
+            let Some((there, other_length)) = other else { return here };
+            let corner = CORNER.min(0.25 * length).min(0.25 * other_length);
+            here + wrapped(there - here) * 0.5 * (1.0 - metres / corner).max(0.0)
+        };
+        let done = s.max(0.0) - self.vertices[vertex].s;
+        if let Some([a, b]) = self.vertices.get(vertex..vertex + 2).and_then(|pair| <&[Vertex; 2]>::try_from(pair).ok())
+            && (a.faces || b.faces)
+        {
+            let [from, to] = [a, b].map(|vertex| if vertex.faces { vertex.pose.heading } else { here });
+            return from + wrapped(to - from) * (done / length).min(1.0);
+        }
+        if done < 0.5 * length {
+            towards(vertex.checked_sub(1).and_then(line), done)
+        } else {
+            towards(line(vertex + 1), length - done)
+        }
     }
 
     fn between(&self, x: f64, key: impl Fn(&Vertex) -> f64, value: impl Fn(&Vertex) -> f64) -> f64 {
@@ -102,7 +181,7 @@ fn measured(vertices: Vec<(Pose, f64)>) -> Vec<Vertex> {
     let mut all: Vec<Vertex> = Vec::with_capacity(vertices.len());
     for (pose, time) in vertices {
         let s = all.last().map_or(0.0, |last| last.s + (pose.position - last.pose.position).norm());
-        all.push(Vertex { pose, s, time });
+        all.push(Vertex { pose, s, time, faces: false });
     }
     all
 }
@@ -141,7 +220,9 @@ mod tests {
     #[test]
     fn a_polyline_has_the_direction_of_its_lines() {
         let at = |x: f64, y: f64| Pose { position: Vector2::new(x, y), heading: 9.0 };
-        let track = Track::polyline(vec![(at(0.0, 0.0), 0.0), (at(4.0, 0.0), 2.0), (at(4.0, 3.0), 3.0)]).unwrap();
+        let track =
+            Track::polyline(vec![(at(0.0, 0.0), 0.0, false), (at(4.0, 0.0), 2.0, false), (at(4.0, 3.0), 3.0, false)])
+                .unwrap();
         assert_eq!(track.at(5.0).position, Vector2::new(4.0, 1.0));
         assert_eq!(track.at(5.0).heading, FRAC_PI_2);
         assert_eq!(track.at_time(1.0), 2.0);

@@ -1,6 +1,8 @@
 //! The edges and the delays of the conditions of a trigger.
 
 use crate::openscenario::condition::{Condition, Edge, Trigger};
+use crate::openscenario::measure::Measure;
+use crate::openscenario::state::State;
 use std::collections::VecDeque;
 
 /// A change of a condition this many seconds too early counts as in time: ticks are sums of rounded numbers.
@@ -10,6 +12,17 @@ const TOLERANCE: f64 = 1e-6;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Watch(Vec<Vec<History>>);
 
+/// A question for the state of an element of the storyboard. The storyboard answers it at once, and not from the world at the beginning
+/// of the tick: an element that starts at a tick is running for all elements after it.
+#[derive(Debug, Clone)]
+pub(super) struct Question {
+    pub element: String,
+    pub kind: &'static str,
+    pub state: State,
+    /// The moment of the last answer. A transition before it has been seen.
+    pub since: u64,
+}
+
 /// The history of a condition.
 #[derive(Debug, Clone)]
 struct History {
@@ -17,6 +30,8 @@ struct History {
     delay: f64,
     /// The condition's input, by its index.
     input: usize,
+    /// The question that replaces the input; `None` for a condition that is not on a state.
+    question: Option<Question>,
     /// The value of the condition at the previous check; `None` before the first check.
     before: Option<bool>,
     /// The present value after edge and delay, and the changes to come with their times.
@@ -31,6 +46,7 @@ impl Watch {
             edge: condition.edge,
             delay: condition.delay,
             input: inputs.next().expect("each condition has an input"),
+            question: Question::of(&condition.check.measures),
             before: None,
             value: false,
             changes: VecDeque::new(),
@@ -46,13 +62,22 @@ impl Watch {
         }
     }
 
-    /// Checks all conditions at a time in seconds. Returns `true` if the trigger is true.
-    pub fn check(&mut self, time: f64, truths: &[bool]) -> bool {
+    /// Checks all conditions at a time in seconds. `answer` answers questions for states, and `moment` counts the changes of states.
+    /// Returns `true` if the trigger is true.
+    pub fn check(&mut self, time: f64, truths: &[bool], moment: u64, answer: &dyn Fn(&Question) -> bool) -> bool {
         let mut fires = false;
         for group in &mut self.0 {
             let mut all = true;
             for history in group.iter_mut() {
-                all &= history.check(time, truths[history.input]);
+                let truth = match &mut history.question {
+                    None => truths[history.input],
+                    Some(question) => {
+                        let truth = answer(question);
+                        question.since = moment;
+                        truth
+                    }
+                };
+                all &= history.check(time, truth);
             }
             fires |= all && !group.is_empty();
         }
@@ -60,9 +85,18 @@ impl Watch {
     }
 }
 
+impl Question {
+    fn of(measures: &[Measure]) -> Option<Self> {
+        let [Measure::State { element, kind, state }] = measures else { return None };
+        Some(Self { element: element.clone(), kind, state: *state, since: 0 })
+    }
+}
+
 impl History {
     fn check(&mut self, time: f64, truth: bool) -> bool {
-        let now = match (self.edge, self.before) {
+        // No element has been within a transition before.
+        let is_transition = self.question.as_ref().is_some_and(|question| question.state.is_transition());
+        let now = match (self.edge, self.before.or(is_transition.then_some(false))) {
             (Edge::None, _) => truth,
             (_, None) => false,
             (Edge::Rising, Some(before)) => truth && !before,
@@ -87,7 +121,8 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::openscenario::condition::{Check, Measure, Rule};
+    use crate::openscenario::condition::Check;
+    use crate::openscenario::rule::Rule;
 
     /// Returns the ticks at which a condition with this edge and delay is true, for truths at ticks of 0.1 s.
     fn fires(edge: Edge, delay: f64, truths: &[bool]) -> Vec<usize> {
@@ -95,7 +130,7 @@ mod tests {
         let trigger = vec![vec![Condition { name: String::new(), delay, edge, check }]];
         let mut watch = Watch::new(&trigger, &mut (0..));
         let at = |tick: usize| tick as f64 * 0.1;
-        (0..truths.len()).filter(|tick| watch.check(at(*tick), &[truths[*tick]])).collect()
+        (0..truths.len()).filter(|tick| watch.check(at(*tick), &[truths[*tick]], 0, &|_| false)).collect()
     }
 
     #[test]

@@ -1,0 +1,74 @@
+//! The rules by which scenarios compare values.
+
+use super::scope::Node;
+use crate::xml::ReadError;
+use paracosm_engine::Stream;
+use paracosm_space::Value;
+use std::cmp::Ordering;
+
+/// The way in which a measure is compared with a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rule {
+    Equal,
+    NotEqual,
+    Greater,
+    GreaterOrEqual,
+    Less,
+    LessOrEqual,
+}
+
+const RULES: [(&str, Rule); 6] = [
+    ("equalTo", Rule::Equal),
+    ("notEqualTo", Rule::NotEqual),
+    ("greaterThan", Rule::Greater),
+    ("greaterOrEqual", Rule::GreaterOrEqual),
+    ("lessThan", Rule::Less),
+    ("lessOrEqual", Rule::LessOrEqual),
+];
+
+impl Rule {
+    /// Reads the attribute `rule`.
+    pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
+        node.one_of("rule", &RULES)
+    }
+
+    /// Returns `true` if a value fulfils the rule. Words have no order.
+    pub fn holds(self, value: &Value, limit: &Value) -> bool {
+        let order = match (value, limit) {
+            (Value::Number(value), Value::Number(limit)) => value.partial_cmp(limit),
+            _ => (value == limit).then_some(Ordering::Equal),
+        };
+        match self {
+            Self::Equal => order == Some(Ordering::Equal),
+            Self::NotEqual => order != Some(Ordering::Equal),
+            Self::Greater => order == Some(Ordering::Greater),
+            Self::GreaterOrEqual => order.is_some_and(Ordering::is_ge),
+            Self::Less => order == Some(Ordering::Less),
+            Self::LessOrEqual => order.is_some_and(Ordering::is_le),
+        }
+    }
+
+    /// Returns the rule in words, which a limit follows.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Equal => "equal to",
+            Self::NotEqual => "not equal to",
+            Self::Greater => "greater than",
+            Self::GreaterOrEqual => "at least",
+            Self::Less => "less than",
+            Self::LessOrEqual => "at most",
+        }
+    }
+
+    /// Returns the stream that is true while a measure fulfils the rule.
+    pub fn compare(self, measure: &Stream<f64>, value: f64) -> Stream<bool> {
+        match self {
+            Self::Equal => measure.equals(value),
+            Self::NotEqual => !measure.equals(value),
+            Self::Greater => measure.above(value),
+            Self::GreaterOrEqual => measure.at_least(value),
+            Self::Less => measure.below(value),
+            Self::LessOrEqual => measure.at_most(value),
+        }
+    }
+}
