@@ -12,7 +12,14 @@ use std::process::{Command, Stdio};
 const CLOSE: f64 = 0.005;
 
 /// The scenarios whose tests are exported, each with further options.
-const SCENARIOS: [(&str, &[&str]); 2] = [("pedestrian-crossing", &[]), ("slow-leader.xosc", &["--open", "gap=20..60"])];
+const SCENARIOS: [(&str, &[&str]); 6] = [
+    ("pedestrian-crossing", &[]),
+    ("highway-traffic", &[]),
+    ("grid-traffic", &["--driver", "planner"]),
+    ("roundabout-entry", &["--driver", "planner"]),
+    ("map-traffic", &["--driver", "planner"]),
+    ("slow-leader.xosc", &["--open", "gap=20..60"]),
+];
 
 /// Returns a folder with campaigns of two tests, in which test 1 of each is exported to the folder `NAME-case`.
 fn exported() -> tempfile::TempDir {

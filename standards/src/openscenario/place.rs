@@ -4,7 +4,7 @@ use super::route::Legs;
 use crate::opendrive::{End, Lane, LaneType, Link, Map, Road};
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A place beside the middle of a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,7 +77,7 @@ impl Place {
 
     /// Returns `true` if the place faces against the direction of the road.
     pub fn is_against(&self) -> bool {
-        libm::cos(self.turn) < 0.0
+        self.turn.abs() > FRAC_PI_2
     }
 
     /// Moves the place to another lane without moving it in the world.

@@ -34,6 +34,8 @@ pub(in crate::openscenario) struct Stage {
 /// An element of the storyboard at play.
 struct Playing {
     item: Item,
+    /// The index after the last element within this one: the elements follow in the order of the file.
+    last: usize,
     state: State,
     /// The last transition, with the number of transitions up to it.
     transition: Option<(State, u64)>,
@@ -60,9 +62,16 @@ impl Stage {
             start: watch(&item.start),
             stop: watch(&item.stop),
             motions: Vec::new(),
+            last: 0,
             item,
         };
-        let items = items.into_iter().map(playing).collect();
+        let mut items: Vec<Playing> = items.into_iter().map(playing).collect();
+        for index in (0..items.len()).rev() {
+            items[index].last = items[index].last.max(index + 1);
+            if let Some(parent) = items[index].item.parent {
+                items[parent].last = items[parent].last.max(items[index].last);
+            }
+        }
         let actors = entities.into_iter().map(Actor::new).collect();
         let mut stage = Self {
             cast: Cast { map, actors, variables, ego, lead, clock: (clock, 0.0), time: 0.0 },
@@ -97,7 +106,7 @@ impl Stage {
             actor.velocity = actor.pose.forward() * actor.speed;
         }
         let (state, transition) = (State::Running, None);
-        stage.items.push(Playing { item, state, transition, runs: 0, start: None, stop: None, motions });
+        stage.items.push(Playing { item, last: 0, state, transition, runs: 0, start: None, stop: None, motions });
         let activates = |playing: &Playing| match &playing.item.kind {
             Kind::Action(actors, Action::Activate { .. }) => actors.contains(&ego),
             _ => false,
@@ -226,7 +235,7 @@ impl Stage {
         }
         self.change(index, State::Running, State::StartTransition);
         // What lies within starts afresh.
-        for inner in index + 1..self.items.len() {
+        for inner in index + 1..self.items[index].last {
             if self.items[inner].item.parent == Some(index) {
                 let inner = &mut self.items[inner];
                 (inner.state, inner.runs) = (State::Standby, 0);
@@ -285,8 +294,9 @@ impl Stage {
                 self.change(parent, State::Complete, State::StopTransition);
             }
             self.items[parent].motions.clear();
-            stopped
-                .extend((parent + 1..self.items.len()).filter(|inner| self.items[*inner].item.parent == Some(parent)));
+            stopped.extend(
+                (parent + 1..self.items[parent].last).filter(|inner| self.items[*inner].item.parent == Some(parent)),
+            );
             next += 1;
         }
     }
@@ -307,7 +317,8 @@ impl Stage {
         let over = match self.items[index].item.kind {
             Kind::Action(..) | Kind::Change(..) | Kind::Clock(_) => self.items[index].motions.is_empty(),
             _ => {
-                let mut inner = self.items[index + 1..].iter().filter(|inner| inner.item.parent == Some(index));
+                let within = &self.items[index + 1..self.items[index].last];
+                let mut inner = within.iter().filter(|inner| inner.item.parent == Some(index));
                 inner.all(|inner| inner.state == State::Complete)
             }
         };
