@@ -76,6 +76,25 @@ fn each_condition_comes_at_its_time() {
 }
 
 #[test]
+fn a_condition_sees_a_transition_at_its_tick() {
+    // The profile begins when its act starts: a tick later, the speed would be 0.02 m/s less.
+    near(&trace("actions.xosc"), 2.0, &[("Even.speed", 4.0, 1e-6)]);
+}
+
+#[test]
+fn a_gap_is_made_up_without_overshooting_until_a_speed_ends_it() {
+    let trace = trace("actions.xosc");
+    let gap = |seconds: f64| at(&trace, "Ego.x", seconds) - at(&trace, "Follows.x", seconds);
+    let gaps: Vec<f64> = (0..30).map(|step| gap(f64::from(step) * 0.5)).collect();
+    assert!(gaps[0] == 22.0 && gaps.windows(2).all(|pair| pair[1] < pair[0] && pair[1] > 20.0 - 1e-6), "{gaps:?}");
+    assert!((gap(14.9) - 20.0).abs() < 0.1, "{}", gap(14.9));
+    // The spring of 0.4 * 3 /s² pulls with 2.4 m/s² over the first tick.
+    near(&trace, 0.01, &[("Follows.speed", 10.024, 1e-6)]);
+    near(&trace, 15.5, &[("Follows.speed", 4.0, 0.0)]);
+    near(&trace, 19.0, &[("Follows.speed", 4.0, 0.0)]);
+}
+
+#[test]
 fn a_selection_stands_for_its_members() {
     let trace = trace("actions.xosc");
     near(&trace, 1.5, &[("First.speed", 3.0, 0.0), ("Second.speed", 3.0, 0.0)]);

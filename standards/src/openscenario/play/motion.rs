@@ -157,7 +157,7 @@ fn finished(transition: &Transition, actor: &mut Actor) -> bool {
 }
 
 /// Returns the speed at the end of a tick of an entity that makes up a missing distance within its limits. The standard leaves the
-/// controller open. This one is a spring with critical damping, which comes to its distance without passing it: its acceleration is
+/// controller open. This one is a spring with critical damping, which does not pass its distance while no limit counts: its acceleration is
 /// `k missing - 2 sqrt(k) (speed - theirs)`. The spring is stiffer for an entity with greater limits.
 fn approach(speed: f64, theirs: f64, missing: f64, limits: [f64; 3], dt: f64) -> f64 {
     let [acceleration, deceleration, most] = limits;
