@@ -88,7 +88,7 @@ enum NoRoads {
     #[error(transparent)]
     File(#[from] ReadError),
     #[error("{file}: {error}")]
-    Network { file: String, error: RoadError },
+    Network { file: String, error: Box<RoadError> },
     #[error("{file}: the longest way over its lanes is {found:.0} m, expected at least {SHORTEST} m")]
     NoWay { file: String, found: f64 },
     #[error(
@@ -152,7 +152,7 @@ fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
         return Ok(roads.clone());
     }
     let map = if roads == TOWN { town() } else { Map::read(FilePath::new(roads)) }?;
-    let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error })?;
+    let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error: error.into() })?;
     let things = map.objects().flat_map(|object| object.parts.iter().map(move |part| (object, *part)));
     let things = things.filter_map(|(object, (body, at))| {
         let is_in_the_way = is_on_lane(&network, &body, &at);

@@ -22,6 +22,7 @@
 //! ```
 
 mod arcs;
+mod bodies;
 mod cubics;
 mod elements;
 mod file;

@@ -1,9 +1,9 @@
 //! Reads the roads of a file that was checked against the table of elements.
 
+use super::bodies;
 use super::cubics::{Cubic, Cubics, Extreme};
 use super::links::{self, Names};
 use super::map::Map;
-use super::object;
 use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
@@ -80,7 +80,7 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         limits: road_limits(element)?,
         objects: Vec::new(),
     };
-    road.objects = object::objects(element, &road)?;
+    road.objects = bodies::objects(element, &road)?;
     Ok(road)
 }
 

@@ -2,6 +2,7 @@
 
 use paracosm_engine::object::{Class, Outline};
 use paracosm_standards::opendrive::{Map, Object};
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 fn text() -> String {
@@ -51,7 +52,9 @@ fn an_outline_becomes_a_wall_along_each_edge() {
     let house = parts("house");
     assert_eq!(house.len(), 3);
     assert_eq!(house[0], (Class::Building, [64.0, 15.0, 0.0, 8.0, 0.2, 6.0]));
-    assert_eq!(house[1].1[..4], [68.0, 17.5, 1.570796, 5.0]);
+    let [x, y, heading, length, ..] = house[1].1;
+    assert_eq!([x, y, length], [68.0, 17.5, 5.0]);
+    assert!((heading - FRAC_PI_2).abs() < 1e-5, "{heading}");
     // An outline that is not closed has no last edge.
     assert_eq!(parts("fence"), [(Class::Prop, [80.0, -6.0, 0.0, 20.0, 0.2, 1.0])]);
 }
