@@ -98,7 +98,7 @@ pub struct Run {
     scenery: u64,
     /// The outcome of a run that cannot begin.
     unable: Option<Outcome>,
-    motion: Option<Motion>,
+    motion: Option<Box<Motion>>,
 }
 
 impl Run {
@@ -305,7 +305,9 @@ impl Run {
             return Err(Upset::NoValue { signal: self.trace.signals()[index].clone() });
         }
         self.trace.record(&self.row);
-        self.note_motion();
+        if self.motion.is_some() {
+            self.note_motion();
+        }
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use super::Run;
 use crate::Pose;
-use crate::object::Body;
+use crate::object::{Body, BodyState};
 
 /// The poses of all bodies of a run at every tick.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,20 +28,21 @@ impl Run {
     /// Records the motion of all bodies from the present tick on. Without this call, nothing is recorded.
     pub fn record_motion(&mut self) {
         let bodies = self.bodies().iter().enumerate();
-        let track = |(index, state): (usize, &crate::object::BodyState)| Track {
+        let track = |(index, state): (usize, &BodyState)| Track {
             name: self.name_of(index).to_owned(),
             body: state.body,
             poses: Vec::with_capacity(self.ticks + 1),
         };
-        self.motion = Some(Motion { dt: self.dt, tracks: bodies.map(track).collect() });
+        self.motion = Some(Box::new(Motion { dt: self.dt, tracks: bodies.map(track).collect() }));
     }
 
     /// Returns the recorded motion; `None` if the run records no motion.
     pub fn motion(&self) -> Option<&Motion> {
-        self.motion.as_ref()
+        self.motion.as_deref()
     }
 
     /// Adds the present tick to the recorded motion.
+    #[cold]
     pub(super) fn note_motion(&mut self) {
         let Some(motion) = &mut self.motion else { return };
         for (track, state) in motion.tracks.iter_mut().zip(&self.scene.bodies) {

@@ -77,7 +77,7 @@ impl Place {
 
     /// Returns `true` if the place faces against the direction of the road.
     pub fn is_against(&self) -> bool {
-        self.turn.abs() > FRAC_PI_2
+        wrapped(self.turn).abs() > FRAC_PI_2
     }
 
     /// Moves the place to another lane without moving it in the world.
