@@ -79,6 +79,13 @@ impl Catalogue {
         &self.readers
     }
 
+    /// Returns `true` if a scenario has the name, or if a reader accepts files with the ending of the name.
+    pub fn knows(&self, name: &str) -> bool {
+        let ending = Path::new(name).extension().and_then(OsStr::to_str);
+        self.programs.iter().any(|program| program.name() == name)
+            || self.readers.iter().any(|reader| Some(reader.ending) == ending)
+    }
+
     /// Returns the program of the scenario with the given name, or the program in the file with the given path.
     ///
     /// # Errors

@@ -56,6 +56,10 @@ pub(super) struct Options {
     /// Continue the campaign in the folder
     #[arg(long)]
     resume: bool,
+    /// Give a violation that none of these drivers avoids in the same test the verdict `unpreventable`; such a test is no
+    /// failure. `paracosm-fuzz list drivers` shows all drivers
+    #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
+    reference: Vec<String>,
     /// Find the combinations of discrete values behind the failures with at most N further tests, into located.json
     /// [default: 200]
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200")]
@@ -88,7 +92,8 @@ impl Options {
         if self.resume {
             self.is_no_folder()?;
         }
-        let study = prepare(self.subject.study(verbosity)?)?.sampling(self.sampling()?).build()?;
+        let study = prepare(self.subject.study(verbosity)?)?.sampling(self.sampling()?);
+        let study = self.reference.iter().fold(study, |study, name| study.reference(name)).build()?;
         self.subject.note_unjudged(&study, verbosity);
         let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
         note_outlasting(&study, verbosity)?;
@@ -161,14 +166,15 @@ impl Options {
                 extension.map(|known| format!(" beside the {} in {}", known.record().tests, known.record().name));
             let beside = beside.unwrap_or_default();
             verbosity.note(match (self.sampling.epsilon, ran) {
-                (_, 0) => format!("no test was run: nothing is missing{beside}"),
+                (_, 0) if extension.is_some() => format!("no test was run: nothing is missing{beside}"),
+                (_, 0) => "no test was run: the strategy has no test that keeps the constraints".to_owned(),
                 (Some(epsilon), ran) => {
                     let ran = plural(ran, "test");
                     format!("the campaign ended before its budget: after {ran}{beside} no row has an empty box above {epsilon}")
                 }
                 (None, ran) => {
                     let ran = plural(ran, "test");
-                    format!("the campaign ended before its budget: the strategy has only {ran} for these parameters{beside}")
+                    format!("the campaign ended before its budget: the strategy has only {ran} for these parameters and their constraints{beside}")
                 }
             });
         }
@@ -180,7 +186,7 @@ impl Options {
     /// Checks that the scenario to resume is not the name of a folder.
     fn is_no_folder(&self) -> Result<(), Error> {
         let name = self.subject.name();
-        if self.subject.is_system() || crate::catalogue().programs().iter().any(|program| program.name() == name) {
+        if self.subject.is_system() || crate::catalogue().knows(name) {
             return Ok(());
         }
         let folder = Path::new(name);

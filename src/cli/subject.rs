@@ -44,10 +44,6 @@ pub(super) struct Subject {
     /// PARACOSM_ADDRESS. Each worker starts the command once
     #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
     driver_command: Option<String>,
-    /// Give a violation that none of these drivers avoids in the same test the verdict `unpreventable`; such a test is no
-    /// failure. `paracosm-fuzz list drivers` shows all drivers
-    #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
-    reference: Vec<String>,
     /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size. `car` is the ego vehicle;
     /// other actors have their names of the traces; `tree` also stands for `tree-2` and so on
     #[arg(long, value_name = "ACTOR=FILE.glb")]
@@ -150,7 +146,6 @@ impl Subject {
             (None, Some(driver)) => study.driver(driver),
             (None, None) => study,
         };
-        let study = self.reference.iter().fold(study, |study, name| study.reference(name));
         self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
     }
 

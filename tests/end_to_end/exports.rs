@@ -71,7 +71,11 @@ fn distance(test: &Motion, export: &Motion) -> f64 {
         assert!(other.poses.len() >= stride * (one.poses.len() - 1), "{}: it ends early", one.name);
         for (a, b) in one.poses.iter().zip(other.poses.iter().step_by(stride)) {
             let (Some(a), Some(b)) = (a, b) else { continue };
-            greatest = greatest.max((a.position - b.position).norm());
+            let far = (a.position - b.position).norm();
+            if far > CLOSE && greatest < far && far > 0.01 {
+                eprintln!("DBG {} {a:?} {b:?}", one.name);
+            }
+            greatest = greatest.max(far);
         }
     }
     greatest

@@ -57,6 +57,33 @@ fn with_continuous_a_range_is_an_interval_and_no_test_breaks_a_constraint() {
 }
 
 #[test]
+fn a_campaign_on_a_file_is_resumed_with_the_same_bytes() {
+    let dir = folder();
+    for (out, more) in [("listed", "--k=2"), ("continuous", "--continuous")] {
+        let arguments = ["slow-leader-variation.xosc", "--driver", "aeb", "--budget", "8", more, "--out", out];
+        succeeds(fuzz(dir.path(), &arguments));
+        let path = dir.path().join(out).join("trials.jsonl");
+        let whole = fs::read_to_string(&path).expect("a log");
+        let half: String = whole.lines().take(3).flat_map(|line| [line, "\n"]).collect();
+        fs::write(&path, half).expect("it is writable");
+        succeeds(fuzz(dir.path(), &[&arguments[..], &["--resume"]].concat()));
+        assert_eq!(fs::read_to_string(&path).expect("a log"), whole, "{out}");
+    }
+}
+
+#[test]
+fn a_range_that_is_not_there_and_a_space_without_tests_are_refused() {
+    let dir = folder();
+    refused(&fuzz(dir.path(), &["pedestrian-crossing", "--continuous", "--out", "c"]), &["no open range with a step"]);
+    let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");
+    let text = text.replacen("rule=\"greaterThan\" value=\"0\"", "rule=\"greaterThan\" value=\"49.99\"", 1);
+    fs::write(dir.path().join("slow-leader.xosc"), text).expect("it is writable");
+    let arguments = ["slow-leader-variation.xosc", "--continuous", "--out", "c"];
+    refused(&fuzz(dir.path(), &arguments), &["of 2048 tests keep the constraints", "`speed`"]);
+    assert!(!dir.path().join("c").exists());
+}
+
+#[test]
 fn a_violation_that_no_reference_driver_avoids_is_unpreventable() {
     let dir = folder();
     let run = |out: &str, jobs: &str, more: &[&str]| {

@@ -2,7 +2,7 @@
 
 use super::driver::{DriverFlaw, Wish};
 use super::parameters::ParameterMisuse;
-use super::{DriverChoice, Maker, PerceiverChoice, Sampling, Simulation, Study, Subject, Variation};
+use super::{DriverChoice, Maker, PerceiverChoice, PerceiverFlaw, Sampling, Simulation, Study, Subject, Variation};
 #[cfg(feature = "camera")]
 use crate::cameras::VariedCameras;
 use crate::{BlackBox, Error, Trust};
@@ -401,6 +401,9 @@ impl StudyBuilder {
         };
         let references = self.references.iter().map(reference).collect::<Result<Vec<_>, Error>>()?;
         if !references.is_empty() {
+            if study.perceiver().is_some() {
+                return Err(PerceiverFlaw::References.into());
+            }
             study = study.with_references(references)?;
         }
         // The strategy checks that it can do what is asked of it.

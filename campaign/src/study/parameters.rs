@@ -59,6 +59,25 @@ pub enum ParameterMisuse {
         /// The name of the parameter.
         name: String,
     },
+    /// Hardly any test keeps the constraints of the scenario.
+    #[error(
+        "only {valid} of {probes} tests keep the constraints of the scenario, for example {why}: open the parameters over \
+         a smaller part, or fix one of them"
+    )]
+    Rare {
+        /// The number of tests that keep the constraints.
+        valid: usize,
+        /// The number of tests that were tried.
+        probes: usize,
+        /// The reason why one of the tests breaks a constraint.
+        why: String,
+    },
+    /// No parameter has a range of numbers that could be opened.
+    #[error("scenario `{scenario}` has no open range with a step that could become an interval")]
+    NoRange {
+        /// The name of the scenario.
+        scenario: String,
+    },
     /// The fixed values break a constraint of the scenario.
     #[error("the fixed values break a constraint of the scenario: {why}")]
     Broken {
@@ -130,12 +149,17 @@ impl Study {
 
     /// Opens the parameters whose tests have only some numbers of an interval to the whole interval.
     pub(super) fn open_intervals(&mut self) -> Result<(), Error> {
+        let mut opened = 0;
         for declared in self.program()?.declare()?.parameters {
             let name = declared.parameter.name.as_str();
             let is_listed = self.space.find(name).is_some_and(|open| open.levels().is_some());
             if is_listed && declared.parameter.levels().is_none() {
                 self.rebuild(name, Some(declared.parameter.clone()))?;
+                opened += 1;
             }
+        }
+        if opened == 0 {
+            return Err(ParameterMisuse::NoRange { scenario: self.subject.scenario()?.scenario.clone() }.into());
         }
         Ok(())
     }

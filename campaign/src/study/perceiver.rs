@@ -76,6 +76,9 @@ impl fmt::Debug for Own {
 /// The reason why a perceiver cannot be on trial.
 #[derive(Debug, Error)]
 pub enum PerceiverFlaw {
+    /// Reference drivers are given, but no driver is on trial.
+    #[error("a perceiver is on trial, and reference drivers judge the violations of drivers only: leave them out")]
+    References,
     /// The program was built without neural networks.
     #[error(
         "--perceiver {file} is a network, but this program was built without networks: build it with `cargo build --release \

@@ -166,8 +166,9 @@ impl Scenario {
     }
 
     /// Declares a parameter that was described as data, for example in a file.
-    pub fn parameter(&mut self, Declared { parameter, open, opens, .. }: Declared) -> Param<Value> {
-        self.described(parameter, open, opens, Read::value())
+    pub fn parameter(&mut self, Declared { parameter, open, opens, takes_texts }: Declared) -> Param<Value> {
+        let parameter = self.described(parameter, open, opens, Read::value());
+        if takes_texts { parameter.taking_texts() } else { parameter }
     }
 
     /// Declares a closed parameter that takes any text, such as the path of a file. It stays at `nominal` until a study sets
@@ -280,8 +281,8 @@ impl Scenario {
         self.end = Some(event.clone());
     }
 
-    /// States a constraint between parameters. Strategies propose no test that breaks the constraint, and measures of
-    /// coverage do not count such tests.
+    /// States a constraint between parameters. Strategies propose no test that breaks the constraint. If all open parameters
+    /// of the constraint are discrete, measures of coverage do not count such tests.
     pub fn constrain(&mut self, constraint: Constraint) {
         self.constraints.push(constraint);
     }

@@ -33,7 +33,7 @@ mod token;
 
 pub use expression::{Expression, Operand, Relation};
 pub use flaw::{ConstraintError, ConstraintFlaw, Expected};
-pub use table::expressions;
+pub use table::{can_be_written, expressions};
 pub(crate) use token::enclosed;
 
 use crate::Parameter;

@@ -6,6 +6,19 @@ use crate::{Parameter, Value};
 /// The greatest number of combinations of levels for which the function is asked.
 const MOST_COMBINATIONS: usize = 200_000;
 
+/// Returns `true` if a condition between these parameters can be written as [`expressions`].
+pub fn can_be_written(parameters: &[&Parameter]) -> bool {
+    sizes(parameters).is_some()
+}
+
+/// Returns the number of levels of each parameter; `None` if there are too many combinations of levels.
+fn sizes(parameters: &[&Parameter]) -> Option<Vec<usize>> {
+    let levels = |parameter: &&Parameter| parameter.levels().map(<[_]>::len).filter(|_| parameter.signal.is_none());
+    let sizes: Vec<usize> = parameters.iter().map(levels).collect::<Option<_>>()?;
+    let combinations = sizes.iter().try_fold(1usize, |product, size| product.checked_mul(*size))?;
+    (combinations <= MOST_COMBINATIONS).then_some(sizes)
+}
+
 /// Returns expressions that hold together exactly for the combinations of levels for which `holds` returns `true`. `holds`
 /// gets a value for each of the parameters.
 ///
@@ -19,13 +32,8 @@ const MOST_COMBINATIONS: usize = 200_000;
 /// assert_eq!(written[1].to_string(), "a == 2 implies b == 2");
 /// ```
 pub fn expressions(parameters: &[&Parameter], mut holds: impl FnMut(&[&Value]) -> bool) -> Option<Vec<Expression>> {
-    let levels = |parameter: &&Parameter| parameter.levels().map(<[_]>::len).filter(|_| parameter.signal.is_none());
-    let sizes: Vec<usize> = parameters.iter().map(levels).collect::<Option<_>>()?;
-    let combinations = sizes.iter().try_fold(1usize, |product, size| product.checked_mul(*size))?;
+    let sizes = sizes(parameters)?;
     let (last, others) = parameters.split_last()?;
-    if combinations > MOST_COMBINATIONS {
-        return None;
-    }
     let mut written = Vec::new();
     let mut outer = vec![0; others.len().saturating_sub(1)];
     loop {
@@ -96,7 +104,7 @@ fn statement(mut known: Vec<Expression>, consequence: Expression) -> Expression 
 
 #[cfg(test)]
 mod tests {
-    use super::expressions;
+    use super::{can_be_written, expressions};
     use crate::{Domain, Parameter, Point, Space, Value};
     use proptest::prelude::*;
 
@@ -108,6 +116,13 @@ mod tests {
     fn continuous_parameters_have_no_table() {
         let speed = Parameter::new("speed", Domain::Interval { lo: 0.0, hi: 1.0 });
         assert_eq!(expressions(&[&parameter("a", 2), &speed], |_| true), None);
+    }
+
+    #[test]
+    fn too_many_combinations_have_no_table() {
+        let (a, b) = (parameter("a", 500), parameter("b", 500));
+        assert!(can_be_written(&[&a]) && !can_be_written(&[&a, &b]));
+        assert_eq!(expressions(&[&a, &b], |_| true), None);
     }
 
     #[test]

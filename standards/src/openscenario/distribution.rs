@@ -39,8 +39,15 @@ impl Distribution {
     pub fn read(root: Node<'_>, declared: &[String]) -> Result<Self, ReadError> {
         let name = |node: Node<'_>| name(node, "parameterName", declared);
         if let Some(chances) = root.first("Stochastic") {
-            let chance = |node| Opened::chance(name(node)?, node);
-            return chances.all("StochasticDistribution").map(chance).collect::<Result<_, _>>().map(Self);
+            let mut all: Vec<Opened> = Vec::new();
+            for node in chances.all("StochasticDistribution") {
+                let name = name(node)?;
+                if all.iter().any(|other| other.names.contains(&name)) {
+                    return Err(twice_distributed(node, &name));
+                }
+                all.push(Opened::chance(name, node)?);
+            }
+            return Ok(Self(all));
         }
         let mut all = Vec::new();
         for node in root.child("Deterministic")?.elements() {
@@ -55,6 +62,10 @@ impl Distribution {
                 "ValueSetDistribution" => tuples(kind, declared)?,
                 _ => return Err(kind.refused("use a DistributionSet, a DistributionRange or a ValueSetDistribution")),
             };
+            let twice = |name: &&String| all.iter().any(|other: &Opened| other.names.contains(name));
+            if let Some(name) = names.iter().find(twice) {
+                return Err(twice_distributed(node, name));
+            }
             all.push(Opened { names, values });
         }
         Ok(Self(all))
@@ -168,6 +179,13 @@ pub(super) fn parsed(text: &str) -> Value {
     }
 }
 
+/// Makes the error that a parameter has a second distribution.
+fn twice_distributed(node: Node<'_>, name: &str) -> ReadError {
+    let (element, attribute) = (node.name().to_owned(), "parameterName".to_owned());
+    let expected = "one distribution of each parameter".to_owned();
+    node.error(Flaw::Value { element, attribute, found: name.to_owned(), expected, nearest: None })
+}
+
 fn interval(node: Node<'_>) -> Result<Domain, ReadError> {
     let limits = node.child("Range")?;
     Ok(Domain::Interval { lo: limits.number("lowerLimit")?, hi: limits.number("upperLimit")? })
@@ -202,6 +220,11 @@ fn tuples(kind: Node<'_>, declared: &[String]) -> Result<(Vec<String>, Choices),
                 return Err(assignment.dangling("parameterRef", "parameter", names.iter().map(String::as_str)));
             }
             level.push(assignment.required("value")?.into_owned());
+        }
+        if let Some(missing) = names.get(level.len()) {
+            let (element, attribute) = (set.name().to_owned(), "parameterRef".to_owned());
+            let expected = format!("an assignment of `{missing}` as in the first set");
+            return Err(set.error(Flaw::Value { element, attribute, found: String::new(), expected, nearest: None }));
         }
         levels.push(level);
     }

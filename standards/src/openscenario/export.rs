@@ -206,6 +206,8 @@ impl Entity<'_> {
         let poses = self.poses(dt);
         let (_, first) = poses[0];
         let speed = poses.get(1).map_or(0.0, |(_, next)| (next.position - first.position).norm() / dt);
+        // An entity at rest has no trajectory, and would go on at a small speed.
+        let speed = if simplified(&poses).len() > 1 { speed } else { 0.0 };
         xml.within("Private", &[("entityRef", &self.name)], |xml| {
             xml.within("PrivateAction", &[], |xml| {
                 xml.within("TeleportAction", &[], |xml| position(xml, &first));

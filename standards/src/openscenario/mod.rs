@@ -30,4 +30,5 @@ mod variable;
 
 pub use elements::elements;
 pub use export::{EgoAs, Export};
-pub use program::{EGO, Xosc};
+pub use parameters::EGO;
+pub use program::Xosc;

@@ -3,11 +3,15 @@
 use super::distribution::{Distribution, Opened, parsed};
 use super::rule::Rule;
 use super::scope::{Node, Scope, references};
-use crate::xml::{ExpressionFlaw, ReadError};
+use crate::xml::{ExpressionFlaw, Flaw, ReadError};
 use paracosm_engine::{Constraint, Declared, Scenario};
 use paracosm_space::{Domain, Parameter, Value, Values};
 use std::sync::Arc;
 
+/// The name of the parameter that chooses the entity which the system under test drives.
+pub const EGO: &str = "ego";
+/// The types whose values are texts, also if they look like numbers.
+const TEXTS: [&str; 2] = ["string", "dateTime"];
 /// The bound of a parameter that is a number without a distribution.
 const BOUND: f64 = 1e9;
 
@@ -22,6 +26,8 @@ pub(super) struct Parameters {
 #[derive(Debug)]
 struct Declaration {
     name: String,
+    /// The type in words of the standard, for example `double`.
+    kind: String,
     /// The value, which may be an expression of earlier parameters.
     text: String,
     /// The groups of constraints: the groups are alternatives, and the limits of a group hold together.
@@ -41,9 +47,21 @@ impl Parameters {
         let limit =
             |node: Node<'_>| Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned() });
         let declaration = |node: Node<'_>| {
+            if node.element.text("name") == Some(EGO) {
+                let (element, attribute) = (node.name().to_owned(), "name".to_owned());
+                let expected = "another name, because this one chooses the ego vehicle".to_owned();
+                return Err(node.error(Flaw::Value {
+                    element,
+                    attribute,
+                    found: EGO.to_owned(),
+                    expected,
+                    nearest: None,
+                }));
+            }
             let groups = node.all("ConstraintGroup").map(|group| group.all("ValueConstraint").map(limit).collect());
             Ok(Declaration {
                 name: node.element.required("name")?.to_owned(),
+                kind: node.element.text("parameterType").unwrap_or_default().to_owned(),
                 text: node.element.text("value").unwrap_or_default().to_owned(),
                 groups: groups.collect::<Result<_, ReadError>>()?,
             })
@@ -81,14 +99,16 @@ impl Parameters {
         let nominal = |name: &str| self.find(name).map(|index| parsed(&self.declarations[index].text));
         let opened = self.distribution.0.iter().map(move |opened| opened.declared(nominal));
         let closed = self.declarations.iter().filter(|declaration| self.is_closed(declaration)).map(|declaration| {
-            let value = parsed(&declaration.text);
+            let takes_texts = TEXTS.contains(&declaration.kind.as_str());
+            let value = if takes_texts { Value::from(declaration.text.as_str()) } else { parsed(&declaration.text) };
             let domain = match value {
+                _ if declaration.kind == "boolean" => Domain::Choice(vec!["true".into(), "false".into()]),
                 Value::Number(number) => Domain::Interval { lo: (-BOUND).min(number), hi: BOUND.max(number) },
                 ref other => Domain::Choice(vec![other.clone()]),
             };
             let mut parameter = Parameter::new(declaration.name.as_str(), domain);
             parameter.default = Some(value);
-            Declared { open: false, ..Declared::open(parameter) }
+            Declared { open: false, takes_texts, ..Declared::open(parameter) }
         });
         opened.chain(closed)
     }

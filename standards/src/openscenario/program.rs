@@ -5,7 +5,7 @@ use super::condition::{Check, Condition};
 use super::distribution::Distribution;
 use super::elements::schema;
 use super::measure::Measure;
-use super::parameters::{Parameters, declared_names};
+use super::parameters::{EGO, Parameters, declared_names};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
@@ -28,8 +28,6 @@ const LONGEST: f64 = 60.0;
 const BEYOND: f64 = 1.0;
 /// The greatest duration in seconds of a run.
 const LATEST: f64 = 3600.0;
-/// The name of the parameter that chooses the entity which the system under test drives.
-pub const EGO: &str = "ego";
 /// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
 const ONWARD: f64 = 5000.0;
 /// The outermost element of a file.

@@ -189,6 +189,30 @@ fn a_distribution_of_a_parameter_that_is_not_declared_is_refused() {
 }
 
 #[test]
+fn a_parameter_has_one_distribution_and_a_set_has_all_parameters() {
+    let read = |name: &str, found: &str, by: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        fs::copy(file("slow-leader.xosc"), folder.path().join("slow-leader.xosc")).unwrap();
+        let text = fs::read_to_string(file(name)).unwrap();
+        assert!(text.contains(found), "{found}");
+        let path = folder.path().join("variation.xosc");
+        fs::write(&path, text.replacen(found, by, 1)).unwrap();
+        Xosc::read(&path).err().expect("it is refused").to_string()
+    };
+    let message = read("slow-leader-variation.xosc", "parameterName=\"gap\"", "parameterName=\"speed\"");
+    assert!(message.contains("one distribution of each parameter"), "{message}");
+    let second = "<ParameterAssignment parameterRef=\"gap\" value=\"50\"/>";
+    let message = read("slow-leader-tuples.xosc", second, "");
+    assert!(message.contains("an assignment of `gap`"), "{message}");
+}
+
+#[test]
+fn the_name_of_the_parameter_of_the_ego_vehicle_is_taken() {
+    let message = messages("name=\"gap\"", "name=\"ego\"");
+    assert!(message.contains("chooses the ego vehicle"), "{message}");
+}
+
+#[test]
 fn an_action_that_cannot_begin_ends_the_run_with_an_error() {
     let (_folder, path) = changed(
         "<ControllerAction>\n                <ActivateControllerAction lateral=\"true\" longitudinal=\"true\"/>\n              </ControllerAction>",

@@ -138,6 +138,10 @@ fn placed(pose: Pose, map: &Map) -> Whereabouts {
 /// Returns a way that an entity at the pose `from` follows; `None` for a way without a beginning.
 pub(super) fn track(way: &Way, from: Option<Pose>, actors: &[Actor], map: &Map) -> Result<Option<Track>, Lost> {
     let pose = |position: &Position| {
+        // A place of the world needs no lane, which might end just before the place.
+        if let Position::World { x, y, heading } = position {
+            return Ok(Pose { position: Vector2::new(*x, *y), heading: *heading });
+        }
         Ok(match find(position, actors, map)? {
             Whereabouts::OnLane(place) => place.pose(map),
             Whereabouts::Free(pose) => pose,
