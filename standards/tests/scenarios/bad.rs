@@ -208,7 +208,7 @@ fn a_parameter_has_one_distribution_and_a_set_has_all_parameters() {
 
 #[test]
 fn the_name_of_the_parameter_of_the_ego_vehicle_is_taken() {
-    let message = messages("name=\"gap\"", "name=\"ego\"");
+    let message = messages("name=\"start\"", "name=\"ego\"");
     assert!(message.contains("chooses the ego vehicle"), "{message}");
 }
 
