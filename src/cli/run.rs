@@ -174,7 +174,7 @@ impl Options {
                 }
                 (None, ran) => {
                     let ran = plural(ran, "test");
-                    format!("the campaign ended before its budget: the strategy has only {ran} for these parameters and their constraints{beside}")
+                    format!("the campaign ended before its budget: the strategy has only {ran} for these parameters{beside}")
                 }
             });
         }

@@ -4,11 +4,14 @@ use paracosm_space::Values;
 use std::fmt;
 use std::sync::Arc;
 
+/// A function that returns the reason why the values of a test break a constraint.
+type Broken = dyn Fn(&Values) -> Option<String> + Send + Sync;
+
 /// A constraint between parameters of a program. A test that breaks it is invalid, and strategies do not propose the test.
 #[derive(Clone)]
 pub struct Constraint {
     names: Vec<String>,
-    broken: Arc<dyn Fn(&Values) -> Option<String> + Send + Sync>,
+    broken: Arc<Broken>,
 }
 
 impl fmt::Debug for Constraint {
