@@ -21,7 +21,7 @@ const PREPARATIONS: [&str; 6] = [
 ];
 
 /// The folders of the repository that commands may name.
-const FOLDERS: [&str; 4] = ["examples", "experiments", "python", "tests"];
+const FOLDERS: [&str; 5] = ["examples", "experiments", "python", "standards", "tests"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
