@@ -1,9 +1,10 @@
 //! Scenarios as functions, and the declaration that such a function makes when it is run without a test.
 
 use crate::flaw::WorldFlaw;
-use crate::scenario::{Constraint, Scenario};
+use crate::scenario::Scenario;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
+use paracosm_space::constraint::Expression;
 use paracosm_space::{Space, SpaceError, Values};
 use std::borrow::Cow;
 use std::fmt;
@@ -50,7 +51,7 @@ pub struct Declaration {
     /// The parameters of the program, in the order of their declaration.
     pub parameters: Vec<Declared>,
     /// The constraints between the parameters.
-    pub constraints: Vec<Constraint>,
+    pub constraints: Vec<Expression>,
     /// The requirements that the program states.
     pub requirements: Vec<Requirement>,
     /// The duration in seconds of a run without a contact.
@@ -177,8 +178,8 @@ impl Program {
         self.build(&mut scenario);
         if let Some(test) = test {
             self.check_names(&scenario, test.values)?;
-            for why in scenario.constraints.iter().filter_map(|constraint| constraint.broken(test.values)) {
-                scenario.flaw(WorldFlaw::Refused { why });
+            for constraint in scenario.constraints.iter().filter(|constraint| !constraint.holds(test.values)) {
+                scenario.flaw(WorldFlaw::Refused { why: broken(constraint, test.values) });
             }
         }
         scenario.lay_out();
@@ -241,4 +242,11 @@ impl Program {
             Err(ProgramError::OtherParameters { program: self.name().to_owned(), names })
         }
     }
+}
+
+/// Returns the reason why a test breaks a constraint.
+fn broken(constraint: &Expression, test: &Values) -> String {
+    let value = |name: &str| test.get(name).map(|value| format!("{name} = {value}"));
+    let values: Vec<String> = constraint.names().into_iter().filter_map(value).collect();
+    format!("the constraint `{constraint}` does not hold for {}", values.join(", "))
 }

@@ -3,6 +3,7 @@
 use crate::deal::Deal;
 use crate::family::Family;
 use crate::greedy::{GreedyRows, KwiseGreedy};
+use crate::keeping::keeping;
 use crate::mixed::Mixed;
 use crate::seeded::{Purpose, seeded};
 use crate::sequence::{MOST_SOBOL_DIMS, PerRow};
@@ -20,11 +21,18 @@ impl Strategy {
     /// more than 100,000 rows it ends when 1,000 random rows in turn had all been tested before.) It begins with the
     /// rows of the family.
     ///
+    /// Tests that break a constraint on continuous parameters are left out.
+    ///
     /// # Errors
     /// The space is empty, the budget is 0, `k` or `delta` is out of range, the family is too large, or an existing
-    /// test does not belong to the space. Or the strategy cannot serve the request: the number of points or
-    /// dimensions, the skip, the existing tests, or the aim.
+    /// test does not belong to the space. Or hardly any test keeps the constraints. Or the strategy cannot serve the
+    /// request: the number of points or dimensions, the skip, the existing tests, or the aim.
     pub fn build(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
+        keeping(self, request, |request| self.unchecked(request))
+    }
+
+    /// Builds the generator, which may propose tests that break a constraint on continuous parameters.
+    pub(crate) fn unchecked(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
         let &Request { space, budget, seed, skip, k, aim, existing, .. } = request;
         if space.parameters().is_empty() {
             return Err(GeneratorError::EmptySpace);

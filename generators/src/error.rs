@@ -138,6 +138,19 @@ pub enum GeneratorError {
         /// The number of discrete parameters of the space.
         parameters: usize,
     },
+    /// Hardly any test keeps the constraints of the space.
+    #[error(
+        "only {valid} of {probes} tests keep the constraints; many break `{constraint}`: open the parameters over a smaller part, \
+         or fix one of them"
+    )]
+    Rare {
+        /// The number of tests that keep the constraints.
+        valid: usize,
+        /// The number of tests that were tried.
+        probes: usize,
+        /// The text of a constraint that tests break.
+        constraint: String,
+    },
     /// The constraints join too many parameters to compute the probability of a combination in random rows.
     #[error(
         "the constraints join too many parameters to compute a combination's probability, so a random family would \

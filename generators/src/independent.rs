@@ -7,6 +7,7 @@
 //! uniformly, one for each test, favour no strategy. Random points with such rows are a uniform distribution over all
 //! valid tests.
 
+use crate::keeping::keeping;
 use crate::seeded::{Purpose, seeded};
 use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_space::Point;
@@ -44,13 +45,18 @@ impl Strategy {
     /// # Errors
     /// As [`Strategy::build`]; also if the constraints join too many parameters for random rows.
     pub fn build_independent(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
+        keeping(self, request, |request| self.unchecked_independent(request))
+    }
+
+    /// Builds the generator, which may propose tests that break a constraint on continuous parameters.
+    pub(crate) fn unchecked_independent(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
         let levels = request.space.levels();
         if levels.is_empty() || !self.has_rows(request) {
-            return self.build(request);
+            return self.unchecked(request);
         }
         // This finds what is wrong with the request. The one row is not used.
         let row = [vec![0; levels.len()]];
-        let points = self.build(&Request { rows: Some(&row), ..*request })?;
+        let points = self.unchecked(&Request { rows: Some(&row), ..*request })?;
         let rules = request.space.rules()?;
         let (tests, valid) = rules.uniform().zip(rules.tests()).ok_or(GeneratorError::RandomUnderConstraints)?;
         let rows = Rows { tests, seed: request.seed.unwrap_or(0), drawn: 0 };

@@ -36,6 +36,7 @@ mod family;
 pub mod functions;
 mod greedy;
 mod independent;
+mod keeping;
 mod mixed;
 mod request;
 mod seeded;

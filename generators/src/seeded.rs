@@ -28,6 +28,8 @@ pub(crate) enum Purpose {
     Search = 7,
     /// The random numbers make the draws from a model of failures.
     Draws = 8,
+    /// The random numbers make other continuous values for a row of discrete values.
+    Redraws = 9,
 }
 
 /// Makes the generator of random numbers for a seed, a purpose and a `number` within the purpose.

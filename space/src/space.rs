@@ -101,7 +101,7 @@ impl Space {
     /// ```
     ///
     /// # Errors
-    /// A text is not a constraint between the discrete parameters. [`SpaceError::Constraint`] says which text, where
+    /// A text is not a constraint between the parameters. [`SpaceError::Constraint`] says which text, where
     /// and why.
     pub fn with_constraints(mut self, texts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<Self, SpaceError> {
         for text in texts {
@@ -179,9 +179,33 @@ impl Space {
     /// Returns `true` if the test at the given point keeps every constraint of the space.
     ///
     /// # Panics
-    /// The point has fewer discrete coordinates than the space, or a level index is not below the number of levels.
+    /// The point has fewer coordinates than the space, or a level index is not below the number of levels.
     pub fn allows(&self, point: &Point) -> bool {
-        self.constraints.iter().all(|constraint| constraint.holds(&point.discrete))
+        self.constraints.iter().all(|constraint| constraint.allows(point))
+    }
+
+    /// Returns `true` if the levels of a test do not decide whether the test keeps the constraints, so that each test has to be
+    /// checked. This is so if a constraint names a continuous parameter.
+    pub fn checks_each_test(&self) -> bool {
+        self.constraints.iter().any(Constraint::checks_each_test)
+    }
+
+    /// Returns whether the tests of a part of the space keep every constraint: those with the levels in `row`, and with
+    /// continuous coordinates from `lower` to `upper`. Returns `None` if some of them may keep the constraints and others not.
+    /// If the answer is not `None`, it is certain.
+    ///
+    /// # Panics
+    /// The part has fewer coordinates than the space, or a level index is not below the number of levels.
+    pub fn allows_part(&self, row: &[usize], lower: &[f64], upper: &[f64]) -> Option<bool> {
+        let mut all = Some(true);
+        for constraint in &self.constraints {
+            match constraint.allows_part(row, lower, upper) {
+                Some(true) => {}
+                Some(false) => return Some(false),
+                None => all = None,
+            }
+        }
+        all
     }
 
     /// Returns the clauses of each constraint of the space. A literal names a parameter by its position among the

@@ -17,8 +17,37 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check("", 1, "found the end of the constraint, expected a parameter, `not` or `(`");
     check("weathr == 'fog'", 1, "no parameter is called `weathr` (did you mean `weather`?)");
     check("lanes == 2 implies wether != 'fog'", 20, "no parameter is called `wether` (did you mean `weather`?)");
-    check("speed == 3", 1, "`speed` is continuous, expected a discrete parameter");
-    check("lanes < speed", 9, "`speed` is continuous, expected a discrete parameter");
+    let continuous = "`speed` is continuous, expected a discrete parameter, or one of `<`, `<=`, `>` and `>=`";
+    check("speed == 3", 1, continuous);
+    check("lanes != speed", 10, continuous);
+    check("speed + 1 == lanes", 1, continuous);
+    check("speed in [3]", 1, continuous);
+    check("speed < 'fog'", 9, "`<` compares numbers, found 'fog'");
+    check("speed < gear", 9, "only numbers can be computed with, but `gear` takes the word 'auto'");
+    check("2 * gear < 3", 1, "only numbers can be computed with, but `gear` takes the word 'auto'");
+    check("lanes + 'fog' < 3", 9, "found the word 'fog', expected a number or a parameter with numbers");
+    check("'fog' + lanes < 3", 1, "found the word 'fog', expected a number or a parameter with numbers");
+    check("lanes + 1 == 'fog'", 14, "found the word 'fog', expected a number or a parameter with numbers");
+    check("lanes + < 3", 9, "found `<`, expected a number, a parameter, a function or `(`");
+    check("lanes + 2 in [3]", 1, "found `lanes + 2`, expected the name of a parameter before `in`");
+    check(
+        "lanes + 2",
+        10,
+        "found the end of the constraint, expected a comparison (`==`, `!=`, `<`, `<=`, `>`, `>=` or `in`)",
+    );
+    check("1 + 2 < 3 + 4", 1, "found values on both sides of the comparison, expected a parameter on one side");
+    check("(lanes + 2 < 3", 1, "the `(` here has no closing `)`");
+    check("min(lanes 2) < 3", 11, "found `2`, expected an operator or `,`");
+    check("abs(lanes, 2) < 3", 10, "found `,`, expected an operator or `)`");
+    check(
+        "maxi(lanes, 2) < 3",
+        1,
+        "no function is called `maxi` (did you mean `max`?); the functions are min, max, abs, sqrt, pow, floor, ceil, round, \
+         sign, sin, cos, tan, asin, acos, atan",
+    );
+    check("lanes + sped > 2", 1, "no parameter is called `sped` (did you mean `speed`?)");
+    let deep = format!("{}lanes < 3", "-".repeat(1000));
+    check(&deep, 129, "the constraint has more than 128 levels of nesting; divide it into several constraints");
     check(
         "weather == 'fogg'",
         12,

@@ -226,7 +226,7 @@ impl Study {
     /// # Errors
     /// The strategy cannot do what the study asks.
     pub fn generator(&self, existing: &[Point]) -> Result<Box<dyn Generator>, GeneratorError> {
-        self.keeping(existing, |request| self.sampling.strategy.build(request))
+        self.sampling.strategy.build(&self.sampling.request(&self.space, existing))
     }
 
     /// Makes a generator of the study's strategy that draws the discrete values of every test independently. The
@@ -235,7 +235,7 @@ impl Study {
     /// # Errors
     /// The same errors as [`Study::generator`].
     pub fn independent_generator(&self) -> Result<Box<dyn Generator>, GeneratorError> {
-        self.keeping(&[], |request| self.sampling.strategy.build_independent(request))
+        self.sampling.strategy.build_independent(&self.sampling.request(&self.space, &[]))
     }
 
     /// Returns the values of all parameters of a test's world, including the fixed parameters.

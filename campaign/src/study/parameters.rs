@@ -59,30 +59,17 @@ pub enum ParameterMisuse {
         /// The name of the parameter.
         name: String,
     },
-    /// Hardly any test keeps the constraints of the scenario.
-    #[error(
-        "only {valid} of {probes} tests keep the constraints of the scenario, for example {why}: open the parameters over \
-         a smaller part, or fix one of them"
-    )]
-    Rare {
-        /// The number of tests that keep the constraints.
-        valid: usize,
-        /// The number of tests that were tried.
-        probes: usize,
-        /// The reason why one of the tests breaks a constraint.
-        why: String,
-    },
     /// No parameter has a range of numbers that could be opened.
     #[error("scenario `{scenario}` has no open range with a step that could become an interval")]
     NoRange {
         /// The name of the scenario.
         scenario: String,
     },
-    /// The fixed values break a constraint of the scenario.
-    #[error("the fixed values break a constraint of the scenario: {why}")]
+    /// No test keeps a constraint of the scenario, because of the fixed values.
+    #[error("with the fixed values, no test keeps the constraint `{constraint}` of the scenario")]
     Broken {
-        /// The reason.
-        why: String,
+        /// The text of the constraint.
+        constraint: String,
     },
     /// The parameter cannot be fixed, because no other parameter is open.
     #[error("with `{name}` fixed no parameter is left open, so there is nothing to test")]

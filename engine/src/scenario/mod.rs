@@ -4,7 +4,6 @@
 //! inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two ego vehicles)
 //! are collected and reported when the function has returned, so programs need no `?` on every line.
 
-mod constraint;
 mod draft;
 mod ego;
 mod environment;
@@ -12,7 +11,6 @@ mod param;
 mod requirement;
 mod road;
 
-pub use constraint::Constraint;
 pub use draft::ObjectDraft;
 pub use ego::{AutonomousVehicle, Car, Lead, LedMotion};
 pub(crate) use ego::{Ego, EgoSetup};
@@ -27,6 +25,7 @@ use crate::road::RoadNetwork;
 use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Slot, Source, Stream, dot};
 use crate::test::{Declared, Test};
 use crate::weather::WeatherPart;
+use paracosm_space::constraint::Expression;
 use paracosm_space::{Domain, Parameter, Shape, Value};
 use param::{Keys, Read};
 use std::cell::{Cell, RefCell};
@@ -49,7 +48,7 @@ pub struct Scenario {
     given: Vec<(String, param::Given)>,
     pub(crate) keys: Rc<Keys>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
-    pub(crate) constraints: Vec<Constraint>,
+    pub(crate) constraints: Vec<Expression>,
     pub(crate) flaws: Flaws,
     /// The networks that were placed; `None` for a network that cannot be built.
     pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
@@ -281,9 +280,18 @@ impl Scenario {
         self.end = Some(event.clone());
     }
 
-    /// States a constraint between parameters. Strategies propose no test that breaks the constraint. If all open parameters
-    /// of the constraint are discrete, measures of coverage do not count such tests.
-    pub fn constrain(&mut self, constraint: Constraint) {
+    /// States a constraint between parameters, in the language of [`paracosm_space::constraint`]. Strategies propose no test
+    /// that breaks the constraint, and measures of coverage count no such test.
+    ///
+    /// ```
+    /// # use paracosm_engine::Scenario;
+    /// fn world(s: &mut Scenario) {
+    ///     let speed = s.interval("speed", 1.0, 30.0).default(10.0).value();
+    ///     let gap = s.interval("gap", 5.0, 100.0).default(50.0).value();
+    ///     s.constrain("gap >= 0.5 * speed".parse().expect("a constraint"));
+    /// }
+    /// ```
+    pub fn constrain(&mut self, constraint: Expression) {
         self.constraints.push(constraint);
     }
 

@@ -143,6 +143,7 @@ impl<'a> Resolver<'a> {
                 let is_listed = |level: &Value| values.contains(&level.meaning());
                 Ok(Condition::among(side.position, side.levels.iter().map(|level| is_listed(level) == holds)))
             }
+            Expression::Relate { .. } => unreachable!("constraints that compute numbers are written as tables"),
             Expression::Not(part) => self.condition(part, !holds),
             Expression::And(parts) => self.parts(holds, parts, holds),
             Expression::Or(parts) => self.parts(!holds, parts, holds),
@@ -151,6 +152,63 @@ impl<'a> Resolver<'a> {
                 Ok(Condition::many(!holds, parts))
             }
         }
+    }
+
+    /// Checks the names and values of an expression that may compute numbers and name continuous parameters.
+    pub(super) fn check(&mut self, expression: &Expression) -> Result<(), ConstraintError> {
+        match expression {
+            Expression::Compare { parameter, relation, with } => self.check_comparison(parameter, *relation, with),
+            Expression::In { .. } => self.condition(expression, true).map(|_| ()),
+            Expression::Relate { left, relation, right } => {
+                let places = self.next_places();
+                let equality = !relation.orders();
+                for (term, place) in [(left, places.left), (right, places.right[0])] {
+                    let mut flaw = None;
+                    term.each_parameter(&mut |name| {
+                        if flaw.is_none() {
+                            flaw = self.check_number(name, equality).err();
+                        }
+                    });
+                    flaw.map_or(Ok(()), |flaw| Err(ConstraintError::at(place, flaw)))?;
+                }
+                Ok(())
+            }
+            Expression::Not(part) => self.check(part),
+            Expression::And(parts) | Expression::Or(parts) => parts.iter().try_for_each(|part| self.check(part)),
+            Expression::Implies(condition, consequence) => {
+                self.check(condition)?;
+                self.check(consequence)
+            }
+        }
+    }
+
+    fn check_comparison(&mut self, name: &str, relation: Relation, with: &Operand) -> Result<(), ConstraintError> {
+        let has_levels = |name: &str| self.parameter(name).map(|parameter| parameter.levels().is_some());
+        let continuous = [Some(name), if let Operand::Parameter(other) = with { Some(other) } else { None }];
+        if continuous.into_iter().flatten().all(|name| has_levels(name).unwrap_or(true)) {
+            return self.comparison(name, relation, with, true).map(|_| ());
+        }
+        let places = self.next_places();
+        let equality = !relation.orders();
+        self.check_number(name, equality).map_err(at(places.left))?;
+        match with {
+            Operand::Parameter(other) => self.check_number(other, equality).map_err(at(places.right[0])),
+            Operand::Value(value) if value.number().is_none() => {
+                Err(ConstraintError::at(places.right[0], ConstraintFlaw::Size { relation, value: value.clone() }))
+            }
+            Operand::Value(_) => Ok(()),
+        }
+    }
+
+    /// Checks that the values of a parameter are numbers, and that no continuous parameter is compared for equality.
+    fn check_number(&self, name: &str, equality: bool) -> Result<(), ConstraintFlaw> {
+        let parameter = self.parameter(name)?;
+        let Some(levels) = parameter.levels() else {
+            let flaw = ConstraintFlaw::Continuous { name: name.to_owned() };
+            return if equality { Err(flaw) } else { Ok(()) };
+        };
+        let word = levels.iter().find(|level| level.number().is_none()).cloned();
+        word.map_or(Ok(()), |word| Err(ConstraintFlaw::TermOfWord { parameter: name.to_owned(), word }))
     }
 
     fn parts(&mut self, all: bool, parts: &[Expression], holds: bool) -> Result<Condition, ConstraintError> {
@@ -201,19 +259,25 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Finds the discrete parameter with the given name.
-    fn side(&self, name: &str) -> Result<Side<'a>, ConstraintFlaw> {
+    /// Finds the parameter with the given name, which must not vary over time.
+    fn parameter(&self, name: &str) -> Result<&'a Parameter, ConstraintFlaw> {
         let owned = || name.to_owned();
         let Some(parameter) = self.parameters.iter().find(|parameter| parameter.name == name) else {
             let nearest = nearest(name, self.parameters.iter().map(|parameter| parameter.name.as_str()));
             return Err(ConstraintFlaw::Unknown { name: owned(), nearest: nearest.map(str::to_owned) });
         };
-        let Some(levels) = parameter.levels() else {
-            return Err(ConstraintFlaw::Continuous { name: owned() });
-        };
         if parameter.signal.is_some() {
             return Err(ConstraintFlaw::Varies { name: owned() });
         }
+        Ok(parameter)
+    }
+
+    /// Finds the discrete parameter with the given name.
+    fn side(&self, name: &str) -> Result<Side<'a>, ConstraintFlaw> {
+        let parameter = self.parameter(name)?;
+        let Some(levels) = parameter.levels() else {
+            return Err(ConstraintFlaw::Continuous { name: name.to_owned() });
+        };
         let before = self.parameters.iter().take_while(|other| other.name != name);
         let position = before.filter(|other| other.levels().is_some()).map(Parameter::coordinates).sum();
         Ok(Side { name: &parameter.name, position, levels })

@@ -1,9 +1,10 @@
 //! Constraints as data: comparisons of parameters, joined by `not`, `and`, `or` and `implies`.
 
+use super::Term;
 use crate::Value;
 use std::fmt;
 
-/// A logical statement about the discrete parameters of a test.
+/// A logical statement about the parameters of a test.
 ///
 /// [`FromStr`](std::str::FromStr) reads the same expression from the text that [`Display`](fmt::Display) writes.
 ///
@@ -31,6 +32,16 @@ pub enum Expression {
         parameter: String,
         /// The values in the list after `in`.
         values: Vec<Value>,
+    },
+    /// A comparison of computed numbers, such as `ego_speed - lead_speed >= 10`. It does not hold if one of the two numbers
+    /// has no value, for example because of a division by zero.
+    Relate {
+        /// The number on the left side of the comparison.
+        left: Term,
+        /// The relation between the two sides of the comparison.
+        relation: Relation,
+        /// The number on the right side of the comparison.
+        right: Term,
     },
     /// The negation `not a`.
     Not(Box<Expression>),
@@ -175,6 +186,50 @@ fn enclosed(f: &mut fmt::Formatter<'_>, open: char, text: &str, close: char) -> 
 }
 
 impl Expression {
+    /// Returns the names of the parameters of the expression. Each name occurs once.
+    pub fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        self.each_parameter(&mut |name| {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        });
+        names
+    }
+
+    fn each_parameter<'a>(&'a self, see: &mut dyn FnMut(&'a str)) {
+        match self {
+            Expression::Compare { parameter, with, .. } => {
+                see(parameter);
+                if let Operand::Parameter(other) = with {
+                    see(other);
+                }
+            }
+            Expression::In { parameter, .. } => see(parameter),
+            Expression::Relate { left, right, .. } => {
+                left.each_parameter(see);
+                right.each_parameter(see);
+            }
+            Expression::Not(part) => part.each_parameter(see),
+            Expression::And(parts) | Expression::Or(parts) => parts.iter().for_each(|part| part.each_parameter(see)),
+            Expression::Implies(condition, consequence) => {
+                condition.each_parameter(see);
+                consequence.each_parameter(see);
+            }
+        }
+    }
+
+    /// Returns `true` if the expression compares computed numbers.
+    pub(super) fn computes(&self) -> bool {
+        match self {
+            Expression::Relate { .. } => true,
+            Expression::Compare { .. } | Expression::In { .. } => false,
+            Expression::Not(part) => part.computes(),
+            Expression::And(parts) | Expression::Or(parts) => parts.iter().any(Expression::computes),
+            Expression::Implies(condition, consequence) => condition.computes() || consequence.computes(),
+        }
+    }
+
     /// Returns a number for the strength with which the expression binds its parts. The expression needs parentheses if
     /// its place requires a higher number.
     fn tightness(&self) -> u8 {
@@ -182,7 +237,7 @@ impl Expression {
             Expression::Implies(..) => 0,
             Expression::Or(_) => 1,
             Expression::And(_) => 2,
-            Expression::Not(_) | Expression::Compare { .. } | Expression::In { .. } => 3,
+            Expression::Not(_) | Expression::Compare { .. } | Expression::In { .. } | Expression::Relate { .. } => 3,
         }
     }
 
@@ -215,6 +270,7 @@ impl fmt::Display for Expression {
                 }
                 f.write_str("]")
             }
+            Expression::Relate { left, relation, right } => write!(f, "{left} {relation} {right}"),
             Expression::Not(part) => {
                 f.write_str("not ")?;
                 part.write(f, 3)

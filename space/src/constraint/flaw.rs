@@ -1,5 +1,6 @@
 //! Errors in constraints, and their messages.
 
+use super::Function;
 use super::expression::{Name, Relation, Written};
 use crate::Value;
 use crate::names::did_you_mean;
@@ -103,8 +104,22 @@ pub enum ConstraintFlaw {
         /// The most similar name of a parameter, if a name is similar enough.
         nearest: Option<String>,
     },
-    /// A constraint names a continuous parameter, which has no levels.
-    #[error("`{name}` is continuous, expected a discrete parameter")]
+    /// A constraint names a function that does not exist.
+    #[error("no function is called `{name}`{}; the functions are {}", did_you_mean(.nearest), functions())]
+    UnknownFunction {
+        /// The given name, which is not the name of a function.
+        name: String,
+        /// The most similar name of a function, if a name is similar enough.
+        nearest: Option<&'static str>,
+    },
+    /// A word stands where a number is computed.
+    #[error("found the word '{word}', expected a number or a parameter with numbers")]
+    WordInTerm {
+        /// The word.
+        word: String,
+    },
+    /// A continuous parameter is compared for equality, which no test would keep.
+    #[error("`{name}` is continuous, expected a discrete parameter, or one of `<`, `<=`, `>` and `>=`")]
     Continuous {
         /// The name of the continuous parameter.
         name: String,
@@ -161,6 +176,14 @@ pub enum ConstraintFlaw {
         /// The names of the two parameters that are compared.
         parameters: [String; 2],
     },
+    /// A number is computed from a parameter with a word among its levels.
+    #[error("only numbers can be computed with, but `{}` takes the word {}", Name(.parameter), Written(.word))]
+    TermOfWord {
+        /// The name of the parameter that has a word among its levels.
+        parameter: String,
+        /// A word among the levels of the parameter.
+        word: Value,
+    },
     /// The constraint needs too many clauses, or clauses that are too large.
     #[error(
         "the constraint needs too many clauses, since it combines too many alternatives; write its parts that are \
@@ -190,6 +213,12 @@ pub enum Expected {
     Value,
     /// The token after a value in a list, which is `,` or `]`.
     CommaOrClose,
+    /// A number, a parameter, a function or `(`, after an operator.
+    Number,
+    /// The comma between the operands of a function.
+    Comma,
+    /// An operator or `)`, after a number in parentheses.
+    OperatorOrClose,
 }
 
 impl Expected {
@@ -199,7 +228,13 @@ impl Expected {
             Self::Junction | Self::JunctionOrClose => &["and", "or", "implies"],
             Self::Condition => &["not"],
             Self::Comparison | Self::In => &["in"],
-            Self::Operand | Self::List | Self::Value | Self::CommaOrClose => &[],
+            Self::Operand
+            | Self::List
+            | Self::Value
+            | Self::CommaOrClose
+            | Self::Number
+            | Self::Comma
+            | Self::OperatorOrClose => &[],
         }
     }
 }
@@ -216,6 +251,9 @@ impl fmt::Display for Expected {
             Self::List => "a list like [1, 2] or ['rain', 'fog']",
             Self::Value => "a number or a quoted word",
             Self::CommaOrClose => "`,` or `]`",
+            Self::Number => "a number, a parameter, a function or `(`",
+            Self::Comma => "an operator or `,`",
+            Self::OperatorOrClose => "an operator or `)`",
         })
     }
 }
@@ -229,4 +267,8 @@ fn listed(levels: &[Value]) -> String {
 
 fn hint(level: &Option<Value>) -> String {
     did_you_mean(&level.as_ref().map(|level| Written(level).to_string()))
+}
+
+fn functions() -> String {
+    Function::names().collect::<Vec<_>>().join(", ")
 }

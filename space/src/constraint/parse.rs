@@ -2,7 +2,7 @@
 
 use super::expression::{Expression, KEYWORDS, Operand};
 use super::token::{Token, tokens};
-use super::{ConstraintError, ConstraintFlaw, Expected};
+use super::{ConstraintError, ConstraintFlaw, Expected, Function, Term};
 use crate::Value;
 use crate::names::nearest;
 use std::str::FromStr;
@@ -35,6 +35,24 @@ pub(super) fn parse(text: &str) -> Result<(Expression, Vec<Places>), ConstraintE
         Token::Relation(_) => parser.fail(ConstraintFlaw::Chained),
         Token::Close => parser.fail(ConstraintFlaw::ClosesNothing),
         _ => parser.expected(Expected::Junction),
+    }
+}
+
+/// One side of a comparison.
+enum Side {
+    Name(String),
+    Value(Value),
+    Term(Term),
+}
+
+impl Side {
+    /// Returns the side as a term; `None` if the side is a word.
+    fn term(self) -> Option<Term> {
+        match self {
+            Side::Name(name) => Some(Term::Parameter(name)),
+            Side::Value(value) => value.number().map(Term::Number),
+            Side::Term(term) => Some(term),
+        }
     }
 }
 
@@ -82,18 +100,14 @@ impl Parser {
     }
 
     fn implication(&mut self) -> Result<Expression, ConstraintError> {
-        self.depth += 1;
-        if self.depth > DEEPEST {
-            return self.fail(ConstraintFlaw::TooDeep { most: DEEPEST });
-        }
-        let condition = self.joined("or")?;
-        let expression = if self.takes(&Token::Keyword("implies")) {
-            Expression::Implies(Box::new(condition), Box::new(self.implication()?))
-        } else {
-            condition
-        };
-        self.depth -= 1;
-        Ok(expression)
+        self.nested(|parser| {
+            let condition = parser.joined("or")?;
+            Ok(if parser.takes(&Token::Keyword("implies")) {
+                Expression::Implies(Box::new(condition), Box::new(parser.implication()?))
+            } else {
+                condition
+            })
+        })
     }
 
     /// Parses parts that `word` joins. The word `or` joins conjunctions, and `and` joins negations.
@@ -119,7 +133,7 @@ impl Parser {
             return self.fail(ConstraintFlaw::TooDeep { most: DEEPEST });
         }
         let open = self.offset();
-        let mut expression = if self.takes(&Token::Open) {
+        let mut expression = if !self.opens_term() && self.takes(&Token::Open) {
             self.depth += denials;
             let inner = self.implication()?;
             self.depth -= denials;
@@ -143,18 +157,40 @@ impl Parser {
         Ok(expression)
     }
 
+    /// Returns `true` if the next token is a parenthesis around a number, not around a condition.
+    fn opens_term(&self) -> bool {
+        let mut depth = 0;
+        for (at, (token, _)) in self.tokens.iter().enumerate().skip(self.next) {
+            match token {
+                Token::Open => depth += 1,
+                Token::Close => depth -= 1,
+                Token::Relation(_) | Token::Keyword(_) | Token::ListOpen | Token::End => return false,
+                _ => {}
+            }
+            if depth == 0 {
+                let after = self.tokens.get(at + 1).map(|(token, _)| token);
+                return at > self.next && matches!(after, Some(Token::Relation(_) | Token::Operator(_)));
+            }
+        }
+        false
+    }
+
     fn comparison(&mut self) -> Result<Expression, ConstraintError> {
         let offset = self.offset();
-        let left = match self.peek() {
-            Token::Name(_) | Token::Value(_) => self.take(),
-            _ => return self.expected(Expected::Condition),
-        };
+        let left = self.side(Expected::Condition)?;
         let relation = self.offset();
         let denied = self.takes(&Token::Keyword("not"));
         if self.takes(&Token::Keyword("in")) {
-            let Token::Name(parameter) = left else {
-                let flaw = ConstraintFlaw::ValueBeforeIn { found: left.to_string() };
-                return Err(ConstraintError::at(offset, flaw));
+            let parameter = match left {
+                Side::Name(parameter) => parameter,
+                Side::Value(value) => {
+                    let flaw = ConstraintFlaw::ValueBeforeIn { found: Token::Value(value).to_string() };
+                    return Err(ConstraintError::at(offset, flaw));
+                }
+                Side::Term(term) => {
+                    let flaw = ConstraintFlaw::ValueBeforeIn { found: format!("`{term}`") };
+                    return Err(ConstraintError::at(offset, flaw));
+                }
             };
             let (values, right) = self.list()?;
             self.places.push(Places { left: offset, relation, right });
@@ -169,18 +205,142 @@ impl Parser {
         }
         self.take();
         let other = self.offset();
-        let right = match self.peek() {
-            Token::Name(_) | Token::Value(_) => self.take(),
-            _ => return self.expected(Expected::Operand),
-        };
-        let (left_at, right_at, parameter, sign, with) = match (left, right) {
-            (Token::Name(name), Token::Value(value)) => (offset, other, name, sign, Operand::Value(value)),
-            (Token::Name(name), Token::Name(with)) => (offset, other, name, sign, Operand::Parameter(with)),
-            (Token::Value(value), Token::Name(name)) => (other, offset, name, sign.mirrored(), Operand::Value(value)),
-            _ => return Err(ConstraintError::at(offset, ConstraintFlaw::OnlyValues)),
+        let right = self.side(Expected::Operand)?;
+        let (left_at, right_at, compared) = match (left, right) {
+            (Side::Name(parameter), Side::Value(value)) => {
+                (offset, other, Expression::Compare { parameter, relation: sign, with: Operand::Value(value) })
+            }
+            (Side::Name(parameter), Side::Name(with)) => {
+                (offset, other, Expression::Compare { parameter, relation: sign, with: Operand::Parameter(with) })
+            }
+            (Side::Value(value), Side::Name(parameter)) => {
+                let relation = sign.mirrored();
+                (other, offset, Expression::Compare { parameter, relation, with: Operand::Value(value) })
+            }
+            (Side::Value(_), Side::Value(_)) => return Err(ConstraintError::at(offset, ConstraintFlaw::OnlyValues)),
+            (left, right) => {
+                let numbers = [(left, offset), (right, other)].map(|(side, at)| {
+                    let word = if let Side::Value(value) = &side { value.to_string() } else { String::new() };
+                    side.term().ok_or(ConstraintError::at(at, ConstraintFlaw::WordInTerm { word }))
+                });
+                let [left, right] = numbers;
+                let compared = Expression::Relate { left: left?, relation: sign, right: right? };
+                if compared.names().is_empty() {
+                    return Err(ConstraintError::at(offset, ConstraintFlaw::OnlyValues));
+                }
+                (offset, other, compared)
+            }
         };
         self.places.push(Places { left: left_at, relation, right: vec![right_at] });
-        Ok(Expression::Compare { parameter, relation: sign, with })
+        Ok(compared)
+    }
+
+    /// Parses one side of a comparison: a name, a value, or a term.
+    fn side(&mut self, expected: Expected) -> Result<Side, ConstraintError> {
+        if let Token::Value(value @ Value::Word(_)) = self.peek() {
+            let value = value.clone();
+            let at = self.offset();
+            self.take();
+            if matches!(self.peek(), Token::Operator(_)) {
+                let word = value.to_string();
+                return Err(ConstraintError::at(at, ConstraintFlaw::WordInTerm { word }));
+            }
+            return Ok(Side::Value(value));
+        }
+        Ok(match self.sum(expected)? {
+            Term::Number(number) => Side::Value(Value::Number(number)),
+            Term::Parameter(name) => Side::Name(name),
+            term => Side::Term(term),
+        })
+    }
+
+    /// Parses the sum of products, with `expected` at its beginning.
+    fn sum(&mut self, expected: Expected) -> Result<Term, ConstraintError> {
+        let mut sum = self.product(expected)?;
+        while let Token::Operator(sign @ (Function::Add | Function::Subtract)) = *self.peek() {
+            self.take();
+            sum = Term::Applied(sign, vec![sum, self.product(Expected::Number)?]);
+        }
+        Ok(sum)
+    }
+
+    fn product(&mut self, expected: Expected) -> Result<Term, ConstraintError> {
+        let mut product = self.factor(expected)?;
+        while let Token::Operator(sign @ (Function::Multiply | Function::Divide | Function::Remainder)) = *self.peek() {
+            self.take();
+            product = Term::Applied(sign, vec![product, self.factor(Expected::Number)?]);
+        }
+        Ok(product)
+    }
+
+    fn factor(&mut self, expected: Expected) -> Result<Term, ConstraintError> {
+        let at = self.offset();
+        Ok(match self.peek().clone() {
+            Token::Operator(Function::Subtract) => {
+                self.take();
+                self.nested(|parser| parser.factor(Expected::Number))?.negative()
+            }
+            Token::Value(Value::Number(number)) => {
+                self.take();
+                Term::Number(number)
+            }
+            Token::Value(word) => {
+                return self.fail(ConstraintFlaw::WordInTerm { word: word.to_string() });
+            }
+            Token::Name(name) => {
+                self.take();
+                if *self.peek() == Token::Open { self.call(&name, at)? } else { Term::Parameter(name) }
+            }
+            // At the beginning of a condition, a parenthesis may stand around a condition.
+            Token::Open if expected != Expected::Condition || self.opens_term() => {
+                self.take();
+                let inside = self.nested(|parser| parser.sum(Expected::Number))?;
+                self.close(at)?;
+                inside
+            }
+            _ => return self.expected(expected),
+        })
+    }
+
+    /// Parses a part that is one level deeper.
+    fn nested<T>(&mut self, parse: impl Fn(&mut Self) -> Result<T, ConstraintError>) -> Result<T, ConstraintError> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return self.fail(ConstraintFlaw::TooDeep { most: DEEPEST });
+        }
+        let part = parse(self)?;
+        self.depth -= 1;
+        Ok(part)
+    }
+
+    /// Parses the operands of a function.
+    fn call(&mut self, name: &str, at: usize) -> Result<Term, ConstraintError> {
+        let Some(function) = Function::named(name) else {
+            let nearest = nearest(name, Function::names());
+            return Err(ConstraintError::at(at, ConstraintFlaw::UnknownFunction { name: name.to_owned(), nearest }));
+        };
+        let open = self.offset();
+        self.take();
+        let mut operands = vec![self.nested(|parser| parser.sum(Expected::Number))?];
+        while operands.len() < function.operands() {
+            if !self.takes(&Token::Comma) {
+                return self.expected(Expected::Comma);
+            }
+            operands.push(self.nested(|parser| parser.sum(Expected::Number))?);
+        }
+        self.close(open)?;
+        Ok(Term::Applied(function, operands))
+    }
+
+    fn close(&mut self, open: usize) -> Result<(), ConstraintError> {
+        match self.peek() {
+            Token::Close => {
+                self.take();
+                Ok(())
+            }
+            Token::End => Err(ConstraintError::at(open, ConstraintFlaw::NeverClosed)),
+            _ => self.expected(Expected::OperatorOrClose),
+        }
     }
 
     /// Parses a list, and returns its values with their offsets.

@@ -6,11 +6,6 @@ use crate::{Parameter, Value};
 /// The greatest number of combinations of levels for which the function is asked.
 const MOST_COMBINATIONS: usize = 200_000;
 
-/// Returns `true` if a condition between these parameters can be written as [`expressions`].
-pub fn can_be_written(parameters: &[&Parameter]) -> bool {
-    sizes(parameters).is_some()
-}
-
 /// Returns the number of levels of each parameter; `None` if there are too many combinations of levels.
 fn sizes(parameters: &[&Parameter]) -> Option<Vec<usize>> {
     let levels = |parameter: &&Parameter| parameter.levels().map(<[_]>::len).filter(|_| parameter.signal.is_none());
@@ -20,20 +15,15 @@ fn sizes(parameters: &[&Parameter]) -> Option<Vec<usize>> {
 }
 
 /// Returns expressions that hold together exactly for the combinations of levels for which `holds` returns `true`. `holds`
-/// gets a value for each of the parameters.
+/// gets a value for each of the parameters. If there are no parameters, there are no expressions.
 ///
 /// Returns `None` if a parameter is continuous or varies over time, or if there are more than 200,000 combinations.
-///
-/// ```
-/// use paracosm_space::{Domain, Parameter, Value, constraint};
-/// let levels = |name: &str| Parameter::new(name, Domain::Choice([1, 2, 3].map(Value::from).into()));
-/// let (a, b) = (levels("a"), levels("b"));
-/// let written = constraint::expressions(&[&a, &b], |values| values[0] == values[1]).unwrap();
-/// assert_eq!(written[1].to_string(), "a == 2 implies b == 2");
-/// ```
-pub fn expressions(parameters: &[&Parameter], mut holds: impl FnMut(&[&Value]) -> bool) -> Option<Vec<Expression>> {
+pub(super) fn expressions(
+    parameters: &[&Parameter],
+    mut holds: impl FnMut(&[&Value]) -> bool,
+) -> Option<Vec<Expression>> {
     let sizes = sizes(parameters)?;
-    let (last, others) = parameters.split_last()?;
+    let Some((last, others)) = parameters.split_last() else { return Some(Vec::new()) };
     let mut written = Vec::new();
     let mut outer = vec![0; others.len().saturating_sub(1)];
     loop {
@@ -104,7 +94,7 @@ fn statement(mut known: Vec<Expression>, consequence: Expression) -> Expression 
 
 #[cfg(test)]
 mod tests {
-    use super::{can_be_written, expressions};
+    use super::expressions;
     use crate::{Domain, Parameter, Point, Space, Value};
     use proptest::prelude::*;
 
@@ -121,7 +111,7 @@ mod tests {
     #[test]
     fn too_many_combinations_have_no_table() {
         let (a, b) = (parameter("a", 500), parameter("b", 500));
-        assert!(can_be_written(&[&a]) && !can_be_written(&[&a, &b]));
+        assert!(expressions(&[&a], |_| true).is_some());
         assert_eq!(expressions(&[&a, &b], |_| true), None);
     }
 

@@ -1,7 +1,7 @@
 //! Divides the text of a constraint into tokens, each with its place.
 
 use super::expression::{KEYWORDS, Name, Relation, Written, begins_name, continues_name};
-use super::{ConstraintError, ConstraintFlaw};
+use super::{ConstraintError, ConstraintFlaw, Function};
 use crate::Value;
 use std::fmt;
 
@@ -11,6 +11,8 @@ pub(super) enum Token {
     Name(String),
     Value(Value),
     Relation(Relation),
+    /// An operator between two numbers. The minus of one number is the operator of the difference.
+    Operator(Function),
     /// A reserved word of the language, as listed in [`KEYWORDS`].
     Keyword(&'static str),
     Open,
@@ -27,6 +29,7 @@ impl fmt::Display for Token {
             Token::Name(name) => write!(f, "`{}`", Name(name)),
             Token::Value(value) => write!(f, "`{}`", Written(value)),
             Token::Relation(relation) => write!(f, "`{relation}`"),
+            Token::Operator(function) => write!(f, "`{}`", function.sign().unwrap_or_default()),
             Token::Keyword(word) => write!(f, "`{word}`"),
             Token::Open => f.write_str("`(`"),
             Token::Close => f.write_str("`)`"),
@@ -57,7 +60,7 @@ const FOREIGN: [(&str, &str); 14] = [
 ];
 
 /// The signs of this language. Longer signs come first.
-const SIGNS: [(&str, Token); 11] = [
+const SIGNS: [(&str, Token); 16] = [
     ("==", Token::Relation(Relation::Equal)),
     ("!=", Token::Relation(Relation::NotEqual)),
     ("<=", Token::Relation(Relation::LessOrEqual)),
@@ -69,6 +72,11 @@ const SIGNS: [(&str, Token); 11] = [
     ("[", Token::ListOpen),
     ("]", Token::ListClose),
     (",", Token::Comma),
+    ("+", Token::Operator(Function::Add)),
+    ("-", Token::Operator(Function::Subtract)),
+    ("*", Token::Operator(Function::Multiply)),
+    ("/", Token::Operator(Function::Divide)),
+    ("%", Token::Operator(Function::Remainder)),
 ];
 
 /// Returns the tokens of the text with their offsets in bytes. The last token is [`Token::End`].
@@ -83,21 +91,24 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, usize)>, ConstraintError>
             return Ok(found);
         }
         let listed = matches!(found.last(), Some((Token::Keyword("in"), _)));
-        let (token, length) = token(rest, listed).map_err(|flaw| ConstraintError::at(offset, flaw))?;
+        // After a number, a sign is an operator; elsewhere it belongs to the number that begins there.
+        let is_operand = |token: &Token| matches!(token, Token::Name(_) | Token::Value(_) | Token::Close);
+        let follows = found.last().is_some_and(|(token, _)| is_operand(token));
+        let (token, length) = token(rest, listed, follows).map_err(|flaw| ConstraintError::at(offset, flaw))?;
         found.push((token, offset));
         offset += length;
     }
 }
 
 /// Returns the token at the start of the text and its length. The text is not empty. A bracket begins a list if a list
-/// may stand at this place (`listed`), and otherwise a name.
-fn token(rest: &str, listed: bool) -> Result<(Token, usize), ConstraintFlaw> {
+/// may stand at this place (`listed`), and otherwise a name. A sign is an operator if it follows a number (`follows`).
+fn token(rest: &str, listed: bool, follows: bool) -> Result<(Token, usize), ConstraintFlaw> {
     if rest.starts_with(begins_name) {
         let name = run(rest, continues_name);
         let keyword = KEYWORDS.into_iter().find(|keyword| *keyword == name);
         return Ok((keyword.map_or_else(|| Token::Name(name.to_owned()), Token::Keyword), name.len()));
     }
-    if begins_number(rest) {
+    if begins_number(rest) && !(follows && rest.starts_with(['-', '+'])) {
         return match number(rest) {
             (written, Some(number)) => Ok((Token::Value(Value::Number(number)), written.len())),
             (written, None) => Err(ConstraintFlaw::NoNumber { written: written.to_owned() }),

@@ -146,6 +146,14 @@ impl Opened {
         }
     }
 
+    /// Returns the tuples of values of parameters that change together; `None` for a single parameter.
+    pub fn tuples(&self) -> Option<Vec<Value>> {
+        match &self.values {
+            Choices::Tuples(levels) if self.names.len() > 1 => Some(levels.iter().map(|level| joint(level)).collect()),
+            _ => None,
+        }
+    }
+
     /// Returns the values of the single parameters, by their names, that the value of a test stands for.
     pub fn parts(&self, value: &Value) -> Vec<(&str, String)> {
         let level = match &self.values {

@@ -5,6 +5,7 @@ mod catalogs;
 mod clock;
 mod clothoid;
 mod condition;
+mod constraints;
 mod distribution;
 mod elements;
 mod entity;

@@ -1,17 +1,22 @@
 //! The parameters of a scenario as parameters of tests: their declarations, their values, and their constraints.
 
+use super::constraints::{Said, written};
 use super::distribution::{Distribution, Opened, parsed};
 use super::rule::Rule;
 use super::scope::{Node, Scope, references};
-use crate::xml::{ExpressionFlaw, Flaw, ReadError};
-use paracosm_engine::{Constraint, Declared, Scenario};
+use crate::xml::{Flaw, ReadError};
+use paracosm_engine::{Declared, Scenario};
+use paracosm_space::constraint::Expression;
 use paracosm_space::{Domain, Parameter, Value, Values};
-use std::sync::Arc;
 
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
 /// The types whose values are texts, also if they look like numbers.
 const TEXTS: [&str; 2] = ["string", "dateTime"];
+/// The type of truths.
+const BOOLEAN: &str = "boolean";
+/// The values of a parameter of the type of truths.
+const TRUTHS: [&str; 2] = ["true", "false"];
 /// The bound of a parameter that is a number without a distribution.
 const BOUND: f64 = 1e9;
 
@@ -20,32 +25,26 @@ const BOUND: f64 = 1e9;
 pub(super) struct Parameters {
     distribution: Distribution,
     declarations: Vec<Declaration>,
+    constraints: Vec<Expression>,
 }
 
 /// The declaration of a parameter.
 #[derive(Debug)]
-struct Declaration {
-    name: String,
+pub(super) struct Declaration {
+    pub name: String,
     /// The type in words of the standard, for example `double`.
     kind: String,
     /// The value, which may be an expression of earlier parameters.
-    text: String,
-    /// The groups of constraints: the groups are alternatives, and the limits of a group hold together.
-    groups: Vec<Vec<Limit>>,
-}
-
-/// A limit of a parameter, which may be an expression of any parameters.
-#[derive(Debug)]
-struct Limit {
-    rule: Rule,
-    text: String,
+    pub text: String,
+    /// The groups of constraints: the groups are alternatives, and the limits of a group hold together. A limit may be an
+    /// expression of any parameters.
+    pub groups: Vec<Vec<(Rule, String)>>,
 }
 
 impl Parameters {
     /// Reads the declarations of a scenario.
     pub fn read(root: Node<'_>, distribution: Distribution) -> Result<Self, ReadError> {
-        let limit =
-            |node: Node<'_>| Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned() });
+        let limit = |node: Node<'_>| Ok((Rule::read(node)?, node.element.required("value")?.to_owned()));
         let declaration = |node: Node<'_>| {
             if node.element.text("name") == Some(EGO) {
                 let (element, attribute) = (node.name().to_owned(), "name".to_owned());
@@ -67,21 +66,39 @@ impl Parameters {
             })
         };
         let declarations = declarations(root).map(declaration).collect::<Result<_, ReadError>>()?;
-        Ok(Self { distribution, declarations })
+        let mut read = Self { distribution, declarations, constraints: Vec::new() };
+        for (node, declaration) in self::declarations(root).zip(&read.declarations) {
+            if declaration.groups.is_empty() {
+                continue;
+            }
+            let said = written(&read, declaration).map_err(|flaw| {
+                let (element, attribute) = ("ConstraintGroup".to_owned(), "value".to_owned());
+                node.error(Flaw::Expression { element, attribute, text: declaration.name.clone(), flaw })
+            })?;
+            match said {
+                Said::Always => {}
+                Said::If(expression) => read.constraints.push(expression),
+                Said::Never => {
+                    let (element, attribute) = (node.name().to_owned(), "value".to_owned());
+                    let (found, expected) = (declaration.text.clone(), "a value that its constraints allow".to_owned());
+                    return Err(node.error(Flaw::Value { element, attribute, found, expected, nearest: None }));
+                }
+            }
+        }
+        Ok(read)
     }
 
     /// Declares the parameters and their constraints in a world, and returns the values that the test gives them. A
     /// parameter whose value is an expression follows from the others.
-    pub fn declared(self: &Arc<Self>, root: Node<'_>, s: &mut Scenario) -> Result<Scope, ReadError> {
+    pub fn declared(&self, root: Node<'_>, s: &mut Scenario) -> Result<Scope, ReadError> {
         let mut given = Values::default();
         for declared in self.list() {
             let name = declared.parameter.name.clone();
             let value = s.parameter(declared).value();
             given.set(name, value);
         }
-        for index in (0..self.declarations.len()).filter(|index| !self.declarations[*index].groups.is_empty()) {
-            let all = self.clone();
-            s.constrain(Constraint::new(self.sources(index), move |test| all.broken(index, test)));
+        for constraint in &self.constraints {
+            s.constrain(constraint.clone());
         }
         let mut scope = Scope::default();
         for (node, declaration) in declarations(root).zip(&self.declarations) {
@@ -96,13 +113,13 @@ impl Parameters {
 
     /// Returns all parameters of tests: first the parameters of the distribution, then the other declared parameters.
     fn list(&self) -> impl Iterator<Item = Declared> {
-        let nominal = |name: &str| self.find(name).map(|index| parsed(&self.declarations[index].text));
+        let nominal = |name: &str| self.find(name).map(|declaration| parsed(&declaration.text));
         let opened = self.distribution.0.iter().map(move |opened| opened.declared(nominal));
         let closed = self.declarations.iter().filter(|declaration| self.is_closed(declaration)).map(|declaration| {
-            let takes_texts = TEXTS.contains(&declaration.kind.as_str());
+            let takes_texts = declaration.takes_texts();
             let value = if takes_texts { Value::from(declaration.text.as_str()) } else { parsed(&declaration.text) };
             let domain = match value {
-                _ if declaration.kind == "boolean" => Domain::Choice(vec!["true".into(), "false".into()]),
+                _ if declaration.kind == BOOLEAN => Domain::Choice(TRUTHS.map(Value::from).into()),
                 Value::Number(number) => Domain::Interval { lo: (-BOUND).min(number), hi: BOUND.max(number) },
                 ref other => Domain::Choice(vec![other.clone()]),
             };
@@ -113,8 +130,14 @@ impl Parameters {
         opened.chain(closed)
     }
 
-    fn find(&self, name: &str) -> Option<usize> {
-        self.declarations.iter().position(|declaration| declaration.name == name)
+    /// Returns the declaration of a parameter.
+    pub fn find(&self, name: &str) -> Option<&Declaration> {
+        self.declarations.iter().find(|declaration| declaration.name == name)
+    }
+
+    /// Iterates over the names of all declared parameters.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.declarations.iter().map(|declaration| declaration.name.as_str())
     }
 
     /// Returns `true` if a parameter of tests stands for the declared parameter alone, and the parameter is closed.
@@ -131,68 +154,53 @@ impl Parameters {
         self.is_closed(declaration).then(|| test.get(&declaration.name).map(ToString::to_string)).flatten()
     }
 
-    /// Returns the values of all declared parameters in a test.
-    fn scope(&self, test: &Values) -> Result<Scope, ExpressionFlaw> {
-        let mut scope = Scope::default();
-        for declaration in &self.declarations {
-            let value = match self.given(declaration, test) {
-                Some(value) => value,
-                None => scope.resolve(&declaration.text)?.into_owned(),
-            };
-            scope.set(declaration.name.as_str(), value);
-        }
-        Ok(scope)
+    /// Returns the name of the parameter of tests that gives a declared parameter its value; `None` if the value follows from
+    /// other parameters.
+    pub fn source(&self, declaration: &Declaration) -> Option<String> {
+        let opened = self.distribution.of(&declaration.name).map(Opened::name);
+        opened.or_else(|| self.is_closed(declaration).then(|| declaration.name.clone()))
     }
 
-    /// Returns the names of the parameters of tests on which the constraints of a declared parameter depend.
-    fn sources(&self, index: usize) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        let (mut open, mut seen) = (vec![index], Vec::new());
-        let limits = self.declarations[index].groups.iter().flatten().flat_map(|limit| references(&limit.text));
+    /// Returns the value of a declared parameter if its parameter of tests has the given value.
+    pub fn part(&self, declaration: &Declaration, value: &Value) -> Value {
+        let parts = self.distribution.of(&declaration.name).map(|opened| opened.parts(value)).unwrap_or_default();
+        let own = parts.into_iter().find(|(name, _)| *name == declaration.name);
+        own.map_or_else(|| value.clone(), |(_, text)| parsed(&text))
+    }
+
+    /// Returns the parameters of tests for whose values, one by one, the constraints of a declared parameter have to be
+    /// written, with these values. They are tuples and truths, with which nothing can be computed.
+    pub fn cases(&self, declaration: &Declaration) -> Vec<(String, Vec<Value>)> {
+        let mut cases: Vec<(String, Vec<Value>)> = Vec::new();
+        let (mut open, mut seen) = (vec![declaration], Vec::new());
+        let limits = declaration.groups.iter().flatten().flat_map(|(_, text)| references(text));
         open.extend(limits.filter_map(|name| self.find(name)));
-        while let Some(index) = open.pop() {
-            if seen.contains(&index) {
+        while let Some(declaration) = open.pop() {
+            if seen.contains(&declaration.name.as_str()) {
                 continue;
             }
-            seen.push(index);
-            let declaration = &self.declarations[index];
-            let own = self.distribution.of(&declaration.name).map(Opened::name);
-            let own = own.or_else(|| self.is_closed(declaration).then(|| declaration.name.clone()));
-            match own {
-                Some(name) if names.contains(&name) => (),
-                Some(name) => names.push(name),
-                None => open.extend(references(&declaration.text).filter_map(|name| self.find(name))),
+            seen.push(&declaration.name);
+            let Some(name) = self.source(declaration) else {
+                open.extend(references(&declaration.text).filter_map(|name| self.find(name)));
+                continue;
+            };
+            let values = match self.distribution.of(&declaration.name) {
+                Some(opened) => opened.tuples(),
+                None if declaration.kind == BOOLEAN => Some(TRUTHS.map(Value::from).into()),
+                None => None,
+            };
+            if let Some(values) = values.filter(|_| cases.iter().all(|(known, _)| *known != name)) {
+                cases.push((name, values));
             }
         }
-        names
+        cases
     }
+}
 
-    /// Returns the reason why a test breaks the constraints of a declared parameter; `None` if a group of them holds.
-    fn broken(&self, index: usize, test: &Values) -> Option<String> {
-        let Declaration { name, groups, .. } = &self.declarations[index];
-        let scope = match self.scope(test) {
-            Ok(scope) => scope,
-            Err(flaw) => return Some(format!("the constraints of `{name}` cannot be computed: {flaw}")),
-        };
-        let value = parsed(scope.get(name).unwrap_or_default());
-        let mut described = Vec::new();
-        for group in groups {
-            let mut holds = true;
-            let mut members = Vec::new();
-            for Limit { rule, text } in group {
-                let limit = match scope.resolve(text) {
-                    Ok(limit) => limit,
-                    Err(flaw) => return Some(format!("a limit of `{name}` cannot be computed: `{text}`: {flaw}")),
-                };
-                holds &= rule.holds(&value, &parsed(&limit));
-                members.push(format!("{} {limit}", rule.words()));
-            }
-            if holds {
-                return None;
-            }
-            described.push(members.join(" and "));
-        }
-        Some(format!("`{name}` is {value}, expected a value that is {}", described.join(", or ")))
+impl Declaration {
+    /// Returns `true` if the values of the parameter are texts, also if they look like numbers.
+    pub fn takes_texts(&self) -> bool {
+        TEXTS.contains(&self.kind.as_str())
     }
 }
 

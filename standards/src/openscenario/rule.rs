@@ -4,6 +4,7 @@ use super::scope::Node;
 use crate::xml::ReadError;
 use paracosm_engine::Stream;
 use paracosm_space::Value;
+use paracosm_space::constraint::Relation;
 use std::cmp::Ordering;
 
 /// The way in which a measure is compared with a value.
@@ -48,15 +49,15 @@ impl Rule {
         }
     }
 
-    /// Returns the rule in words, which a limit follows.
-    pub fn words(self) -> &'static str {
+    /// Returns the rule as a relation of constraints.
+    pub fn relation(self) -> Relation {
         match self {
-            Self::Equal => "equal to",
-            Self::NotEqual => "not equal to",
-            Self::Greater => "greater than",
-            Self::GreaterOrEqual => "at least",
-            Self::Less => "less than",
-            Self::LessOrEqual => "at most",
+            Self::Equal => Relation::Equal,
+            Self::NotEqual => Relation::NotEqual,
+            Self::Greater => Relation::Greater,
+            Self::GreaterOrEqual => Relation::GreaterOrEqual,
+            Self::Less => Relation::Less,
+            Self::LessOrEqual => Relation::LessOrEqual,
         }
     }
 

@@ -1,6 +1,7 @@
 //! Expressions in attributes: `${$Speed / 3.6}`, with numbers, truths, parameters, operators and functions (OpenSCENARIO 1.1, section
 //! 9.2).
 
+use paracosm_space::constraint::{Function, Term};
 use std::f64::consts::PI;
 use thiserror::Error;
 
@@ -63,50 +64,11 @@ pub enum ExpressionFlaw {
 /// A function or an operator of an expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Operator {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Remainder,
-    Power,
-    Greatest,
-    Least,
-    Negative,
-    Round,
-    Floor,
-    Ceiling,
-    Root,
-    Sign,
-    Absolute,
-    Sine,
-    Cosine,
-    Tangent,
-    ArcSine,
-    ArcCosine,
-    ArcTangent,
+    Number(Function),
     And,
     Or,
     Not,
 }
-
-/// The functions of the standard, with their numbers of arguments.
-const FUNCTIONS: [(&str, Operator, usize); 15] = [
-    ("round", Operator::Round, 1),
-    ("floor", Operator::Floor, 1),
-    ("ceil", Operator::Ceiling, 1),
-    ("sqrt", Operator::Root, 1),
-    ("sign", Operator::Sign, 1),
-    ("abs", Operator::Absolute, 1),
-    ("sin", Operator::Sine, 1),
-    ("cos", Operator::Cosine, 1),
-    ("tan", Operator::Tangent, 1),
-    ("asin", Operator::ArcSine, 1),
-    ("acos", Operator::ArcCosine, 1),
-    ("atan", Operator::ArcTangent, 1),
-    ("pow", Operator::Power, 2),
-    ("max", Operator::Greatest, 2),
-    ("min", Operator::Least, 2),
-];
 
 /// An expression as a tree.
 #[derive(Debug, Clone, PartialEq)]
@@ -183,43 +145,39 @@ impl Expression {
             Self::Call(operation) => operation.value(parameter),
         }
     }
+
+    /// Returns the expression as a term of constraints, with the given terms in the place of parameters.
+    pub fn term(&self, parameter: &dyn Fn(&str) -> Result<Term, ExpressionFlaw>) -> Result<Term, ExpressionFlaw> {
+        match self {
+            Self::Value(value) => value.number().map(Term::Number),
+            Self::Parameter(name) => parameter(name),
+            Self::Call(operation) => Ok(operation.term(parameter)?.computed()),
+        }
+    }
 }
 
 impl Operation {
     fn value(&self, parameter: &dyn Fn(&str) -> Result<Value, ExpressionFlaw>) -> Result<Value, ExpressionFlaw> {
         let operand = |index: usize| self.operands[index].value(parameter);
-        let number = |index| operand(index)?.number();
-        let result = match self.operator {
+        let function = match self.operator {
             Operator::And => return Ok(Value::Truth(operand(0)?.truth()? && operand(1)?.truth()?)),
             Operator::Or => return Ok(Value::Truth(operand(0)?.truth()? || operand(1)?.truth()?)),
             Operator::Not => return Ok(Value::Truth(!operand(0)?.truth()?)),
-            Operator::Divide | Operator::Remainder if number(1)? == 0.0 => return Err(ExpressionFlaw::DividesByZero),
-            Operator::Add => number(0)? + number(1)?,
-            Operator::Subtract => number(0)? - number(1)?,
-            Operator::Multiply => number(0)? * number(1)?,
-            Operator::Divide => number(0)? / number(1)?,
-            Operator::Remainder => number(0)? % number(1)?,
-            Operator::Power => libm::pow(number(0)?, number(1)?),
-            Operator::Greatest => number(0)?.max(number(1)?),
-            Operator::Least => number(0)?.min(number(1)?),
-            Operator::Negative => -number(0)?,
-            Operator::Round => number(0)?.round(),
-            Operator::Floor => number(0)?.floor(),
-            Operator::Ceiling => number(0)?.ceil(),
-            Operator::Root => number(0)?.sqrt(),
-            Operator::Absolute => number(0)?.abs(),
-            Operator::Sine => libm::sin(number(0)?),
-            Operator::Cosine => libm::cos(number(0)?),
-            Operator::Tangent => libm::tan(number(0)?),
-            Operator::ArcSine => libm::asin(number(0)?),
-            Operator::ArcCosine => libm::acos(number(0)?),
-            Operator::ArcTangent => libm::atan(number(0)?),
-            Operator::Sign => match number(0)? {
-                0.0 => 0.0,
-                other => other.signum(),
-            },
+            Operator::Number(function) => function,
         };
-        if result.is_finite() { Ok(Value::Number(result)) } else { Err(ExpressionFlaw::NotFinite) }
+        let a = operand(0)?.number()?;
+        let b = if self.operands.len() > 1 { operand(1)?.number()? } else { a };
+        let divides = matches!(function, Function::Divide | Function::Remainder);
+        let flaw = if divides && b == 0.0 { ExpressionFlaw::DividesByZero } else { ExpressionFlaw::NotFinite };
+        function.value(&[a, b]).map(Value::Number).ok_or(flaw)
+    }
+
+    fn term(&self, parameter: &dyn Fn(&str) -> Result<Term, ExpressionFlaw>) -> Result<Term, ExpressionFlaw> {
+        let Operator::Number(function) = self.operator else {
+            return Err(ExpressionFlaw::Type { found: "a truth".to_owned(), expected: "a number" });
+        };
+        let operands = self.operands.iter().map(|operand| operand.term(parameter));
+        Ok(Term::Applied(function, operands.collect::<Result<_, _>>()?))
     }
 }
 
@@ -238,11 +196,18 @@ impl Parser<'_> {
     }
 
     fn sum(&mut self) -> Result<Expression, ExpressionFlaw> {
-        self.chain(&[("+", Operator::Add), ("-", Operator::Subtract)], Self::product)
+        self.chain(
+            &[("+", Operator::Number(Function::Add)), ("-", Operator::Number(Function::Subtract))],
+            Self::product,
+        )
     }
 
     fn product(&mut self) -> Result<Expression, ExpressionFlaw> {
-        let operators = [("*", Operator::Multiply), ("/", Operator::Divide), ("%", Operator::Remainder)];
+        let operators = [
+            ("*", Operator::Number(Function::Multiply)),
+            ("/", Operator::Number(Function::Divide)),
+            ("%", Operator::Number(Function::Remainder)),
+        ];
         self.chain(&operators, Self::unary)
     }
 
@@ -261,7 +226,7 @@ impl Parser<'_> {
     }
 
     fn unary(&mut self) -> Result<Expression, ExpressionFlaw> {
-        let operators = [("-", Operator::Negative), ("not", Operator::Not)];
+        let operators = [("-", Operator::Number(Function::Negate)), ("not", Operator::Not)];
         let Some((_, operator)) = operators.iter().find(|(token, _)| self.takes(token)) else {
             return self.primary();
         };
@@ -294,13 +259,12 @@ impl Parser<'_> {
     }
 
     fn call(&mut self, name: &str) -> Result<Expression, ExpressionFlaw> {
-        let known = FUNCTIONS.iter().find(|(function, ..)| *function == name);
-        let Some((_, operator, count)) = known.filter(|_| self.takes("(")) else {
-            let nearest = paracosm_space::nearest(name, FUNCTIONS.iter().map(|(function, ..)| *function));
+        let Some(function) = Function::named(name).filter(|_| self.takes("(")) else {
+            let nearest = paracosm_space::nearest(name, Function::names());
             return Err(ExpressionFlaw::NoFunction { name: name.to_owned(), nearest });
         };
         let mut operands = vec![self.nested(Self::disjunction)?];
-        while operands.len() < *count {
+        while operands.len() < function.operands() {
             if !self.takes(",") {
                 return Err(self.unexpected("`,` and another argument"));
             }
@@ -309,7 +273,7 @@ impl Parser<'_> {
         if !self.takes(")") {
             return Err(self.unexpected("`)`"));
         }
-        Ok(Expression::Call(Operation { operator: *operator, operands }))
+        Ok(Expression::Call(Operation { operator: Operator::Number(function), operands }))
     }
 
     fn number(&mut self) -> Result<Expression, ExpressionFlaw> {

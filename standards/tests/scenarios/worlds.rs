@@ -2,10 +2,9 @@
 
 use paracosm_engine::driver::find;
 use paracosm_engine::vehicle::VehicleModel;
-use paracosm_engine::{
-    Constraint, Control, Declared, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate,
-};
+use paracosm_engine::{Control, Declared, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate};
 use paracosm_oracles::Trace;
+use paracosm_space::constraint::Expression;
 use paracosm_space::{Distribution, Domain, Value};
 use paracosm_standards::openscenario::Xosc;
 use std::path::{Path, PathBuf};
@@ -129,7 +128,7 @@ fn stochastic_distributions_give_parameters_their_chances() {
 #[test]
 fn constraints_name_the_parameters_on_which_they_depend() {
     let constraints = program("slow-leader-variation.xosc").declare().unwrap().constraints;
-    assert_eq!(constraints.iter().map(Constraint::names).collect::<Vec<_>>(), [["speed"]]);
+    assert_eq!(constraints.iter().map(Expression::names).collect::<Vec<_>>(), [["speed"]]);
 }
 
 #[test]
