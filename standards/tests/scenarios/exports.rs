@@ -68,7 +68,8 @@ fn bodies_enter_and_leave_at_their_ticks() {
             car(&|time| (0.01..7.99).contains(&time).then_some([200.0 - 5.0 * time, 5.25, 3.0])),
             // It is there at every other tick of a while.
             track("tree", Body::disc(paracosm_engine::object::Class::Tree, 0.3, 4.0), |time| {
-                ((time / DT).round() as u32 % 2 == 0 && time < 0.2 || time > 4.0).then_some([20.0, 30.0, 0.0])
+                (((time / DT).round() as u32).is_multiple_of(2) && time < 0.2 || time > 4.0)
+                    .then_some([20.0, 30.0, 0.0])
             }),
         ],
     };
