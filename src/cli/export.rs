@@ -83,14 +83,10 @@ impl Options {
         for (name, text) in [(SCENARIO, export.text()), (ROADS, roads)] {
             write_whole_here(&self.out.join(name), text.as_bytes())?;
         }
-        let absent: Vec<&str> = export.absent().collect();
-        if !absent.is_empty() {
-            verbosity.note(format_args!(
-                "{} not in the world during the whole test: {}. The scenario leaves out who is not there at the \
-                 beginning, and who leaves the world stays at the last place",
-                plural(absent.len(), "road user is"),
-                absent.join(", ")
-            ));
+        let missing: Vec<&str> = export.never_there().collect();
+        if !missing.is_empty() {
+            let (count, names) = (plural(missing.len(), "road user is"), missing.join(", "));
+            verbosity.note(format_args!("{count} never in the world during the test, and left out: {names}"));
         }
         if ego == EgoAs::Controller {
             verbosity.note("all road users except the ego vehicle follow the trajectories of the test");

@@ -222,7 +222,8 @@ impl BodyState {
     pub(crate) fn follow(&mut self, before: &Self, pose: Option<Pose>, dt: f64) {
         let present = pose.is_some();
         let pose = pose.unwrap_or(before.pose);
-        let way = pose.position - before.pose.position;
+        // A body that enters the world has not travelled to its place.
+        let way = if before.present { pose.position - before.pose.position } else { Vector2::zeros() };
         // The body itself stays the same: the states of many bodies are written at every tick.
         self.present = present;
         self.pose = pose;

@@ -117,7 +117,8 @@ pub enum InputError {
 
 /// The behaviour of an object that controls its own poses.
 pub trait Geometric: 'static {
-    /// Writes the poses of the object's bodies, in the order of declaration; `None` for a body that has left the world.
+    /// Writes the poses of the object's bodies, in the order of declaration; `None` for a body that is not in the world: it has
+    /// left, or it enters later. Before the first tick, only this difference counts, and bodies stand where they were declared.
     fn poses(&self, poses: &mut [Option<Pose>]);
 
     /// Writes the velocities of the object's bodies at the beginning of the run, in m/s over the ground, in the order

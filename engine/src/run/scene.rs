@@ -66,6 +66,7 @@ impl Scene {
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
         let mut objects = Vec::new();
+        let mut poses = Vec::new();
         let told = 1 + scenario.objects.iter().map(|object| object.bodies.len()).sum::<usize>();
         for ObjectSetup { name, bodies: own, behaviour } in scenario.objects.into_iter().chain(scenario.scenery) {
             let first = bodies.len();
@@ -73,6 +74,14 @@ impl Scene {
                 masses.push((first, *mass));
             }
             bodies.extend(own.iter().map(|(body, start)| BodyState::at_rest(*body, *start)));
+            if let Behaviour::Geometric(behaviour) = &behaviour {
+                poses.clear();
+                poses.extend(own.iter().map(|(_, start)| Some(*start)));
+                behaviour.poses(&mut poses);
+                for (state, pose) in bodies[first..].iter_mut().zip(&poses) {
+                    state.present = pose.is_some();
+                }
+            }
             objects.push(Object { name, own: (first, bodies.len()), behaviour });
         }
         let mut world = World::new(&bodies, &masses);
@@ -93,7 +102,7 @@ impl Scene {
             unchecked: weather.clone(),
             weather,
             previous: bodies.clone(),
-            poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
+            poses,
             pushes: Vec::with_capacity(masses.len()),
             velocities: Vec::new(),
             bodies,

@@ -181,7 +181,8 @@ pub(crate) fn overlapping(bodies: &[BodyState], joined: &[bool]) -> Option<(usiz
         }
         let (a, b) = (&bodies[i], &bodies[j]);
         let reach = a.body.outline.reach() + b.body.outline.reach();
-        (a.pose.position - b.pose.position).norm() <= reach && distance(a, b) <= 0.0
+        let is_near = (a.pose.position - b.pose.position).norm() <= reach;
+        is_near && a.present && b.present && distance(a, b) <= 0.0
     })
 }
 

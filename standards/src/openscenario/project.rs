@@ -1,7 +1,7 @@
 //! The place on a map of a position in the world.
 
 use super::place::Place;
-use crate::opendrive::{Map, Road};
+use crate::opendrive::{End, Map, Road};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -10,8 +10,14 @@ use paracosm_engine::road::wrapped;
 const SPACING: f64 = 5.0;
 /// The greatest number of steps of Newton's method.
 const STEPS: usize = 20;
+/// The greatest distance in metres from a place on a road of a position on the road. Files give positions to a millimetre.
+const ON: f64 = 1e-3;
+/// The greatest distance in metres from a place on a road of a position in a gap of the road: between pieces of the reference line that
+/// do not quite meet, or between two roads.
+const IN_GAP: f64 = 0.1;
 
-/// Returns the place of a pose on the nearest road whose lanes are under the pose; `None` if there is none.
+/// Returns the place of a pose on the nearest road whose lanes are under the pose; `None` if there is none. A position beyond an end
+/// where no road goes on is on no road.
 pub(super) fn project(pose: &Pose, map: &Map) -> Option<Place> {
     let on_road = |(index, road): (usize, &Road)| {
         let s = nearest(road, pose.position);
@@ -23,10 +29,14 @@ pub(super) fn project(pose: &Pose, map: &Map) -> Option<Place> {
         let lanes = &road.sections[section].lanes;
         let (left, right) = (outer(lanes.first())?, outer(lanes.last())?);
         let beside = (t - left).max(right - t).max(0.0);
-        (away < 0.1 && beside <= 0.0).then_some((t.abs(), index, s, t))
+        let ends = s <= 0.0 && road.link(End::Start).is_none() || s >= road.length && road.link(End::End).is_none();
+        let is_on = away <= ON;
+        let most = if ends { ON } else { IN_GAP };
+        (away <= most && beside <= 0.0).then_some((!is_on, t.abs(), index, s, t))
     };
-    let found = map.roads.iter().enumerate().filter_map(on_road).min_by(|a, b| a.0.total_cmp(&b.0));
-    let (_, road, s, t) = found?;
+    let found = map.roads.iter().enumerate().filter_map(on_road);
+    let found = found.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let (_, _, road, s, t) = found?;
     let mut place = Place { road, s, lane: 0, offset: 0.0, turn: 0.0 };
     place.offset = t - place.t(map);
     let lane = place.lane_below(map);

@@ -1,0 +1,152 @@
+//! The entities of an exported scenario: their boxes, and the stays of their bodies in the world.
+
+use crate::xml::Writer;
+use paracosm_engine::object::Class;
+use paracosm_engine::{Motion, Track};
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::ops::Range;
+
+/// The distance of the rear axle from the middle of a vehicle, as a share of its length.
+const REAR: f64 = 0.3;
+/// The distance between the axles of a vehicle, as a share of its length.
+const BASE: f64 = 0.6;
+/// The track width of a vehicle as a share of its width.
+const TRACK_WIDTH: f64 = 0.85;
+/// The diameter of a wheel in metres.
+const WHEEL: f64 = 0.6;
+/// The greatest angle of the front wheels in radians.
+const STEERING: f64 = 0.6;
+/// The mass in kilograms of a cubic metre of an entity, with the empty space within it.
+const DENSITY: f64 = 150.0;
+/// The greatest speed of a vehicle of the file in m/s. It bounds no recorded motion.
+const FASTEST: f64 = 100.0;
+/// The greatest acceleration of a vehicle of the file in m/s². It bounds no recorded motion.
+const STRONGEST: f64 = 20.0;
+/// The name of the ego vehicle in the file.
+const EGO: &str = "Ego";
+
+/// An entity of the file.
+pub(super) struct Entity<'a> {
+    pub name: String,
+    pub track: &'a Track,
+    /// The ticks of each stay in the world.
+    pub stays: Vec<Range<usize>>,
+    pub is_ego: bool,
+    /// The distance in metres from the reference point to the middle of the body.
+    pub ahead: f64,
+    /// The length and the width in metres.
+    size: [f64; 2],
+}
+
+/// The element of an entity, with its category.
+enum Kind {
+    Vehicle(&'static str),
+    Pedestrian,
+    MiscObject(&'static str),
+}
+
+impl<'a> Entity<'a> {
+    /// Returns the entities of all bodies that are in the world during the run. Their names are all different.
+    pub fn all(motion: &'a Motion) -> Vec<Self> {
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut entities = Vec::new();
+        for (index, track) in motion.tracks.iter().enumerate() {
+            let stays = stays(track);
+            if stays.is_empty() {
+                continue;
+            }
+            let base = if index == 0 { EGO } else { &track.name };
+            let count = counts.entry(base).and_modify(|count| *count += 1).or_insert(1);
+            let name = if *count == 1 { base.to_owned() } else { format!("{base} ({count})") };
+            let half = track.body.outline.half_extent();
+            let size = [2.0 * half.x, 2.0 * half.y];
+            let ahead = if matches!(kind(track.body.class), Kind::Vehicle(_)) { REAR * size[0] } else { 0.0 };
+            entities.push(Self { name, track, stays, is_ego: index == 0, ahead, size });
+        }
+        entities
+    }
+
+    /// Writes the element of the entity.
+    pub fn write(&self, xml: &mut Writer) {
+        let ([length, width], height) = (self.size, self.track.body.height);
+        let mass = (DENSITY * length * width * height).round().max(1.0);
+        xml.within("ScenarioObject", &[("name", &self.name)], |xml| match kind(self.track.body.class) {
+            Kind::Vehicle(category) => {
+                let attributes: &[(&str, &dyn Display)] =
+                    &[("name", &category), ("vehicleCategory", &category), ("mass", &mass)];
+                xml.within("Vehicle", attributes, |xml| {
+                    self.bounding_box(xml);
+                    let performance: &[(&str, &dyn Display)] =
+                        &[("maxSpeed", &FASTEST), ("maxAcceleration", &STRONGEST), ("maxDeceleration", &STRONGEST)];
+                    xml.empty("Performance", performance);
+                    xml.within("Axles", &[], |xml| {
+                        for (axle, x, steering) in [("FrontAxle", BASE * length, STEERING), ("RearAxle", 0.0, 0.0)] {
+                            let attributes: &[(&str, &dyn Display)] = &[
+                                ("maxSteering", &steering),
+                                ("wheelDiameter", &WHEEL),
+                                ("trackWidth", &(TRACK_WIDTH * width)),
+                                ("positionX", &x),
+                                ("positionZ", &(0.5 * WHEEL)),
+                            ];
+                            xml.empty(axle, attributes);
+                        }
+                    });
+                    xml.empty("Properties", &[]);
+                });
+            }
+            Kind::Pedestrian => {
+                let attributes: &[(&str, &dyn Display)] =
+                    &[("name", &"pedestrian"), ("mass", &mass), ("pedestrianCategory", &"pedestrian")];
+                xml.within("Pedestrian", attributes, |xml| {
+                    self.bounding_box(xml);
+                    xml.empty("Properties", &[]);
+                });
+            }
+            Kind::MiscObject(category) => {
+                let attributes: &[(&str, &dyn Display)] =
+                    &[("name", &category), ("mass", &mass), ("miscObjectCategory", &category)];
+                xml.within("MiscObject", attributes, |xml| {
+                    self.bounding_box(xml);
+                    xml.empty("Properties", &[]);
+                });
+            }
+        });
+    }
+
+    fn bounding_box(&self, xml: &mut Writer) {
+        let ([length, width], height) = (self.size, self.track.body.height);
+        xml.within("BoundingBox", &[], |xml| {
+            xml.empty("Center", &[("x", &self.ahead), ("y", &0), ("z", &(0.5 * height))]);
+            xml.empty("Dimensions", &[("width", &width), ("length", &length), ("height", &height)]);
+        });
+    }
+}
+
+/// Returns the ticks of each stay of a body in the world.
+pub(super) fn stays(track: &Track) -> Vec<Range<usize>> {
+    let mut stays: Vec<Range<usize>> = Vec::new();
+    for tick in (0..track.poses.len()).filter(|tick| track.poses[*tick].is_some()) {
+        match stays.last_mut() {
+            Some(last) if last.end == tick => last.end = tick + 1,
+            _ => stays.push(tick..tick + 1),
+        }
+    }
+    stays
+}
+
+fn kind(class: Class) -> Kind {
+    match class {
+        Class::Car => Kind::Vehicle("car"),
+        Class::Van => Kind::Vehicle("van"),
+        Class::Truck => Kind::Vehicle("truck"),
+        Class::Bus => Kind::Vehicle("bus"),
+        Class::Motorcycle => Kind::Vehicle("motorbike"),
+        Class::Bicycle => Kind::Vehicle("bicycle"),
+        Class::Pedestrian => Kind::Pedestrian,
+        Class::Building => Kind::MiscObject("building"),
+        Class::Tree => Kind::MiscObject("tree"),
+        Class::Sign => Kind::MiscObject("pole"),
+        Class::Prop => Kind::MiscObject("obstacle"),
+    }
+}
