@@ -163,6 +163,14 @@ impl Program {
         self.built(Some(test.into())).map(|_| ())
     }
 
+    /// Returns the remarks of the program on the world of a test, for example which parts of a file have no effect.
+    pub fn notes<'a>(&self, test: impl Into<Test<'a>>) -> Vec<String> {
+        let mut scenario = Scenario::new(Some(&test.into()));
+        scenario.notes = Some(Vec::new());
+        self.build(&mut scenario);
+        scenario.notes.unwrap_or_default()
+    }
+
     /// Returns the graph of the program's streams with nominal values, in the DOT language of Graphviz.
     ///
     /// # Errors

@@ -68,6 +68,8 @@ pub struct Scenario {
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
     pub(crate) end: Option<Stream<bool>>,
+    /// The remarks of the program; `None` if nobody wants them.
+    pub(crate) notes: Option<Vec<String>>,
     pub(crate) duration: f64,
     pub(crate) dt: f64,
     effects: Vec<Rc<Node>>,
@@ -127,6 +129,7 @@ impl Scenario {
             requirements: Rc::default(),
             premise: None,
             end: None,
+            notes: None,
             duration: 10.0,
             dt: DEFAULT_DT,
             effects: Vec::new(),
@@ -166,9 +169,8 @@ impl Scenario {
     }
 
     /// Declares a parameter that was described as data, for example in a file.
-    pub fn parameter(&mut self, Declared { parameter, open, opens, takes_texts }: Declared) -> Param<Value> {
-        let parameter = self.described(parameter, open, opens, Read::value());
-        if takes_texts { parameter.taking_texts() } else { parameter }
+    pub fn parameter(&mut self, declared: Declared) -> Param<Value> {
+        self.described(declared, Read::value())
     }
 
     /// Declares a closed parameter that takes any text, such as the path of a file. It stays at `nominal` until a study sets
@@ -182,19 +184,14 @@ impl Scenario {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
-        self.described(parameter, open, None, read)
+        self.described(Declared { open, ..Declared::open(parameter) }, read)
     }
 
-    fn described<T: Clone>(
-        &mut self,
-        parameter: Parameter,
-        open: bool,
-        opens: Option<Domain>,
-        read: Read<T>,
-    ) -> Param<T> {
+    fn described<T: Clone>(&mut self, declared: Declared, read: Read<T>) -> Param<T> {
         // A name that the test does not know is reported once the program has returned, together with all the others.
-        let given = self.given.iter().find(|(given, _)| *given == parameter.name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(Declared { open, opens, ..Declared::open(parameter) });
+        let name = &declared.parameter.name;
+        let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
+        self.parameters.borrow_mut().push(declared);
         Param::new(self, given.unwrap_or_default(), read)
     }
 
@@ -285,6 +282,14 @@ impl Scenario {
     /// of the constraint are discrete, measures of coverage do not count such tests.
     pub fn constrain(&mut self, constraint: Constraint) {
         self.constraints.push(constraint);
+    }
+
+    /// Remarks on the world, such as the parts of a file that have no effect. The function makes the remarks if somebody wants
+    /// them, so they take no time in a test.
+    pub fn note<N: IntoIterator<Item = String>>(&mut self, notes: impl FnOnce() -> N) {
+        if let Some(all) = &mut self.notes {
+            all.extend(notes());
+        }
     }
 
     /// Makes the test invalid for the reason `why`, because the test's world is impossible. Use this for conditions

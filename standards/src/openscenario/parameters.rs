@@ -1,17 +1,17 @@
 //! The parameters of a scenario as parameters of tests: their declarations, their values, and their constraints.
 
-use super::distribution::{Distribution, Opened, parsed};
-use super::rule::Rule;
+use super::demand::{Breach, Demand};
+use super::distribution::{Distribution, Opened};
+use super::kind::Kind;
+use super::local::{Local, declarations};
 use super::scope::{Node, Scope, references};
-use crate::xml::{ExpressionFlaw, Flaw, ReadError};
+use crate::xml::{ExpressionFlaw, ReadError};
 use paracosm_engine::{Constraint, Declared, Scenario};
 use paracosm_space::{Domain, Parameter, Value, Values};
 use std::sync::Arc;
 
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
-/// The types whose values are texts, also if they look like numbers.
-const TEXTS: [&str; 2] = ["string", "dateTime"];
 /// The bound of a parameter that is a number without a distribution.
 const BOUND: f64 = 1e9;
 
@@ -25,48 +25,38 @@ pub(super) struct Parameters {
 /// The declaration of a parameter.
 #[derive(Debug)]
 struct Declaration {
-    name: String,
-    /// The type in words of the standard, for example `double`.
-    kind: String,
     /// The value, which may be an expression of earlier parameters.
     text: String,
-    /// The groups of constraints: the groups are alternatives, and the limits of a group hold together.
-    groups: Vec<Vec<Limit>>,
+    demand: Demand,
 }
 
-/// A limit of a parameter, which may be an expression of any parameters.
-#[derive(Debug)]
-struct Limit {
-    rule: Rule,
-    text: String,
+impl Declaration {
+    fn name(&self) -> &str {
+        &self.demand.name
+    }
+
+    /// Returns `true` if the value follows from other parameters.
+    fn follows(&self) -> bool {
+        self.text.starts_with('$')
+    }
 }
 
 impl Parameters {
     /// Reads the declarations of a scenario.
     pub fn read(root: Node<'_>, distribution: Distribution) -> Result<Self, ReadError> {
-        let limit =
-            |node: Node<'_>| Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned() });
-        let declaration = |node: Node<'_>| {
-            if node.element.text("name") == Some(EGO) {
-                let (element, attribute) = (node.name().to_owned(), "name".to_owned());
-                let expected = "another name, because this one chooses the ego vehicle".to_owned();
-                return Err(node.error(Flaw::Value {
-                    element,
-                    attribute,
-                    found: EGO.to_owned(),
-                    expected,
-                    nearest: None,
-                }));
+        let declaration = |element| {
+            let node = Node { element, ..root };
+            if element.text("name") == Some(EGO) {
+                return Err(node.unexpected("name", EGO, "another name, because this one chooses the ego vehicle"));
             }
-            let groups = node.all("ConstraintGroup").map(|group| group.all("ValueConstraint").map(limit).collect());
-            Ok(Declaration {
-                name: node.element.required("name")?.to_owned(),
-                kind: node.element.text("parameterType").unwrap_or_default().to_owned(),
-                text: node.element.text("value").unwrap_or_default().to_owned(),
-                groups: groups.collect::<Result<_, ReadError>>()?,
-            })
+            let demand = Demand::read(node)?;
+            let declared = Declaration { text: element.text("value").unwrap_or_default().to_owned(), demand };
+            if !declared.follows() && !declared.demand.kind.takes(&declared.text) {
+                return Err(Breach::of(declared.demand.kind).error(node, &declared.text));
+            }
+            Ok(declared)
         };
-        let declarations = declarations(root).map(declaration).collect::<Result<_, ReadError>>()?;
+        let declarations = declarations(root.element).map(declaration).collect::<Result<_, ReadError>>()?;
         Ok(Self { distribution, declarations })
     }
 
@@ -79,56 +69,81 @@ impl Parameters {
             let value = s.parameter(declared).value();
             given.set(name, value);
         }
-        for index in (0..self.declarations.len()).filter(|index| !self.declarations[*index].groups.is_empty()) {
-            let all = self.clone();
-            s.constrain(Constraint::new(self.sources(index), move |test| all.broken(index, test)));
-        }
         let mut scope = Scope::default();
-        for (node, declaration) in declarations(root).zip(&self.declarations) {
-            let value = match self.given(declaration, &given) {
-                Some(value) => value,
-                None => Node { scope: &scope, ..node }.text("value")?.unwrap_or_default().into_owned(),
+        for (index, (element, declaration)) in declarations(root.element).zip(&self.declarations).enumerate() {
+            let node = Node { element, scope: &scope };
+            let (demand, given) = (&declaration.demand, self.given(declaration, &given));
+            let value = match &given {
+                Some(value) => value.clone(),
+                None => node.text("value")?.unwrap_or_default().into_owned(),
             };
-            scope.set(declaration.name.as_str(), value);
+            let is_constraint = demand.depends_on_values() && (demand.has_limits() || given.is_none());
+            if is_constraint {
+                let all = self.clone();
+                s.constrain(Constraint::new(self.sources(index), move |test| all.broken(index, test)));
+            } else if !demand.kind.takes(&value) {
+                return Err(Breach::of(demand.kind).error(node, &value));
+            }
+            scope.set(demand.name.as_str(), value);
         }
         Ok(scope)
     }
 
+    /// Makes the constraint between parameters of tests that a parameter of a part of the scenario makes.
+    pub fn constraint(self: &Arc<Self>, local: Local) -> Constraint {
+        let all = self.clone();
+        Constraint::new(self.behind(local.sources()), move |test| match all.scope(test) {
+            Ok(scope) => local.broken(scope),
+            Err(flaw) => Some(flaw.to_string()),
+        })
+    }
+
     /// Returns all parameters of tests: first the parameters of the distribution, then the other declared parameters.
     fn list(&self) -> impl Iterator<Item = Declared> {
-        let nominal = |name: &str| self.find(name).map(|index| parsed(&self.declarations[index].text));
-        let opened = self.distribution.0.iter().map(move |opened| opened.declared(nominal));
+        let nominal = |name: &str| {
+            self.find(name).map(|index| &self.declarations[index]).map(|of| of.demand.kind.value(&of.text))
+        };
+        let whole = |opened: &Opened| {
+            opened
+                .single()
+                .and_then(|name| self.find(name))
+                .is_some_and(|at| self.declarations[at].demand.kind.is_whole())
+        };
+        let opened = self.distribution.0.iter();
+        let opened = opened.map(move |opened| Declared { whole: whole(opened), ..opened.declared(nominal) });
         let closed = self.declarations.iter().filter(|declaration| self.is_closed(declaration)).map(|declaration| {
-            let takes_texts = TEXTS.contains(&declaration.kind.as_str());
-            let value = if takes_texts { Value::from(declaration.text.as_str()) } else { parsed(&declaration.text) };
-            let domain = match value {
-                _ if declaration.kind == "boolean" => Domain::Choice(vec!["true".into(), "false".into()]),
-                Value::Number(number) => Domain::Interval { lo: (-BOUND).min(number), hi: BOUND.max(number) },
-                ref other => Domain::Choice(vec![other.clone()]),
+            let kind = declaration.demand.kind;
+            let value = kind.value(&declaration.text);
+            let domain = match (kind, &value) {
+                (Kind::Boolean, _) => Domain::Choice(vec!["true".into(), "false".into()]),
+                (Kind::Whole(least, most), _) => Domain::Interval { lo: least as f64, hi: most as f64 },
+                (_, Value::Number(number)) => Domain::Interval { lo: (-BOUND).min(*number), hi: BOUND.max(*number) },
+                (_, other) => Domain::Choice(vec![other.clone()]),
             };
-            let mut parameter = Parameter::new(declaration.name.as_str(), domain);
+            let mut parameter = Parameter::new(declaration.name(), domain);
             parameter.default = Some(value);
-            Declared { open: false, takes_texts, ..Declared::open(parameter) }
+            let (takes_texts, whole) = (kind.is_text(), kind.is_whole());
+            Declared { open: false, takes_texts, whole, ..Declared::open(parameter) }
         });
         opened.chain(closed)
     }
 
     fn find(&self, name: &str) -> Option<usize> {
-        self.declarations.iter().position(|declaration| declaration.name == name)
+        self.declarations.iter().position(|declaration| declaration.name() == name)
     }
 
     /// Returns `true` if a parameter of tests stands for the declared parameter alone, and the parameter is closed.
     fn is_closed(&self, declaration: &Declaration) -> bool {
-        self.distribution.of(&declaration.name).is_none() && !declaration.text.starts_with('$')
+        self.distribution.of(declaration.name()).is_none() && !declaration.follows()
     }
 
     /// Returns the value that a test gives a declared parameter; `None` if the value follows from other parameters.
     fn given(&self, declaration: &Declaration, test: &Values) -> Option<String> {
-        if let Some(opened) = self.distribution.of(&declaration.name) {
+        if let Some(opened) = self.distribution.of(declaration.name()) {
             let parts = opened.parts(test.get(&opened.name())?);
-            return parts.into_iter().find(|(name, _)| *name == declaration.name).map(|(_, value)| value);
+            return parts.into_iter().find(|(name, _)| *name == declaration.name()).map(|(_, value)| value);
         }
-        self.is_closed(declaration).then(|| test.get(&declaration.name).map(ToString::to_string)).flatten()
+        self.is_closed(declaration).then(|| test.get(declaration.name()).map(ToString::to_string)).flatten()
     }
 
     /// Returns the values of all declared parameters in a test.
@@ -139,25 +154,28 @@ impl Parameters {
                 Some(value) => value,
                 None => scope.resolve(&declaration.text)?.into_owned(),
             };
-            scope.set(declaration.name.as_str(), value);
+            scope.set(declaration.name(), value);
         }
         Ok(scope)
     }
 
-    /// Returns the names of the parameters of tests on which the constraints of a declared parameter depend.
+    /// Returns the names of the parameters of tests on which the demands on a declared parameter depend.
     fn sources(&self, index: usize) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        let (mut open, mut seen) = (vec![index], Vec::new());
-        let limits = self.declarations[index].groups.iter().flatten().flat_map(|limit| references(&limit.text));
-        open.extend(limits.filter_map(|name| self.find(name)));
+        let limits = self.declarations[index].demand.limits().flat_map(references);
+        self.behind(std::iter::once(index).chain(limits.filter_map(|name| self.find(name))).collect())
+    }
+
+    /// Returns the names of the parameters of tests from which the values of declared parameters follow.
+    fn behind(&self, mut open: Vec<usize>) -> Vec<String> {
+        let (mut names, mut seen): (Vec<String>, Vec<usize>) = Default::default();
         while let Some(index) = open.pop() {
             if seen.contains(&index) {
                 continue;
             }
             seen.push(index);
             let declaration = &self.declarations[index];
-            let own = self.distribution.of(&declaration.name).map(Opened::name);
-            let own = own.or_else(|| self.is_closed(declaration).then(|| declaration.name.clone()));
+            let own = self.distribution.of(declaration.name()).map(Opened::name);
+            let own = own.or_else(|| self.is_closed(declaration).then(|| declaration.name().to_owned()));
             match own {
                 Some(name) if names.contains(&name) => (),
                 Some(name) => names.push(name),
@@ -167,40 +185,31 @@ impl Parameters {
         names
     }
 
-    /// Returns the reason why a test breaks the constraints of a declared parameter; `None` if a group of them holds.
+    /// Returns the reason why a test breaks the demands on a declared parameter; `None` if it keeps them.
     fn broken(&self, index: usize, test: &Values) -> Option<String> {
-        let Declaration { name, groups, .. } = &self.declarations[index];
-        let scope = match self.scope(test) {
-            Ok(scope) => scope,
-            Err(flaw) => return Some(format!("the constraints of `{name}` cannot be computed: {flaw}")),
-        };
-        let value = parsed(scope.get(name).unwrap_or_default());
-        let mut described = Vec::new();
-        for group in groups {
-            let mut holds = true;
-            let mut members = Vec::new();
-            for Limit { rule, text } in group {
-                let limit = match scope.resolve(text) {
-                    Ok(limit) => limit,
-                    Err(flaw) => return Some(format!("a limit of `{name}` cannot be computed: `{text}`: {flaw}")),
-                };
-                holds &= rule.holds(&value, &parsed(&limit));
-                members.push(format!("{} {limit}", rule.words()));
-            }
-            if holds {
-                return None;
-            }
-            described.push(members.join(" and "));
+        let demand = &self.declarations[index].demand;
+        match self.scope(test) {
+            Ok(scope) => demand.broken(&scope),
+            Err(flaw) => Some(format!("the constraints of `{}` cannot be computed: {flaw}", demand.name)),
         }
-        Some(format!("`{name}` is {value}, expected a value that is {}", described.join(", or ")))
     }
 }
 
-/// Returns the names of the parameters that a scenario declares.
-pub(super) fn declared_names(root: Node<'_>) -> Result<Vec<String>, ReadError> {
-    declarations(root).map(|declaration| Ok(declaration.element.required("name")?.to_owned())).collect()
+/// Returns the names and the types of the parameters that a scenario declares.
+pub(super) fn declared_kinds(root: Node<'_>) -> Result<Vec<(String, Kind)>, ReadError> {
+    let one = |element| {
+        let node = Node { element, ..root };
+        Ok((element.required("name")?.to_owned(), Kind::read(node)?))
+    };
+    declarations(root.element).map(one).collect()
 }
 
-fn declarations(root: Node<'_>) -> impl Iterator<Item = Node<'_>> {
-    root.first("ParameterDeclarations").into_iter().flat_map(|all| all.all("ParameterDeclaration"))
+/// Returns the parameters that a scenario declares, with the values of the declarations.
+pub(super) fn declared_values(root: Node<'_>) -> Result<Scope, ReadError> {
+    let mut scope = Scope::default();
+    for element in declarations(root.element) {
+        let value = Node { element, scope: &scope }.text("value")?.unwrap_or_default().into_owned();
+        scope.set(element.required("name")?, value);
+    }
+    Ok(scope)
 }

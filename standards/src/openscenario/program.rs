@@ -1,11 +1,11 @@
 //! A scenario of a file as a program: the same world, streams and signals as those of any other program.
 
-use super::catalogs::{CatalogFiles, declare};
+use super::catalogs::{CatalogFiles, Found};
 use super::condition::{Check, Condition};
 use super::distribution::Distribution;
 use super::elements::schema;
 use super::measure::Measure;
-use super::parameters::{EGO, Parameters, declared_names};
+use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
@@ -40,7 +40,8 @@ pub struct Xosc {
     document: Document,
     catalogs: CatalogFiles,
     parameters: Arc<Parameters>,
-    notes: Vec<NoEffect>,
+    /// The remarks on the file and on the file of the distribution.
+    notes: Vec<String>,
     roads: Mutex<BTreeMap<PathBuf, Roads>>,
 }
 
@@ -49,6 +50,8 @@ pub struct Xosc {
 struct Roads {
     map: Arc<Map>,
     network: Arc<RoadNetwork>,
+    /// The remarks on the file of the map.
+    notes: Arc<[String]>,
 }
 
 /// The storyboard that controls all entities, as an object of the world without a body.
@@ -87,65 +90,59 @@ impl Xosc {
             let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
-                schema().check(root.element)?;
+                let notes = in_file(&schema().check(root.element)?, file);
                 let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
                 let scenario = Document::open(&file)?;
                 let distribution = {
                     let tree = scenario.tree()?;
-                    let declared = declared_names(Node { element: scenario.root(&tree, ROOT)?, scope: &none })?;
+                    let declared = declared_kinds(Node { element: scenario.root(&tree, ROOT)?, scope: &none })?;
                     Distribution::read(node, &declared)?
                 };
-                Ok((scenario, folder_of(&file), distribution))
+                Ok((scenario, folder_of(&file), distribution, notes))
             };
             distribution.map(named).transpose()?
         };
         match named {
-            None => Self::of(name, document, folder, Distribution::default()),
-            Some((scenario, folder, distribution)) => Self::of(name, scenario, folder, distribution),
+            None => Self::of(name, document, folder, (Distribution::default(), Vec::new())),
+            Some((scenario, folder, distribution, notes)) => Self::of(name, scenario, folder, (distribution, notes)),
         }
     }
 
-    fn of(name: String, document: Document, folder: PathBuf, distribution: Distribution) -> Result<Self, ReadError> {
-        let (catalogs, parameters, notes) = {
+    fn of(
+        name: String,
+        document: Document,
+        folder: PathBuf,
+        (distribution, mut notes): (Distribution, Vec<String>),
+    ) -> Result<Self, ReadError> {
+        let (catalogs, parameters) = {
             let tree = document.tree()?;
             let root = document.root(&tree, ROOT)?;
-            let notes = schema().check(root)?;
-            let mut scope = Scope::default();
-            declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
+            notes.extend(in_file(&schema().check(root)?, root.file()));
+            let none = Scope::default();
+            let parameters = Arc::new(Parameters::read(Node { element: root, scope: &none }, distribution)?);
+            let scope = declared_values(Node { element: root, scope: &none })?;
             let root = Node { element: root, scope: &scope };
-            let parameters = Arc::new(Parameters::read(root, distribution)?);
-            (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters, notes)
+            (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters)
         };
         let read = Self { name, folder, document, catalogs, parameters, notes, roads: Mutex::default() };
-        read.board(&mut |root| {
-            let mut scope = Scope::default();
-            declare(root, &mut scope)?;
-            Ok(scope)
-        })?;
+        read.board(&mut declared_values)?;
         Ok(read)
-    }
-
-    /// Returns the parts of the scenario file that have no effect.
-    pub fn notes(&self) -> &[NoEffect] {
-        &self.notes
     }
 
     /// Makes the program of the scenario. Its name is the path of the file.
     pub fn program(self) -> Program {
-        let without: Vec<_> = self.notes.iter().map(|note| note.name.as_str()).collect();
-        let about = match without.as_slice() {
-            [] => "a scenario of a file".to_owned(),
-            names => format!("a scenario of a file; without effect in it: {}", names.join(", ")),
-        };
-        let name = self.name.clone();
-        Program::of(name, about, move |s| self.build(s))
+        Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s))
     }
 
     fn build(&self, s: &mut Scenario) {
-        let (board, roads) = match self.board(&mut |root| self.parameters.declared(root, s)) {
+        let (board, roads, found) = match self.board(&mut |root| self.parameters.declared(root, s)) {
             Ok(read) => read,
             Err(error) => return s.refuse(&error.to_string()),
         };
+        s.note(|| [&self.notes, &found.notes(), &roads.notes[..]].concat());
+        for local in found.locals {
+            s.constrain(self.parameters.constraint(local));
+        }
         let usual = board.entities[ego(&board)].name.clone();
         let names = board.entities.iter().map(|entity| entity.name.as_str().into()).collect();
         let mut parameter = Parameter::new(EGO, Domain::Choice(names));
@@ -197,7 +194,7 @@ impl Xosc {
     fn board(
         &self,
         values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>,
-    ) -> Result<(Storyboard, Roads), ReadError> {
+    ) -> Result<(Storyboard, Roads, Found), ReadError> {
         let tree = self.document.tree()?;
         let root = self.document.root(&tree, ROOT)?;
         let trees = self.catalogs.trees()?;
@@ -206,7 +203,7 @@ impl Xosc {
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;
         let roads = self.roads_in(&self.folder.join(logic.required("filepath")?.as_ref()), logic)?;
-        Ok((Storyboard::read(root, &catalogs)?, roads))
+        Ok((Storyboard::read(root, &catalogs)?, roads, catalogs.found()))
     }
 
     /// Returns the roads of a file, which is read once.
@@ -217,10 +214,16 @@ impl Xosc {
         }
         let map = Map::read(file)?;
         let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
-        let roads = Roads { map: Arc::new(map), network };
+        let notes = map.notes.iter().map(|note| note.in_file(file)).collect();
+        let roads = Roads { map: Arc::new(map), network, notes };
         known.insert(file.to_owned(), roads.clone());
         Ok(roads)
     }
+}
+
+/// Describes parts of a file that have no effect.
+fn in_file(parts: &[NoEffect], file: &FilePath) -> Vec<String> {
+    parts.iter().map(|part| part.in_file(file)).collect()
 }
 
 fn folder_of(file: &FilePath) -> PathBuf {

@@ -3,43 +3,108 @@
 use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, Value};
 use paracosm_space::nearest;
 use std::borrow::Cow;
+use std::sync::Arc;
 
-/// The values of the parameters that an element sees, by name. Later values hide earlier values.
+/// The values of the parameters that an element sees. Later parameters hide earlier parameters with the same name. The parameters
+/// of the whole scenario come first.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Scope(Vec<(String, String)>);
+pub(super) struct Scope(Vec<Arc<Entry>>);
+
+/// A parameter with its value.
+#[derive(Debug)]
+struct Entry {
+    name: String,
+    value: String,
+    /// The text of the value, and the number of parameters that the text sees; `None` for a parameter of the whole scenario.
+    local: Option<(String, usize)>,
+}
 
 impl Scope {
     /// Returns the value of a parameter.
     pub fn get(&self, name: &str) -> Option<&str> {
-        self.0.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+        self.position(self.len(), name).map(|at| self.0[at].value.as_str())
+    }
+
+    /// Returns the number of parameters.
+    pub fn len(&self) -> usize {
+        self.0.len()
     }
 
     /// Returns the names of all parameters.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|(name, _)| name.as_str())
+        self.0.iter().map(|entry| entry.name.as_str())
     }
 
-    /// Sets a parameter.
+    /// Adds a parameter of the whole scenario.
     pub fn set(&mut self, name: impl Into<String>, value: impl Into<String>) {
-        self.0.push((name.into(), value.into()));
+        self.0.push(Arc::new(Entry { name: name.into(), value: value.into(), local: None }));
     }
 
-    fn parameter(&self, name: &str) -> Result<&str, ExpressionFlaw> {
-        let unknown = || {
-            let nearest = nearest(name, self.0.iter().map(|(known, _)| known.as_str())).map(str::to_owned);
-            ExpressionFlaw::NoParameter { name: name.to_owned(), nearest }
-        };
-        self.get(name).ok_or_else(unknown)
+    /// Adds a parameter of a part of the scenario. The text of its value sees the first `seen` parameters.
+    pub fn define(&mut self, name: &str, text: &str, seen: usize, value: &str) {
+        let (name, value, local) = (name.to_owned(), value.to_owned(), Some((text.to_owned(), seen)));
+        self.0.push(Arc::new(Entry { name, value, local }));
+    }
+
+    /// Returns the same parameters with other values of the parameters of the whole scenario.
+    ///
+    /// # Errors
+    /// A text has no value then.
+    pub fn with(&self, whole: Self) -> Result<Self, (String, ExpressionFlaw)> {
+        let mut scope = whole;
+        for entry in &self.0[scope.len()..] {
+            let Some((text, seen)) = &entry.local else { continue };
+            let value = scope.resolve_among(*seen, text).map_err(|flaw| (text.clone(), flaw))?.into_owned();
+            scope.define(&entry.name, text, *seen, &value);
+        }
+        Ok(scope)
+    }
+
+    /// Returns the indices of the parameters of the whole scenario on which the last parameter and texts depend.
+    pub fn sources<'t>(&'t self, texts: impl Iterator<Item = &'t str>) -> Vec<usize> {
+        let mut open: Vec<(&str, usize)> = texts.map(|text| (text, self.len())).collect();
+        let last = self.0.last().and_then(|entry| entry.local.as_ref());
+        open.extend(last.map(|(text, among)| (text.as_str(), *among)));
+        let (mut seen, mut found) = (Vec::new(), Vec::new());
+        while let Some((text, among)) = open.pop() {
+            for at in references(text).filter_map(|name| self.position(among, name)) {
+                if seen.contains(&at) {
+                    continue;
+                }
+                seen.push(at);
+                match &self.0[at].local {
+                    None => found.push(at),
+                    Some((text, among)) => open.push((text.as_str(), *among)),
+                }
+            }
+        }
+        found
+    }
+
+    fn position(&self, among: usize, name: &str) -> Option<usize> {
+        self.0[..among].iter().rposition(|entry| entry.name == name)
     }
 
     /// Returns the text of an attribute with the values of its parameters.
     pub fn resolve<'t>(&self, text: &'t str) -> Result<Cow<'t, str>, ExpressionFlaw> {
+        self.resolve_among(self.len(), text)
+    }
+
+    /// Returns the text of an attribute that sees the first `among` parameters.
+    fn resolve_among<'t>(&self, among: usize, text: &'t str) -> Result<Cow<'t, str>, ExpressionFlaw> {
         let Some(name) = text.strip_prefix('$') else { return Ok(Cow::Borrowed(text)) };
+        let value = |name: &str| {
+            let unknown = || {
+                let nearest = nearest(name, self.names().take(among)).map(str::to_owned);
+                ExpressionFlaw::NoParameter { name: name.to_owned(), nearest }
+            };
+            self.position(among, name).map(|at| self.0[at].value.as_str()).ok_or_else(unknown)
+        };
         match name.strip_prefix('{').map(|inside| inside.strip_suffix('}')) {
-            None => Ok(Cow::Owned(self.parameter(name)?.to_owned())),
+            None => Ok(Cow::Owned(value(name)?.to_owned())),
             Some(None) => Err(ExpressionFlaw::Unexpected { found: text.to_owned(), expected: "`}` at the end" }),
             Some(Some(inside)) => {
-                let parameter = |name: &str| self.parameter(name).map(Value::of);
+                let parameter = |name: &str| value(name).map(Value::of);
                 Ok(Cow::Owned(Expression::parse(inside)?.value(&parameter)?.to_string()))
             }
         }
@@ -101,10 +166,20 @@ impl<'a> Node<'a> {
         self.error(Flaw::Refused { element: self.name().to_owned(), reason })
     }
 
+    /// Makes the error that the value `found` of an attribute is not allowed.
+    pub fn unexpected(self, attribute: &str, found: &str, expected: impl Into<String>) -> ReadError {
+        self.element.unexpected_value(attribute, found, expected, [])
+    }
+
     /// Returns the value of an attribute; `None` if the attribute is absent or empty.
     pub fn text(self, attribute: &'static str) -> Result<Option<Cow<'a, str>>, ReadError> {
+        self.text_among(self.scope.len(), attribute)
+    }
+
+    /// Returns the value of an attribute that sees the first `among` parameters; `None` if the attribute is absent or empty.
+    pub fn text_among(self, among: usize, attribute: &'static str) -> Result<Option<Cow<'a, str>>, ReadError> {
         let Some(text) = self.element.text(attribute) else { return Ok(None) };
-        let resolved = self.scope.resolve(text).map_err(|flaw| {
+        let resolved = self.scope.resolve_among(among, text).map_err(|flaw| {
             let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
             self.error(Flaw::Expression { element, attribute, text: text.to_owned(), flaw })
         })?;

@@ -1,13 +1,13 @@
 //! The storyboard of a scenario: initial actions, and stories of acts, maneuver groups, maneuvers, events and actions.
 
 use super::action::Action;
-use super::catalogs::{Catalogs, declare};
+use super::catalogs::Catalogs;
 use super::clock::Clock;
 use super::condition::{Trigger, trigger};
 use super::entity::Entity;
 use super::names::Names;
 use super::position::Position;
-use super::scope::{Node, Scope};
+use super::scope::Node;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
 
@@ -183,17 +183,16 @@ impl Reader<'_> {
     }
 
     fn story(&mut self, node: Node<'_>) -> Result<(), ReadError> {
-        let mut scope: Scope = node.scope.clone();
-        declare(node, &mut scope)?;
-        let node = Node { element: node.element, scope: &scope };
-        let story = self.push(node, Kind::Story, None)?;
-        for act in node.all("Act") {
-            let index = self.push(act, Kind::Act, Some(story))?;
-            for group in act.all("ManeuverGroup") {
-                self.group(group, index)?;
+        self.names.catalogs.declaring(node, &[], |node| {
+            let story = self.push(node, Kind::Story, None)?;
+            for act in node.all("Act") {
+                let index = self.push(act, Kind::Act, Some(story))?;
+                for group in act.all("ManeuverGroup") {
+                    self.group(group, index)?;
+                }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     fn group(&mut self, node: Node<'_>, act: usize) -> Result<(), ReadError> {
