@@ -183,8 +183,13 @@ impl Program {
     pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
         let mut scenario = Scenario::new(test.as_ref());
         self.build(&mut scenario);
+        // A program that refuses a test may end before it asks for all parameters.
+        let is_refused =
+            |scenario: &Scenario| scenario.flaws.borrow().iter().any(|flaw| matches!(flaw, WorldFlaw::Refused { .. }));
         if let Some(test) = test {
-            self.check_names(&scenario, test.values)?;
+            if !is_refused(&scenario) {
+                self.check_names(&scenario, test.values)?;
+            }
             for why in scenario.constraints.iter().filter_map(|constraint| constraint.broken(test.values)) {
                 scenario.flaw(WorldFlaw::Refused { why });
             }

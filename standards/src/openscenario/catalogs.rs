@@ -1,20 +1,29 @@
 //! The catalogs of a scenario: entries of other files that a scenario refers to by name.
 
 use super::elements::schema;
+use super::linked;
 use super::local::{Local, declare};
 use super::scope::Node;
 use crate::xml::{Document, Element, Flaw, NoEffect, ReadError};
+use paracosm_space::nearest;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::io;
 use std::path::{Path, PathBuf};
 
-/// The catalog files of a scenario, by the names of the catalogs.
+/// The catalog files of a scenario.
 #[derive(Debug, Default)]
-pub(super) struct CatalogFiles(BTreeMap<String, Document>);
+pub(super) struct CatalogFiles {
+    /// The files by the names of the catalogs.
+    all: BTreeMap<String, Document>,
+    /// The first folder that does not exist, with the file and the line of the element that names it.
+    absent: Option<(PathBuf, u32, PathBuf)>,
+}
 
 /// The trees of the catalogs of a scenario.
 pub(super) struct Catalogs<'a> {
     all: BTreeMap<&'a str, Element<'a, 'a>>,
+    absent: Option<&'a (PathBuf, u32, PathBuf)>,
     found: RefCell<Found>,
 }
 
@@ -36,19 +45,23 @@ impl Found {
             let known = all.entry((file, &part.name)).or_insert_with(|| NoEffect { count: 0, ..part.clone() });
             known.count += part.count;
         }
-        all.into_iter().map(|((file, _), part)| part.in_file(file)).collect()
+        let mut all: Vec<_> = all.into_iter().map(|((file, _), part)| (file, part)).collect();
+        all.sort_by_key(|(file, part)| (*file, part.line));
+        all.into_iter().map(|(file, part)| part.in_file(file)).collect()
     }
 }
 
 impl CatalogFiles {
     /// Reads all catalogs in the folders that a scenario names. `folder` is the folder of the scenario.
     pub fn read(locations: Option<Node<'_>>, folder: &Path) -> Result<Self, ReadError> {
-        let mut files = BTreeMap::new();
+        let (mut all, mut absent) = (BTreeMap::new(), None);
         for location in locations.into_iter().flat_map(Node::elements) {
             let directory = location.child("Directory")?;
-            let path = folder.join(directory.required("path")?.as_ref());
+            let path = linked::within(directory, "path", folder)?;
             // A scenario may name folders that it does not use. A reference to a catalog in them is an error.
             if !path.exists() {
+                let element = directory.element;
+                absent = absent.or_else(|| Some((element.file().to_owned(), element.line(), path)));
                 continue;
             }
             let unreadable = |error| directory.error(Flaw::Folder { folder: path.clone(), error });
@@ -65,16 +78,16 @@ impl CatalogFiles {
                     root.first("Catalog").map(|catalog| catalog.required("name").map(str::to_owned)).transpose()?
                 };
                 if let Some(name) = name {
-                    files.insert(name, document);
+                    all.insert(name, document);
                 }
             }
         }
-        Ok(Self(files))
+        Ok(Self { all, absent })
     }
 
     /// Parses the trees of all catalogs.
     pub fn trees(&self) -> Result<Vec<roxmltree::Document<'_>>, ReadError> {
-        self.0.values().map(Document::tree).collect()
+        self.all.values().map(Document::tree).collect()
     }
 
     /// Returns the catalogs with their trees, which [`CatalogFiles::trees`] has parsed.
@@ -82,8 +95,8 @@ impl CatalogFiles {
         let catalog = |((name, document), tree): ((&'a String, &'a Document), &'a roxmltree::Document<'a>)| {
             Ok((name.as_str(), document.root(tree, "OpenSCENARIO")?.child("Catalog")?))
         };
-        let all = self.0.iter().zip(trees).map(catalog).collect::<Result<_, ReadError>>()?;
-        Ok(Catalogs { all, found: RefCell::default() })
+        let all = self.all.iter().zip(trees).map(catalog).collect::<Result<_, ReadError>>()?;
+        Ok(Catalogs { all, absent: self.absent.as_ref(), found: RefCell::default() })
     }
 }
 
@@ -101,7 +114,7 @@ impl Catalogs<'_> {
         }
         let catalog = node.required("catalogName")?;
         let known = self.all.get(catalog.as_ref()).copied();
-        let catalog = known.ok_or_else(|| node.dangling("catalogName", "catalog", self.all.keys().copied()))?;
+        let catalog = known.ok_or_else(|| self.unknown(node, &catalog))?;
         let entry_name = node.required("entryName")?;
         let entries = || catalog.elements().filter(|entry| kinds.contains(&entry.name()));
         let entry = entries().find(|entry| entry.text("name") == Some(entry_name.as_ref())).ok_or_else(|| {
@@ -123,6 +136,17 @@ impl Catalogs<'_> {
         let locals = declare(node.element, &mut scope, assignments)?;
         self.found.borrow_mut().locals.extend(locals);
         read(Node { element: node.element, scope: &scope })
+    }
+
+    /// Makes the error that a reference names no catalog. The reason may be a folder that does not exist.
+    fn unknown(&self, node: Node<'_>, name: &str) -> ReadError {
+        match self.absent {
+            Some((file, line, folder)) if nearest(name, self.all.keys().copied()).is_none() => {
+                let (folder, error) = (folder.clone(), io::ErrorKind::NotFound.into());
+                ReadError { file: file.clone(), line: Some(*line), flaw: Box::new(Flaw::Folder { folder, error }) }
+            }
+            _ => node.dangling("catalogName", "catalog", self.all.keys().copied()),
+        }
     }
 
     /// Checks an entry, once.

@@ -11,6 +11,7 @@ mod elements;
 mod entity;
 mod export;
 mod kind;
+mod linked;
 mod local;
 mod measure;
 mod names;

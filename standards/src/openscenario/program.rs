@@ -4,6 +4,7 @@ use super::catalogs::{CatalogFiles, Found};
 use super::condition::{Check, Condition};
 use super::distribution::Distribution;
 use super::elements::schema;
+use super::linked;
 use super::measure::Measure;
 use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
@@ -42,7 +43,8 @@ pub struct Xosc {
     parameters: Arc<Parameters>,
     /// The remarks on the file and on the file of the distribution.
     notes: Vec<String>,
-    roads: Mutex<BTreeMap<PathBuf, Roads>>,
+    /// The roads that were read, by the names of their files in the scenario.
+    roads: Mutex<BTreeMap<String, Roads>>,
 }
 
 /// A map and its road network.
@@ -91,7 +93,7 @@ impl Xosc {
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
                 let notes = in_file(&schema().check(root.element)?, file);
-                let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
+                let file = linked::file(node.child("ScenarioFile")?, "filepath", &folder)?;
                 let scenario = Document::open(&file)?;
                 let distribution = {
                     let tree = scenario.tree()?;
@@ -155,7 +157,7 @@ impl Xosc {
         let longest = longest(&board);
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
             Ok(stage) => Rc::new(RefCell::new(stage)),
-            Err(lost) => return s.refuse(&lost.to_string()),
+            Err(misplaced) => return s.refuse(&format!("{}:{misplaced}", self.document.file().display())),
         };
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
@@ -202,21 +204,23 @@ impl Xosc {
         let scope = values(Node { element: root, scope: &Scope::default() })?;
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;
-        let roads = self.roads_in(&self.folder.join(logic.required("filepath")?.as_ref()), logic)?;
+        let roads = self.roads_in(logic)?;
         Ok((Storyboard::read(root, &catalogs)?, roads, catalogs.found()))
     }
 
-    /// Returns the roads of a file, which is read once.
-    fn roads_in(&self, file: &FilePath, logic: Node<'_>) -> Result<Roads, ReadError> {
+    /// Returns the roads of the file that an element names, which is read once.
+    fn roads_in(&self, logic: Node<'_>) -> Result<Roads, ReadError> {
+        let named = logic.required("filepath")?;
         let mut known = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(roads) = known.get(file) {
+        if let Some(roads) = known.get(named.as_ref()) {
             return Ok(roads.clone());
         }
-        let map = Map::read(file)?;
+        let file = linked::file(logic, "filepath", &self.folder)?;
+        let map = Map::read(&file)?;
         let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
-        let notes = map.notes.iter().map(|note| note.in_file(file)).collect();
+        let notes = map.notes.iter().map(|note| note.in_file(&file)).collect();
         let roads = Roads { map: Arc::new(map), network, notes };
-        known.insert(file.to_owned(), roads.clone());
+        known.insert(named.into_owned(), roads.clone());
         Ok(roads)
     }
 }

@@ -228,6 +228,13 @@ impl<'a> Node<'a> {
         self.parsed(attribute, "a whole number", whole)
     }
 
+    /// Returns the whole number in an attribute, which must exist and must not be negative.
+    pub fn count(self, attribute: &'static str) -> Result<u32, ReadError> {
+        let number = self.whole(attribute)?;
+        let wrong = |_| self.unexpected(attribute, &number.to_string(), "a whole number that is not negative");
+        u32::try_from(number).map_err(wrong)
+    }
+
     /// Returns the truth in an attribute; `default` if the attribute is absent.
     pub fn truth_or(self, attribute: &'static str, default: bool) -> Result<bool, ReadError> {
         let names = [("true", true), ("false", false), ("1", true), ("0", false)];

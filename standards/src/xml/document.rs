@@ -35,6 +35,11 @@ impl Document {
         Self(Source::new(file, text))
     }
 
+    /// Returns the path of the file.
+    pub fn file(&self) -> &Path {
+        self.0.file()
+    }
+
     /// Returns the text of the file.
     pub fn text(&self) -> &str {
         self.0.text()

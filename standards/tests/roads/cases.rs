@@ -450,3 +450,11 @@ fn the_page_of_elements_is_written_from_the_table_and_its_tests() {
     let found = fs::read_to_string(&path).unwrap_or_default();
     assert!(found == page, "docs/opendrive.md is old; write it again with UPDATE_GOLDEN=1");
 }
+
+#[test]
+fn more_than_a_hundred_thousand_roads_are_refused() {
+    let road = "<road id=\"1\" length=\"5\" junction=\"-1\"/>\n";
+    let text = format!("<OpenDRIVE><header revMajor=\"1\" revMinor=\"6\"/>\n{}</OpenDRIVE>", road.repeat(100_001));
+    let message = parse(text).expect_err("they are too many");
+    assert_eq!(message, "road.xodr:1: <OpenDRIVE> has 100001 roads, expected at most 100000");
+}
