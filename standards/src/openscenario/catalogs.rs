@@ -142,7 +142,8 @@ impl Catalogs<'_> {
     fn unknown(&self, node: Node<'_>, name: &str) -> ReadError {
         match self.absent {
             Some((file, line, folder)) if nearest(name, self.all.keys().copied()).is_none() => {
-                let (folder, error) = (folder.clone(), io::ErrorKind::NotFound.into());
+                let (folder, read) = (folder.clone(), std::fs::read_dir(folder));
+                let error = read.err().unwrap_or_else(|| io::ErrorKind::NotFound.into());
                 ReadError { file: file.clone(), line: Some(*line), flaw: Box::new(Flaw::Folder { folder, error }) }
             }
             _ => node.dangling("catalogName", "catalog", self.all.keys().copied()),
