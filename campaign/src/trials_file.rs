@@ -75,6 +75,9 @@ pub enum LogFlaw {
         /// The least robustness.
         robustness: f64,
     },
+    /// The verdict of the trial is that of a study with reference drivers, but the study has none.
+    #[error("`verdict` is `{}`, but the study has no reference drivers", Verdict::Unpreventable)]
+    NoReferences,
     /// Some lines name their study, and others do not.
     #[error(
         "the lines before name their study and this line does not, or the other way round: two campaigns were mixed"
@@ -150,6 +153,9 @@ fn agrees(trial: &Trial, study: &Study, ids: &HashSet<&str>) -> Result<(), LogFl
     {
         let nearest = nearest(id, ids.iter().copied()).map(str::to_owned);
         return Err(LogFlaw::Requirement { id: id.to_owned(), nearest });
+    }
+    if trial.verdict == Verdict::Unpreventable && study.references().is_empty() {
+        return Err(LogFlaw::NoReferences);
     }
     let worst = trial.decided().min_by(|a, b| a.1.total_cmp(&b.1));
     let contradicts = |robustness: f64| match trial.verdict {

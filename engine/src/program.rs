@@ -1,10 +1,9 @@
 //! Scenarios as functions, and the declaration that such a function makes when it is run without a test.
 
 use crate::flaw::WorldFlaw;
-use crate::scenario::Scenario;
+use crate::scenario::{Constraint, Scenario};
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
-use paracosm_space::constraint::Expression;
 use paracosm_space::{Space, SpaceError, Values};
 use std::borrow::Cow;
 use std::fmt;
@@ -51,7 +50,7 @@ pub struct Declaration {
     /// The parameters of the program, in the order of their declaration.
     pub parameters: Vec<Declared>,
     /// The constraints between the parameters.
-    pub constraints: Vec<Expression>,
+    pub constraints: Vec<Constraint>,
     /// The requirements that the program states.
     pub requirements: Vec<Requirement>,
     /// The duration in seconds of a run without a contact.
@@ -164,6 +163,14 @@ impl Program {
         self.built(Some(test.into())).map(|_| ())
     }
 
+    /// Returns the remarks of the program on the world of a test, for example which parts of a file have no effect.
+    pub fn notes<'a>(&self, test: impl Into<Test<'a>>) -> Vec<String> {
+        let mut scenario = Scenario::new(Some(&test.into()));
+        scenario.notes = Some(Vec::new());
+        self.build(&mut scenario);
+        scenario.notes.unwrap_or_default()
+    }
+
     /// Returns the graph of the program's streams with nominal values, in the DOT language of Graphviz.
     ///
     /// # Errors
@@ -176,10 +183,15 @@ impl Program {
     pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
         let mut scenario = Scenario::new(test.as_ref());
         self.build(&mut scenario);
+        // A program that refuses a test may end before it asks for all parameters.
+        let is_refused =
+            |scenario: &Scenario| scenario.flaws.borrow().iter().any(|flaw| matches!(flaw, WorldFlaw::Refused { .. }));
         if let Some(test) = test {
-            self.check_names(&scenario, test.values)?;
-            for constraint in scenario.constraints.iter().filter(|constraint| !constraint.holds(test.values)) {
-                scenario.flaw(WorldFlaw::Refused { why: broken(constraint, test.values) });
+            if !is_refused(&scenario) {
+                self.check_names(&scenario, test.values)?;
+            }
+            for why in scenario.constraints.iter().filter_map(|constraint| constraint.broken(test.values)) {
+                scenario.flaw(WorldFlaw::Refused { why });
             }
         }
         scenario.lay_out();
@@ -242,11 +254,4 @@ impl Program {
             Err(ProgramError::OtherParameters { program: self.name().to_owned(), names })
         }
     }
-}
-
-/// Returns the reason why a test breaks a constraint.
-fn broken(constraint: &Expression, test: &Values) -> String {
-    let value = |name: &str| test.get(name).map(|value| format!("{name} = {value}"));
-    let values: Vec<String> = constraint.names().into_iter().filter_map(value).collect();
-    format!("the constraint `{constraint}` does not hold for {}", values.join(", "))
 }

@@ -1,7 +1,7 @@
 //! A test as a program sees it: the values of its parameters, and the shapes of those that vary.
 
 use crate::chance::{hashed, mixed};
-use paracosm_space::{Domain, Parameter, ParameterError, Shape, Space, Value, Values};
+use paracosm_space::{Domain, Parameter, ParameterError, ParameterFlaw, Shape, Space, Value, Values};
 
 /// A parameter that a program asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,12 +16,15 @@ pub struct Declared {
     /// True if the parameter takes any text, such as the path of a file. Its domain then lists the texts that the program
     /// knows.
     pub takes_texts: bool,
+    /// True if the parameter takes only the whole numbers of its domain. A study that opens the parameter over an interval opens
+    /// the list of the whole numbers in the interval.
+    pub whole: bool,
 }
 
 impl Declared {
     /// Makes an open parameter, which a study varies over its whole domain.
     pub fn open(parameter: Parameter) -> Self {
-        Self { parameter, open: true, opens: None, takes_texts: false }
+        Self { parameter, open: true, opens: None, takes_texts: false, whole: false }
     }
 
     /// Checks that the parameter can take a value.
@@ -29,7 +32,18 @@ impl Declared {
     /// # Errors
     /// The parameter does not take the value. The error says which values it takes.
     pub fn check(&self, value: &Value) -> Result<(), ParameterError> {
-        if self.takes_texts && !matches!(value, Value::List(_)) { Ok(()) } else { self.parameter.check(value) }
+        if self.takes_texts && !matches!(value, Value::List(_)) {
+            return Ok(());
+        }
+        self.parameter.check(value)?;
+        let broken = value.scalars().iter().find(|value| value.number().is_some_and(|number| number.fract() != 0.0));
+        match broken.filter(|_| self.whole) {
+            Some(value) => {
+                let (name, value) = (self.parameter.name.clone(), value.clone());
+                Err(ParameterError { name, flaw: ParameterFlaw::NotWhole { value } })
+            }
+            None => Ok(()),
+        }
     }
 
     /// Returns the parameter as a study has it that opens it and names no range. A nominal value outside of the domain

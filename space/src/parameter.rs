@@ -80,6 +80,12 @@ pub enum ParameterFlaw {
     /// The distribution does not fit the domain of the parameter.
     #[error(transparent)]
     Distribution(#[from] DistributionError),
+    /// A value is no whole number, but its parameter takes only whole numbers.
+    #[error("found {value}, expected a whole number")]
+    NotWhole {
+        /// The value that is no whole number.
+        value: Value,
+    },
     /// A value lies outside the domain of its parameter.
     #[error("found {value}, expected {expected}{}", did_you_mean(.nearest))]
     OutsideDomain {

@@ -152,7 +152,7 @@ impl Options {
 
     fn study(&self, subject: &Subject, verbosity: Verbosity) -> Result<Study, Error> {
         let study = subject.study(verbosity)?.build()?;
-        subject.note_unjudged(&study, verbosity);
+        subject.note_before(&study, verbosity)?;
         Ok(study)
     }
 

@@ -92,7 +92,8 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
             (None, None) => ", unless opened".to_owned(),
         };
         let signal = parameter.signal.map(|shape| format!(", {shape} over time")).unwrap_or_default();
-        let domain = domain_words(&parameter.domain);
+        let whole = if declared.whole && opened.is_none() { "whole numbers of " } else { "" };
+        let domain = format!("{whole}{}", domain_words(&parameter.domain));
         table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{state}{signal}"));
     }
     table.heading("requirements");
@@ -106,6 +107,11 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
     table.heading("signals that formulas can use");
     for (object, names) in by_object(&signals(study)?) {
         table.row(object, &names.join(" "));
+    }
+    let notes = study.notes()?;
+    if !notes.is_empty() {
+        table.heading("notes");
+        notes.iter().for_each(|note| table.row("", note));
     }
     Ok(table.finish())
 }
@@ -145,9 +151,13 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
             if let Some(value) = set(study, declared) {
                 said["set"] = json!(value);
             }
+            if declared.whole {
+                said["whole"] = json!(true);
+            }
             said
         })
         .collect();
     Ok(json(&json!({"name": program.name(), "about": program.about(), "duration": declaration.duration,
-        "parameters": parameters, "requirements": study.requirements(), "signals": signals(study)?})))
+        "parameters": parameters, "requirements": study.requirements(), "signals": signals(study)?,
+        "notes": study.notes()?})))
 }

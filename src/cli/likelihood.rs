@@ -114,7 +114,7 @@ impl Options {
             study = study.distribute(name, distribution);
         }
         let study = study.build()?;
-        self.subject.note_unjudged(&study, verbosity);
+        self.subject.note_before(&study, verbosity)?;
         Ok(study)
     }
 }

@@ -5,7 +5,7 @@ use super::output::{Format, Table, digits, json, plural};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use crate::engine::road::{Lane, RoadNetwork};
-use crate::standards::opendrive::{Map, Note, Section, borders};
+use crate::standards::opendrive::{Map, Section, borders};
 use clap::Args;
 use paracosm_campaign::Error;
 use paracosm_report::{birds_eye::RoadPicture, plot};
@@ -75,7 +75,7 @@ impl Options {
             verbosity.note(target.write(|_| Ok(self.csv(&map)?))?);
         }
         let text = match Format::or_fitting(self.format) {
-            Format::Table => table(&map, &network),
+            Format::Table => self.table(&map, &network),
             Format::Json => self.as_json(&map, &network),
         };
         print(&text).map(|()| Status::Nothing)
@@ -106,6 +106,10 @@ impl Options {
         csv.into_inner().map_err(|error| csv::Error::from(error.into_error()))
     }
 
+    fn notes(&self, map: &Map) -> impl Iterator<Item = String> {
+        map.notes.iter().map(|note| note.in_file(&self.file))
+    }
+
     fn as_json(&self, map: &Map, network: &RoadNetwork) -> String {
         let bounds = network.bounds();
         json(&json!({
@@ -113,8 +117,29 @@ impl Options {
             "lanes": network.lanes().len(), "road_metres": road_metres(map), "lane_metres": lane_metres(network),
             "objects": map.objects().count(), "bodies": bodies(map),
             "bounds": {"min": bounds.min.as_slice(), "max": bounds.max.as_slice()},
-            "notes": map.notes.iter().map(Note::to_string).collect::<Vec<_>>(),
+            "notes": self.notes(map).collect::<Vec<_>>(),
         }))
+    }
+
+    fn table(&self, map: &Map, network: &RoadNetwork) -> String {
+        let mut table = Table::default();
+        let roads = plural(map.roads.len(), "road");
+        table.heading(&format!("{roads}, {}", plural(map.junctions.len(), "junction")));
+        table.row("roads", &format!("{} m", digits(road_metres(map))));
+        let lanes = network.lanes();
+        table.row("driven lanes", &format!("{}, {} m", lanes.len(), digits(lane_metres(network))));
+        let ends = lanes.iter().filter(|lane| lane.successors.is_empty()).count();
+        table.row("without a next lane", &ends.to_string());
+        if map.objects().next().is_some() {
+            table.row("objects and signals", &format!("{}, {} with a body", map.objects().count(), bodies(map)));
+        }
+        let extent = network.bounds().max - network.bounds().min;
+        table.row("extent", &format!("{} m by {} m", digits(extent.x), digits(extent.y)));
+        if !map.notes.is_empty() {
+            table.heading("notes");
+            self.notes(map).for_each(|note| table.row("", &note));
+        }
+        table.finish()
     }
 }
 
@@ -129,25 +154,4 @@ fn bodies(map: &Map) -> usize {
 
 fn lane_metres(network: &RoadNetwork) -> f64 {
     network.lanes().iter().map(Lane::length).sum()
-}
-
-fn table(map: &Map, network: &RoadNetwork) -> String {
-    let mut table = Table::default();
-    let roads = plural(map.roads.len(), "road");
-    table.heading(&format!("{roads}, {}", plural(map.junctions.len(), "junction")));
-    table.row("roads", &format!("{} m", digits(road_metres(map))));
-    let lanes = network.lanes();
-    table.row("driven lanes", &format!("{}, {} m", lanes.len(), digits(lane_metres(network))));
-    let ends = lanes.iter().filter(|lane| lane.successors.is_empty()).count();
-    table.row("without a next lane", &ends.to_string());
-    if map.objects().next().is_some() {
-        table.row("objects and signals", &format!("{}, {} with a body", map.objects().count(), bodies(map)));
-    }
-    let extent = network.bounds().max - network.bounds().min;
-    table.row("extent", &format!("{} m by {} m", digits(extent.x), digits(extent.y)));
-    if !map.notes.is_empty() {
-        table.heading("notes");
-        map.notes.iter().for_each(|note| table.row("", &note.to_string()));
-    }
-    table.finish()
 }

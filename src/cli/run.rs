@@ -94,7 +94,7 @@ impl Options {
         }
         let study = prepare(self.subject.study(verbosity)?)?.sampling(self.sampling()?);
         let study = self.reference.iter().fold(study, |study, name| study.reference(name)).build()?;
-        self.subject.note_unjudged(&study, verbosity);
+        self.subject.note_before(&study, verbosity)?;
         let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
         note_outlasting(&study, verbosity)?;
         let stop = Arc::<AtomicBool>::default();

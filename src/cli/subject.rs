@@ -149,6 +149,13 @@ impl Subject {
         self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
     }
 
+    /// Prints the notes on the study before its tests: the remarks on the worlds, and the requirements that are not judged.
+    pub fn note_before(&self, study: &Study, verbosity: Verbosity) -> Result<(), Error> {
+        study.notes()?.iter().for_each(|note| verbosity.note(note));
+        self.note_unjudged(study, verbosity);
+        Ok(())
+    }
+
     /// Prints a note for each requirement of a file that is not judged, because its name may be misspelled.
     pub fn note_unjudged(&self, study: &Study, verbosity: Verbosity) {
         if self.requirements.is_none() || matches!(study.subject(), campaign::Subject::System(_)) {

@@ -2,14 +2,15 @@
 //! the lanes of the map.
 //!
 //! The parameter `roads` has the path of the file, or `town` for a town that comes with the software. The ego vehicle begins at a
-//! random place, and takes a random lane wherever its lane has several next lanes. All choices follow from the values of the test.
+//! random place. If its lane has several next lanes, a fixed rule chooses one of them. All choices follow from the values of the test.
 //!
 //! Objects and signals of the map stand where the file has them. Objects on a lane are in the way of everybody. All others are
 //! scenery: sensors see them, and a car can run into them.
 //!
-//! The speed limits of the map hold for the traffic. The ego vehicle is to keep the lowest limit of its way, times `pace`.
+//! The speed limits of the map hold for the traffic. Where the map says nothing, the limit is 50 km/h. The ego vehicle is to keep
+//! the lowest limit of its way, times `pace`.
 
-use crate::opendrive::{Map, write};
+use crate::opendrive::{Map, Road, write};
 use crate::xml::ReadError;
 use paracosm_engine::object::Body;
 use paracosm_engine::road::{LaneId, LaneKind, Path, RoadError, RoadNetwork, RoutePosition, grid_city};
@@ -24,7 +25,7 @@ use thiserror::Error;
 
 /// The name of the town that comes with the software.
 const TOWN: &str = "town";
-/// The speed in m/s where the map has no limit: 50 km/h.
+/// The speed limit in m/s where the map says nothing: 50 km/h.
 const USUAL: f64 = 50.0 / 3.6;
 /// The greatest speed in m/s that cars want to drive, where limits are higher.
 const FASTEST: f64 = 36.0;
@@ -71,6 +72,8 @@ type Known = Mutex<BTreeMap<String, Roads>>;
 struct Roads {
     network: Arc<RoadNetwork>,
     things: Arc<[Thing]>,
+    /// The remarks on the file.
+    notes: Arc<[String]>,
 }
 
 /// The body of an object or a signal.
@@ -110,7 +113,8 @@ fn build(known: &Known, s: &mut Scenario) {
     let [fog, light, rain] = air.map(|(name, nominal)| s.nominal(name, 0.0..=1.0, nominal).atmospheric());
     let fullness = s.nominal("roadside", 0.0..=1.0, 0.0).value();
 
-    let planned = read(known, &roads).and_then(|Roads { network, things }| {
+    let planned = read(known, &roads).and_then(|Roads { network, things, notes }| {
+        s.note(|| notes.to_vec());
         let begin = |seed| places(&network, &things, seed);
         let way = Way::drawn(&network, &roads, begin(route as u64))?;
         let speed = pace * way.limit;
@@ -151,7 +155,9 @@ fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
     if let Some(roads) = known.get(roads) {
         return Ok(roads.clone());
     }
-    let map = if roads == TOWN { town() } else { Map::read(FilePath::new(roads)) }?;
+    let file = FilePath::new(roads);
+    let mut map = if roads == TOWN { town() } else { Map::read(file) }?;
+    add_limits(&mut map);
     let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error: error.into() })?;
     let things = map.objects().flat_map(|object| object.parts.iter().map(move |part| (object, *part)));
     let things = things.filter_map(|(object, (body, at))| {
@@ -159,7 +165,8 @@ fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
         // A signal over a lane hangs, and a car drives below it.
         (!object.is_signal || !is_in_the_way).then_some(Thing { body, at, is_in_the_way })
     });
-    let read = Roads { things: things.collect(), network: network.clone() };
+    let notes = map.notes.iter().map(|note| note.in_file(file)).collect();
+    let read = Roads { things: things.collect(), network: network.clone(), notes };
     known.insert(roads.to_owned(), read.clone());
     Ok(read)
 }
@@ -227,6 +234,23 @@ impl Way {
 /// Returns the speed limits of lanes, in m/s.
 fn limits(network: &RoadNetwork, lanes: &[LaneId]) -> impl Iterator<Item = f64> {
     lanes.iter().flat_map(|lane| &network.lane(*lane).limits).map(|limit| limit.speed)
+}
+
+/// Adds the limits that a map lacks, if the map has limits at all: the usual limit where the map says nothing, and the greatest speed
+/// of cars where the map says that there is no limit.
+fn add_limits(map: &mut Map) {
+    let lanes = |road: &Road| road.sections.iter().any(|of| of.lanes.iter().any(|lane| !lane.limits.is_empty()));
+    if !map.roads.iter().any(|road| !road.limits.is_empty() || lanes(road)) {
+        return;
+    }
+    for road in &mut map.roads {
+        if road.limits.first().is_none_or(|(from, _)| *from > 0.0) {
+            road.limits.insert(0, (0.0, Some(USUAL)));
+        }
+        let lanes = road.sections.iter_mut().flat_map(|section| &mut section.lanes);
+        let all = road.limits.iter_mut().chain(lanes.flat_map(|lane| &mut lane.limits));
+        all.for_each(|(_, limit)| *limit = limit.or(Some(FASTEST)));
+    }
 }
 
 /// Returns random places on roads at which a car can begin, in random order.

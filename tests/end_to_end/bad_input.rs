@@ -299,6 +299,7 @@ fn a_log_that_contradicts_itself_is_refused_with_the_line() {
             "\"robustness\":{\"no-colision\"",
             "no requirement `no-colision` (did you mean",
         ),
+        ("\"verdict\":\"fail\"", "\"verdict\":\"unpreventable\"", "the study has no reference drivers"),
         ("\"error\":null", "\"error\":\"lost\"", "`verdict` is `fail`, but `error` is there"),
         ("\"verdict\":\"fail\"", "\"verdict\":\"error\"", "`verdict` is `error`, but `error` is missing"),
         (

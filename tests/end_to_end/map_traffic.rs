@@ -1,6 +1,6 @@
 //! The scenario `map-traffic` on the command line: maps of users, campaigns that go on and are replayed, and what is refused.
 
-use crate::common::{fuzz, refused, stdout, succeeds};
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -46,6 +46,20 @@ fn several_maps_are_the_levels_of_the_parameter() {
     succeeds(fuzz(dir.path(), &[&arguments[..], &["--budget", "12", "--out", "c"]].concat()));
     for map in ["\"roads\":\"town\"", "\"roads\":\"city.xodr\""] {
         assert!(log(dir.path(), "c").contains(map), "no test has {map}");
+    }
+}
+
+#[test]
+fn the_parts_of_a_map_without_effect_are_noted_once_before_the_tests() {
+    let dir = folder();
+    let text = fs::read_to_string(dir.path().join("city.xodr")).expect("it is there");
+    let text = text.replacen("</OpenDRIVE>", "<userData code=\"colour\" value=\"red\"/></OpenDRIVE>", 1);
+    fs::write(dir.path().join("city.xodr"), text).expect("it is writable");
+    let note = "`userData` has no effect: it is data for other programs";
+    for [option, roads, out] in [["--set", "roads=city.xodr", "set"], ["--open", "roads=town,city.xodr", "opened"]] {
+        let more = ["map-traffic", "--driver", "cruise", "--budget", "3", option, roads, "--out", out];
+        let ran = stderr(&succeeds(fuzz(dir.path(), &more)));
+        assert!(ran.matches(note).count() == 1 && ran.contains("city.xodr:"), "{ran}");
     }
 }
 

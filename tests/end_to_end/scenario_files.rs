@@ -1,6 +1,6 @@
 //! Scenarios of files (ASAM OpenSCENARIO): campaigns over their parameters, replays, descriptions, and files with mistakes.
 
-use crate::common::{fuzz, refused, stdout, succeeds};
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -37,7 +37,7 @@ fn a_distribution_of_parameters_is_a_campaign_and_its_trials_are_replayed() {
         assert!(["pass", "fail"].map(Into::into).contains(&trial["verdict"]), "{trial}");
     }
     let study = fs::read_to_string(dir.path().join("c/campaign.json")).expect("a study");
-    assert!(study.contains("speed in [20, 30, 40, 50]"), "{study}");
+    assert!(study.contains("\"speed > 0 and speed <= 50\""), "{study}");
     let valid = &trials[0];
     let index = valid["index"].to_string();
     let replayed = stdout(&fuzz(dir.path(), &["replay", "c", &index]));
@@ -79,7 +79,7 @@ fn a_range_that_is_not_there_and_a_space_without_tests_are_refused() {
     let text = text.replacen("rule=\"greaterThan\" value=\"0\"", "rule=\"greaterThan\" value=\"49.99\"", 1);
     fs::write(dir.path().join("slow-leader.xosc"), text).expect("it is writable");
     let arguments = ["slow-leader-variation.xosc", "--continuous", "--out", "c"];
-    refused(&fuzz(dir.path(), &arguments), &["of 2048 tests keep the constraints", "`speed`"]);
+    refused(&fuzz(dir.path(), &arguments), &["of 2048 tests keep the constraints", "`speed > 49.99 and speed <= 50`"]);
     assert!(!dir.path().join("c").exists());
 }
 
@@ -168,6 +168,57 @@ fn a_scenario_of_a_file_is_described_with_its_graph_of_streams() {
 }
 
 #[test]
+fn the_parts_of_files_without_effect_are_noted_once_before_the_tests() {
+    let dir = folder();
+    let notes = [
+        "catalogs/entities.xosc:9: `Axles` has no effect: ",
+        "catalogs/entities.xosc:14: `Properties` has no effect: it is data for other programs",
+    ];
+    let text = fs::read_to_string(dir.path().join("straight.xodr")).expect("it is there");
+    let hill = "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.01\" c=\"0\" d=\"0\"/></elevationProfile><lanes>";
+    fs::write(dir.path().join("straight.xodr"), text.replacen("<lanes>", hill, 1)).expect("it is writable");
+    let flat = "straight.xodr: the world is flat: heights up to 10.00 m are left out";
+    let arguments = ["slow-leader-variation.xosc", "--driver", "aeb", "--budget", "4", "--out", "c"];
+    let ran = stderr(&succeeds(fuzz(dir.path(), &arguments)));
+    for note in notes.into_iter().chain([flat]) {
+        assert_eq!(ran.matches(note).count(), 1, "`{note}` in: {ran}");
+    }
+    let quiet =
+        stderr(&succeeds(fuzz(dir.path(), &["slow-leader-variation.xosc", "-q", "--budget", "2", "--out", "q"])));
+    assert_eq!(quiet, "");
+    let table = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader-variation.xosc", "--format", "table"])));
+    assert!(table.contains("\nnotes\n") && table.contains(notes[0]) && table.contains(flat), "{table}");
+    let json = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader-variation.xosc", "--format", "json"])));
+    let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
+    assert_eq!(json["notes"].as_array().map(Vec::len), Some(3), "{json}");
+}
+
+#[test]
+fn a_parameter_of_whole_numbers_is_opened_to_whole_numbers() {
+    let dir = folder();
+    let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");
+    let text =
+        text.replacen("name=\"gap\" parameterType=\"double\"", "name=\"gap\" parameterType=\"unsignedShort\"", 1);
+    fs::write(dir.path().join("whole.xosc"), text).expect("it is writable");
+    succeeds(fuzz(dir.path(), &["whole.xosc", "--open", "gap=40..47", "--budget", "20", "--out", "c"]));
+    let mut gaps: Vec<u64> =
+        trials(dir.path(), "c").iter().map(|trial| trial["test"]["gap"].as_u64().expect("a whole number")).collect();
+    gaps.sort_unstable();
+    assert_eq!(gaps, [40, 41, 42, 43, 44, 45, 46, 47]);
+    for (option, value, says) in [
+        ("--open", "gap=40.5..47", "parameter `gap`: found 40.5, expected a whole number"),
+        ("--open", "gap=40,41.5", "parameter `gap`: found 41.5, expected a whole number"),
+        ("--open", "gap=-1..3", "parameter `gap`: found -1, expected"),
+        ("--open", "gap", "0 to 65535 are 65536 of them, expected at most 10000"),
+        ("--set", "gap=4.5", "parameter `gap`: found 4.5, expected a whole number"),
+        ("--set", "gap=70000", "parameter `gap`: found 70000, expected"),
+    ] {
+        refused(&fuzz(dir.path(), &["whole.xosc", option, value, "--open", "speed=20..30", "--out", "d"]), &[says]);
+    }
+    assert!(!dir.path().join("d").exists());
+}
+
+#[test]
 fn a_scenario_with_a_mistake_is_refused_with_its_line_and_nothing_is_written() {
     let dir = folder();
     let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");
@@ -178,6 +229,23 @@ fn a_scenario_with_a_mistake_is_refused_with_its_line_and_nothing_is_written() {
     let output = fuzz(dir.path(), &["absent.xosc", "--driver", "aeb", "--out", "c"]);
     refused(&output, &["absent.xosc: the file cannot be read"]);
     assert!(!dir.path().join("c").exists());
+}
+
+#[test]
+fn a_test_in_which_an_expression_divides_by_zero_is_invalid() {
+    let dir = folder();
+    let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");
+    fs::write(dir.path().join("divides.xosc"), text.replacen("$gap + 10", "100 / ($gap - 45) + 160", 1))
+        .expect("it is writable");
+    succeeds(fuzz(dir.path(), &["divides.xosc", "--open", "gap=44,45,46", "--budget", "3", "--out", "c"]));
+    for trial in trials(dir.path(), "c") {
+        let says = trial["error"].as_str().unwrap_or_default();
+        assert_eq!(trial["verdict"] == "invalid", trial["test"]["gap"] == 45, "{trial}");
+        assert_eq!(
+            says.contains("divides.xosc:12: ") && says.contains("it divides by zero"),
+            trial["test"]["gap"] == 45
+        );
+    }
 }
 
 #[test]

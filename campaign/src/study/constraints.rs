@@ -21,10 +21,12 @@ impl Study {
         };
         let mut texts = Vec::new();
         for constraint in self.program()?.declare()?.constraints {
-            match constraint.specialised(&known, &takes) {
+            match constraint.expression.specialised(&known, &takes) {
                 Specialised::Always => {}
                 Specialised::Open(expression) => texts.push(expression.to_string()),
-                Specialised::Never => return Err(ParameterMisuse::Broken { constraint: constraint.to_string() }.into()),
+                Specialised::Never => {
+                    return Err(ParameterMisuse::Broken { constraint: constraint.expression.to_string() }.into());
+                }
             }
         }
         self.space = self.space.clone().with_constraints(texts)?;

@@ -7,6 +7,9 @@ use paracosm_engine::{Declared, Test};
 use paracosm_space::{Distribution, Domain, Parameter, Shape, Space, Value, Values, did_you_mean, nearest};
 use thiserror::Error;
 
+/// The greatest number of whole numbers that a parameter may be opened to.
+const MOST_WHOLE: f64 = 10_000.0;
+
 /// The variation of an open parameter over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Variation {
@@ -59,6 +62,21 @@ pub enum ParameterMisuse {
         /// The name of the parameter.
         name: String,
     },
+    /// A parameter of whole numbers is opened over more of them than a list of values may have.
+    #[error(
+        "parameter `{name}` takes whole numbers; {lo} to {hi} are {count:.0} of them, expected at most {MOST_WHOLE}: name fewer, \
+         for example --open {name}=0..10"
+    )]
+    TooManyWhole {
+        /// The name of the parameter.
+        name: String,
+        /// The least of the numbers.
+        lo: f64,
+        /// The greatest of the numbers.
+        hi: f64,
+        /// The number of the numbers.
+        count: f64,
+    },
     /// No parameter has a range of numbers that could be opened.
     #[error("scenario `{scenario}` has no open range with a step that could become an interval")]
     NoRange {
@@ -86,12 +104,32 @@ pub(super) fn is_of_world(name: &str) -> bool {
     !is_of_camera(name)
 }
 
+/// Returns the domain over which a parameter is opened: the list of the whole numbers in an interval if the parameter takes no
+/// others.
+fn listed(declared: &Declared, domain: &Domain) -> Result<Domain, ParameterMisuse> {
+    match *domain {
+        Domain::Interval { lo, hi } if declared.whole => {
+            let count = hi.floor() - lo.ceil() + 1.0;
+            if count > MOST_WHOLE {
+                return Err(ParameterMisuse::TooManyWhole { name: declared.parameter.name.clone(), lo, hi, count });
+            }
+            Ok(Domain::Choice((0..count as usize).map(|index| Value::Number(lo.ceil() + index as f64)).collect()))
+        }
+        _ => Ok(domain.clone()),
+    }
+}
+
 impl Study {
     /// Opens a parameter, so that tests vary it over its declared domain or over this part of it.
     pub(super) fn open(&mut self, name: &str, over: Option<&Domain>) -> Result<(), Error> {
         let parameter = match over {
             Some(domain) => self.over(name, domain)?,
-            None => self.find_declared(name)?.opened(),
+            None => {
+                let declared = self.find_declared(name)?;
+                let mut parameter = declared.opened();
+                parameter.domain = listed(&declared, &parameter.domain)?;
+                parameter
+            }
         };
         let fixed = &mut self.subject.scenario_mut()?.fixed;
         *fixed = fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
@@ -110,11 +148,12 @@ impl Study {
         for end in &ends {
             declared.check(end)?;
         }
+        let domain = listed(&declared, domain)?;
         let mut parameter = declared.parameter;
-        if matches!((&parameter.domain, domain), (Domain::Choice(_), Domain::Interval { .. })) {
+        if matches!((&parameter.domain, &domain), (Domain::Choice(_), Domain::Interval { .. })) {
             return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
         }
-        parameter.domain = domain.clone();
+        parameter.domain = domain;
         parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
         Ok(parameter)
     }
@@ -140,7 +179,7 @@ impl Study {
         for declared in self.program()?.declare()?.parameters {
             let name = declared.parameter.name.as_str();
             let is_listed = self.space.find(name).is_some_and(|open| open.levels().is_some());
-            if is_listed && declared.parameter.levels().is_none() {
+            if is_listed && !declared.whole && declared.parameter.levels().is_none() {
                 self.rebuild(name, Some(declared.parameter.clone()))?;
                 opened += 1;
             }
@@ -213,6 +252,29 @@ impl Study {
             }
         }
         Ok(())
+    }
+
+    /// Returns the remarks of the program on the worlds of the tests, for example which parts of a file have no effect. Each
+    /// remark comes once. A word that the study gives a parameter, such as the name of a file, can bring further remarks.
+    ///
+    /// # Errors
+    /// The program cannot be run.
+    pub fn notes(&self) -> Result<Vec<String>, Error> {
+        let Subject::Scenario(simulation) = &self.subject else { return Ok(Vec::new()) };
+        let (program, nominal) = (simulation.program()?, self.nominal()?);
+        let mut notes = program.notes(Test::new(&nominal, &self.space));
+        for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {
+            for word in parameter.levels().into_iter().flatten().filter(|level| level.word().is_some()) {
+                let mut test = nominal.clone();
+                test.set(parameter.name.as_str(), word.clone());
+                for note in program.notes(Test::new(&test, &self.space)) {
+                    if !notes.contains(&note) {
+                        notes.push(note);
+                    }
+                }
+            }
+        }
+        Ok(notes)
     }
 
     pub(super) fn find_declared(&self, name: &str) -> Result<Declared, Error> {

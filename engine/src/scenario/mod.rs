@@ -4,6 +4,7 @@
 //! inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two ego vehicles)
 //! are collected and reported when the function has returned, so programs need no `?` on every line.
 
+mod constraint;
 mod draft;
 mod ego;
 mod environment;
@@ -11,6 +12,7 @@ mod param;
 mod requirement;
 mod road;
 
+pub use constraint::Constraint;
 pub use draft::ObjectDraft;
 pub use ego::{AutonomousVehicle, Car, Lead, LedMotion};
 pub(crate) use ego::{Ego, EgoSetup};
@@ -25,7 +27,6 @@ use crate::road::RoadNetwork;
 use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Slot, Source, Stream, dot};
 use crate::test::{Declared, Test};
 use crate::weather::WeatherPart;
-use paracosm_space::constraint::Expression;
 use paracosm_space::{Domain, Parameter, Shape, Value};
 use param::{Keys, Read};
 use std::cell::{Cell, RefCell};
@@ -48,7 +49,7 @@ pub struct Scenario {
     given: Vec<(String, param::Given)>,
     pub(crate) keys: Rc<Keys>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
-    pub(crate) constraints: Vec<Expression>,
+    pub(crate) constraints: Vec<Constraint>,
     pub(crate) flaws: Flaws,
     /// The networks that were placed; `None` for a network that cannot be built.
     pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
@@ -67,6 +68,8 @@ pub struct Scenario {
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
     pub(crate) end: Option<Stream<bool>>,
+    /// The remarks of the program; `None` if nobody wants them.
+    pub(crate) notes: Option<Vec<String>>,
     pub(crate) duration: f64,
     pub(crate) dt: f64,
     effects: Vec<Rc<Node>>,
@@ -126,6 +129,7 @@ impl Scenario {
             requirements: Rc::default(),
             premise: None,
             end: None,
+            notes: None,
             duration: 10.0,
             dt: DEFAULT_DT,
             effects: Vec::new(),
@@ -165,9 +169,8 @@ impl Scenario {
     }
 
     /// Declares a parameter that was described as data, for example in a file.
-    pub fn parameter(&mut self, Declared { parameter, open, opens, takes_texts }: Declared) -> Param<Value> {
-        let parameter = self.described(parameter, open, opens, Read::value());
-        if takes_texts { parameter.taking_texts() } else { parameter }
+    pub fn parameter(&mut self, declared: Declared) -> Param<Value> {
+        self.described(declared, Read::value())
     }
 
     /// Declares a closed parameter that takes any text, such as the path of a file. It stays at `nominal` until a study sets
@@ -181,19 +184,14 @@ impl Scenario {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
-        self.described(parameter, open, None, read)
+        self.described(Declared { open, ..Declared::open(parameter) }, read)
     }
 
-    fn described<T: Clone>(
-        &mut self,
-        parameter: Parameter,
-        open: bool,
-        opens: Option<Domain>,
-        read: Read<T>,
-    ) -> Param<T> {
+    fn described<T: Clone>(&mut self, declared: Declared, read: Read<T>) -> Param<T> {
         // A name that the test does not know is reported once the program has returned, together with all the others.
-        let given = self.given.iter().find(|(given, _)| *given == parameter.name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(Declared { open, opens, ..Declared::open(parameter) });
+        let name = &declared.parameter.name;
+        let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
+        self.parameters.borrow_mut().push(declared);
         Param::new(self, given.unwrap_or_default(), read)
     }
 
@@ -285,14 +283,22 @@ impl Scenario {
     ///
     /// ```
     /// # use paracosm_engine::Scenario;
-    /// fn world(s: &mut Scenario) {
+    /// #     /// fn world(s: &mut Scenario) {
     ///     let speed = s.interval("speed", 1.0, 30.0).default(10.0).value();
     ///     let gap = s.interval("gap", 5.0, 100.0).default(50.0).value();
-    ///     s.constrain("gap >= 0.5 * speed".parse().expect("a constraint"));
+    ///     s.constrain("gap >= 0.5 * speed".parse::<Expression>().expect("a constraint"));
     /// }
     /// ```
-    pub fn constrain(&mut self, constraint: Expression) {
-        self.constraints.push(constraint);
+    pub fn constrain(&mut self, constraint: impl Into<Constraint>) {
+        self.constraints.push(constraint.into());
+    }
+
+    /// Remarks on the world, such as the parts of a file that have no effect. The function makes the remarks if somebody wants
+    /// them, so they take no time in a test.
+    pub fn note<N: IntoIterator<Item = String>>(&mut self, notes: impl FnOnce() -> N) {
+        if let Some(all) = &mut self.notes {
+            all.extend(notes());
+        }
     }
 
     /// Makes the test invalid for the reason `why`, because the test's world is impossible. Use this for conditions

@@ -5,7 +5,7 @@
 
 use super::object::Object;
 use super::road::Road;
-use crate::xml::{Element, ReadError};
+use crate::xml::{Element, Flaw, ReadError};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::object::{Body, Class};
@@ -27,6 +27,8 @@ const PIECE: f64 = 4.0;
 /// The greatest length, width, radius or height in metres, and the greatest number of pieces of a repetition.
 const LARGEST: f64 = 1000.0;
 const MOST: f64 = 10_000.0;
+/// The least number of corners of an outline.
+const FEWEST_CORNERS: usize = 2;
 
 /// The types of objects that are marks on the ground, or that span the road.
 const NO_BODY: &[&str] = &["crosswalk", "gantry", "parkingSpace", "patch", "roadMark", "roadSurface", "trafficIsland"];
@@ -172,7 +174,12 @@ fn signal(of: Element<'_, '_>, road: &Road) -> Result<Object, ReadError> {
     let turned = number_or(of, "hOffset", 0.0)?;
     // The post reaches from the ground to the plate.
     let top = (measures.bottom + height).max(0.0);
-    let is_solid = height > FLAT && (FLAT..=LARGEST).contains(&top);
+    if top > LARGEST {
+        return Err(
+            of.unexpected("zOffset", format!("a place at which the top of the signal is at most {LARGEST} m high"))
+        );
+    }
+    let is_solid = height > FLAT && top >= FLAT;
     let post = Body::disc(Class::Sign, POST, top.max(FLAT));
     Ok(Object {
         id: of.text("id").unwrap_or_default().to_owned(),
@@ -219,6 +226,10 @@ fn walls(
             _ => continue,
         };
         corners.push((point, Measures { height: size(of, "height", measures.height)?, bottom, ..*measures }.top()));
+    }
+    if corners.len() < FEWEST_CORNERS {
+        let (element, found) = (outline.name().to_owned(), corners.len());
+        return Err(outline.error(Flaw::TooFew { element, child: "corner", found, least: FEWEST_CORNERS }));
     }
     let is_closed = outline.text("closed") != Some("false");
     let last = corners.first().copied().filter(|_| is_closed && corners.len() > 2);

@@ -2,6 +2,7 @@
 
 use crate::xml::NoEffect;
 use std::fmt;
+use std::path::Path;
 
 /// A remark on a file that was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,13 +85,26 @@ pub enum Note {
     },
 }
 
+impl Note {
+    /// Returns the line of the file that the remark is about, from 1; `None` if it is about no single line.
+    pub fn line(&self) -> Option<u32> {
+        match self {
+            Self::NoEffect(NoEffect { line, .. }) | Self::NoLane { line, .. } | Self::Apart { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
+
+    /// Describes the remark with the path of its file and its line.
+    pub fn in_file(&self, file: &Path) -> String {
+        let line = self.line().map(|line| format!(":{line}")).unwrap_or_default();
+        format!("{}{line}: {self}", file.display())
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoEffect(NoEffect { name, reason, count, line }) => {
-                let times = if *count == 1 { String::new() } else { format!(" ({count} times)") };
-                write!(f, "line {line}: `{name}`{times} has no effect: {reason}")
-            }
+            Self::NoEffect(part) => part.fmt(f),
             Self::Old { minor } => {
                 write!(
                     f,
@@ -104,15 +118,12 @@ impl fmt::Display for Note {
                 }
                 f.write_str(" are left out")
             }
-            Self::NoLane { line, lane, count } => {
-                write!(
-                    f,
-                    "line {line}: the link leads to lane {lane}, which does not exist there; cars do not use it"
-                )?;
+            Self::NoLane { lane, count, .. } => {
+                write!(f, "the link leads to lane {lane}, which does not exist there; cars do not use it")?;
                 others(f, *count, "link")
             }
-            Self::Apart { line, gap, count } => {
-                write!(f, "line {line}: the link joins lanes that are {gap:.3} m apart; cars do not use it")?;
+            Self::Apart { gap, count, .. } => {
+                write!(f, "the link joins lanes that are {gap:.3} m apart; cars do not use it")?;
                 others(f, *count, "link")
             }
             Self::Jump { road, s, gap, count } => {

@@ -21,6 +21,8 @@ const NEWEST: u32 = 8;
 const LONGEST: f64 = 100_000.0;
 const MOST_TURN: f64 = 1000.0;
 
+/// The greatest number of roads of a map.
+const MOST_ROADS: usize = 100_000;
 /// The greatest width of a road mark in metres.
 const WIDEST_MARK: f64 = 10.0;
 
@@ -30,6 +32,10 @@ const CLOSE: f64 = 1e-3;
 /// Reads the roads and junctions of a file, and the minor version of the file.
 pub(super) fn map(root: Element<'_, '_>) -> Result<(Map, u32), ReadError> {
     let minor = version(root.child("header")?)?;
+    let (found, most) = (root.all("road").count(), MOST_ROADS);
+    if found > most {
+        return Err(root.error(Flaw::TooMany { element: root.name().to_owned(), child: "road", found, most }));
+    }
     let names = Names::of(root)?;
     let roads = root.all("road").map(|element| road(element, &names)).collect::<Result<Vec<_>, _>>()?;
     if roads.is_empty() {

@@ -1,27 +1,67 @@
 //! The catalogs of a scenario: entries of other files that a scenario refers to by name.
 
 use super::elements::schema;
-use super::scope::{Node, Scope};
-use crate::xml::{Document, Element, Flaw, ReadError};
+use super::linked;
+use super::local::{Local, declare};
+use super::scope::Node;
+use crate::xml::{Document, Element, Flaw, NoEffect, ReadError};
+use paracosm_space::nearest;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
-/// The catalog files of a scenario, by the names of the catalogs.
+/// The catalog files of a scenario.
 #[derive(Debug, Default)]
-pub(super) struct CatalogFiles(BTreeMap<String, Document>);
+pub(super) struct CatalogFiles {
+    /// The files by the names of the catalogs.
+    all: BTreeMap<String, Document>,
+    /// The first folder that does not exist, with the file and the line of the element that names it.
+    absent: Option<(PathBuf, u32, PathBuf)>,
+}
 
 /// The trees of the catalogs of a scenario.
-pub(super) struct Catalogs<'a>(BTreeMap<&'a str, Element<'a, 'a>>);
+pub(super) struct Catalogs<'a> {
+    all: BTreeMap<&'a str, Element<'a, 'a>>,
+    absent: Option<&'a (PathBuf, u32, PathBuf)>,
+    found: RefCell<Found>,
+}
+
+/// The facts about the parts of a scenario that come up while the parts are read.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    /// The parameters of parts with demands that depend on the test.
+    pub locals: Vec<Local>,
+    /// The parts of entries of catalogs that have no effect, by the file and the line of the entry.
+    pub without_effect: BTreeMap<(PathBuf, u32), Vec<NoEffect>>,
+}
+
+impl Found {
+    /// Describes the parts of entries that have no effect: each name once for each file.
+    pub fn notes(&self) -> Vec<String> {
+        let mut all: BTreeMap<(&Path, &str), NoEffect> = BTreeMap::new();
+        for ((file, _), part) in self.without_effect.iter().flat_map(|(at, parts)| parts.iter().map(move |of| (at, of)))
+        {
+            let known = all.entry((file, &part.name)).or_insert_with(|| NoEffect { count: 0, ..part.clone() });
+            known.count += part.count;
+        }
+        let mut all: Vec<_> = all.into_iter().map(|((file, _), part)| (file, part)).collect();
+        all.sort_by_key(|(file, part)| (*file, part.line));
+        all.into_iter().map(|(file, part)| part.in_file(file)).collect()
+    }
+}
 
 impl CatalogFiles {
     /// Reads all catalogs in the folders that a scenario names. `folder` is the folder of the scenario.
     pub fn read(locations: Option<Node<'_>>, folder: &Path) -> Result<Self, ReadError> {
-        let mut files = BTreeMap::new();
+        let (mut all, mut absent) = (BTreeMap::new(), None);
         for location in locations.into_iter().flat_map(Node::elements) {
             let directory = location.child("Directory")?;
-            let path = folder.join(directory.required("path")?.as_ref());
+            let path = linked::within(directory, "path", folder)?;
             // A scenario may name folders that it does not use. A reference to a catalog in them is an error.
             if !path.exists() {
+                let element = directory.element;
+                absent = absent.or_else(|| Some((element.file().to_owned(), element.line(), path)));
                 continue;
             }
             let unreadable = |error| directory.error(Flaw::Folder { folder: path.clone(), error });
@@ -38,16 +78,16 @@ impl CatalogFiles {
                     root.first("Catalog").map(|catalog| catalog.required("name").map(str::to_owned)).transpose()?
                 };
                 if let Some(name) = name {
-                    files.insert(name, document);
+                    all.insert(name, document);
                 }
             }
         }
-        Ok(Self(files))
+        Ok(Self { all, absent })
     }
 
     /// Parses the trees of all catalogs.
     pub fn trees(&self) -> Result<Vec<roxmltree::Document<'_>>, ReadError> {
-        self.0.values().map(Document::tree).collect()
+        self.all.values().map(Document::tree).collect()
     }
 
     /// Returns the catalogs with their trees, which [`CatalogFiles::trees`] has parsed.
@@ -55,7 +95,8 @@ impl CatalogFiles {
         let catalog = |((name, document), tree): ((&'a String, &'a Document), &'a roxmltree::Document<'a>)| {
             Ok((name.as_str(), document.root(tree, "OpenSCENARIO")?.child("Catalog")?))
         };
-        self.0.iter().zip(trees).map(catalog).collect::<Result<_, _>>().map(Catalogs)
+        let all = self.all.iter().zip(trees).map(catalog).collect::<Result<_, ReadError>>()?;
+        Ok(Catalogs { all, absent: self.absent.as_ref(), found: RefCell::default() })
     }
 }
 
@@ -69,37 +110,58 @@ impl Catalogs<'_> {
         read: impl FnOnce(Node<'_>) -> Result<T, ReadError>,
     ) -> Result<T, ReadError> {
         if node.name() != "CatalogReference" {
-            let mut scope = node.scope.clone();
-            declare(node, &mut scope)?;
-            return read(Node { element: node.element, scope: &scope });
+            return self.declaring(node, &[], read);
         }
         let catalog = node.required("catalogName")?;
-        let known = self.0.get(catalog.as_ref()).copied();
-        let catalog = known.ok_or_else(|| node.dangling("catalogName", "catalog", self.0.keys().copied()))?;
+        let known = self.all.get(catalog.as_ref()).copied();
+        let catalog = known.ok_or_else(|| self.unknown(node, &catalog))?;
         let entry_name = node.required("entryName")?;
         let entries = || catalog.elements().filter(|entry| kinds.contains(&entry.name()));
         let entry = entries().find(|entry| entry.text("name") == Some(entry_name.as_ref())).ok_or_else(|| {
             node.dangling("entryName", "entry of the catalog", entries().filter_map(|entry| entry.text("name")))
         })?;
-        schema().check(entry)?;
-        let mut scope = node.scope.clone();
-        declare(Node { element: entry, scope: node.scope }, &mut scope)?;
-        for assignment in node.first("ParameterAssignments").into_iter().flat_map(|all| all.all("ParameterAssignment"))
-        {
-            let name = assignment.element.required("parameterRef")?;
-            let name = name.strip_prefix('$').unwrap_or(name).to_owned();
-            scope.set(name, assignment.required("value")?.into_owned());
-        }
-        read(Node { element: entry, scope: &scope })
+        self.check(entry)?;
+        let assignments: Vec<_> = node.first("ParameterAssignments").into_iter().flat_map(Node::elements).collect();
+        self.declaring(Node { element: entry, scope: node.scope }, &assignments, read)
     }
-}
 
-/// Adds the parameters that an element declares to a scope.
-pub(super) fn declare(node: Node<'_>, scope: &mut Scope) -> Result<(), ReadError> {
-    for declaration in node.first("ParameterDeclarations").into_iter().flat_map(|all| all.all("ParameterDeclaration")) {
-        let here = Node { element: declaration.element, scope };
-        let (name, value) = (here.required("name")?.into_owned(), here.text("value")?.unwrap_or_default().into_owned());
-        scope.set(name, value);
+    /// Reads an element that sees the parameters of a scope, and the parameters that the element declares.
+    pub fn declaring<T>(
+        &self,
+        node: Node<'_>,
+        assignments: &[Node<'_>],
+        read: impl FnOnce(Node<'_>) -> Result<T, ReadError>,
+    ) -> Result<T, ReadError> {
+        let mut scope = node.scope.clone();
+        let locals = declare(node.element, &mut scope, assignments)?;
+        self.found.borrow_mut().locals.extend(locals);
+        read(Node { element: node.element, scope: &scope })
     }
-    Ok(())
+
+    /// Makes the error that a reference names no catalog. The reason may be a folder that does not exist.
+    fn unknown(&self, node: Node<'_>, name: &str) -> ReadError {
+        match self.absent {
+            Some((file, line, folder)) if nearest(name, self.all.keys().copied()).is_none() => {
+                let (folder, read) = (folder.clone(), std::fs::read_dir(folder));
+                let error = read.err().unwrap_or_else(|| io::ErrorKind::NotFound.into());
+                ReadError { file: file.clone(), line: Some(*line), flaw: Box::new(Flaw::Folder { folder, error }) }
+            }
+            _ => node.dangling("catalogName", "catalog", self.all.keys().copied()),
+        }
+    }
+
+    /// Checks an entry, once.
+    fn check(&self, entry: Element<'_, '_>) -> Result<(), ReadError> {
+        let key = (entry.file().to_owned(), entry.line());
+        if !self.found.borrow().without_effect.contains_key(&key) {
+            let notes = schema().check(entry)?;
+            self.found.borrow_mut().without_effect.insert(key, notes);
+        }
+        Ok(())
+    }
+
+    /// Returns the facts that have come up since the last call.
+    pub fn found(&self) -> Found {
+        self.found.take()
+    }
 }

@@ -31,6 +31,11 @@ pub(super) fn seconds(node: Node<'_>) -> Result<f64, ReadError> {
     parsed(&text).ok_or_else(wrong)
 }
 
+/// Returns `true` if a text is a time in the format of XML Schema.
+pub(super) fn is_time(text: &str) -> bool {
+    parsed(text).is_some()
+}
+
 /// Reads a time in the format of XML Schema: `2026-01-31T12:00:00.5+01:00`. The zone may be absent.
 fn parsed(text: &str) -> Option<f64> {
     let (date, time) = text.split_once('T')?;

@@ -4,20 +4,24 @@
 //! written as terms of the parameters of tests. Parameters that change together are one parameter of tests, whose values are
 //! tuples. A constraint on a part of a tuple is written for each tuple by itself.
 
-use super::parameters::{Declaration, Parameters};
+use super::demand::{Demand, Limit};
+use super::kind::Kind;
+use super::parameters::Parameters;
 use super::rule::Rule;
-use crate::xml::{Expression as Computed, ExpressionFlaw};
-use paracosm_space::constraint::{Expression, Operand, Relation, Term};
-use paracosm_space::{Value, nearest};
+use super::scope::Scope;
+use crate::xml::{Expression as Computed, ExpressionFlaw, Flaw, ReadError};
+use paracosm_engine::Constraint;
+use paracosm_space::Value;
+use paracosm_space::constraint::{Expression, Function, Operand, Relation, Term};
 
-/// What the constraint groups of a declared parameter say.
+/// What the demands of a declared parameter say.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Said {
-    /// The groups hold in every test.
+enum Said {
+    /// The demands hold in every test.
     Always,
-    /// No group holds in any test.
+    /// The demands hold in no test.
     Never,
-    /// The groups hold in the tests that keep the expression.
+    /// The demands hold in the tests that keep the expression.
     If(Expression),
 }
 
@@ -26,34 +30,58 @@ pub(super) enum Said {
 enum Symbol {
     /// The same value in all tests.
     Value(Value),
-    /// The value of a parameter of tests. Values of a parameter that takes texts are texts also if they look like numbers.
-    Parameter { name: String, takes_texts: bool },
+    /// The value of a parameter of tests, of the given type.
+    Parameter(String, Kind),
     /// A number that is computed from parameters of tests.
     Term(Term),
 }
 
-/// The declared parameters, some of them with the values of one tuple.
+/// Parameters, some of them with the values of one tuple.
 struct Writer<'a> {
     parameters: &'a Parameters,
+    /// The declared parameters, first those of the whole scenario.
+    scope: &'a Scope,
     fixed: Vec<(String, Value)>,
 }
 
-/// Writes the constraint groups of a declared parameter.
+/// Writes the demands on a parameter of a scope as a constraint of the space; `None` if they hold in every test.
 ///
 /// # Errors
-/// A limit names an unknown parameter, or cannot be computed with.
-pub(super) fn written(parameters: &Parameters, declaration: &Declaration) -> Result<Said, ExpressionFlaw> {
-    Writer { parameters, fixed: Vec::new() }.cases(declaration, &parameters.cases(declaration))
+/// A limit names an unknown parameter, or cannot be computed with. No test keeps the demands.
+pub(super) fn constraint(
+    parameters: &Parameters,
+    scope: &Scope,
+    at: usize,
+    demand: &Demand,
+) -> Result<Option<Constraint>, ReadError> {
+    if !demand.depends_on_values() {
+        return Ok(None);
+    }
+    let cases = parameters.cases(scope.sources(at, demand.limits()));
+    let said = Writer { parameters, scope, fixed: Vec::new() }.cases(at, demand, &cases).map_err(|flaw| {
+        let (element, attribute) = ("ParameterDeclaration".to_owned(), "name".to_owned());
+        demand.error(Flaw::Expression { element, attribute, text: demand.name.clone(), flaw })
+    })?;
+    match said {
+        Said::Always => Ok(None),
+        Said::If(expression) => Ok(Some(Constraint { expression, place: Some(demand.place()) })),
+        Said::Never => {
+            let (element, attribute) = ("ParameterDeclaration".to_owned(), "name".to_owned());
+            let expected = "a parameter with a value that its type and its constraints allow".to_owned();
+            let found = demand.name.clone();
+            Err(demand.error(Flaw::Value { element, attribute, found, expected, nearest: None }))
+        }
+    }
 }
 
 impl Writer<'_> {
-    /// Writes the groups for each value of the parameters of tests that are written value by value.
-    fn cases(&mut self, declaration: &Declaration, split: &[(String, Vec<Value>)]) -> Result<Said, ExpressionFlaw> {
-        let Some(((name, values), rest)) = split.split_first() else { return self.groups(declaration) };
+    /// Writes the demands for each value of the parameters of tests that are written value by value.
+    fn cases(&mut self, at: usize, demand: &Demand, split: &[(String, Vec<Value>)]) -> Result<Said, ExpressionFlaw> {
+        let Some(((name, values), rest)) = split.split_first() else { return self.demands(at, demand) };
         let mut parts = Vec::new();
         for value in values {
             self.fixed.push((name.clone(), value.clone()));
-            let said = self.cases(declaration, rest);
+            let said = self.cases(at, demand, rest);
             self.fixed.pop();
             let is = |relation| Expression::Compare {
                 parameter: name.clone(),
@@ -69,46 +97,44 @@ impl Writer<'_> {
         Ok(joined(true, parts))
     }
 
-    fn groups(&self, declaration: &Declaration) -> Result<Said, ExpressionFlaw> {
-        let value = self.declared(declaration)?;
-        let limit = |(rule, text): &(Rule, String)| compared(*rule, &value, &self.text(text)?);
-        let group = |limits: &Vec<(Rule, String)>| {
+    fn demands(&self, at: usize, demand: &Demand) -> Result<Said, ExpressionFlaw> {
+        let value = self.value(at)?;
+        let limit = |Limit { rule, text }: &Limit| compared(*rule, &value, &self.text(text, self.scope.len())?);
+        let group = |limits: &Vec<Limit>| {
             Ok(joined(true, limits.iter().map(limit).collect::<Result<Vec<_>, ExpressionFlaw>>()?))
         };
-        Ok(joined(false, declaration.groups.iter().map(group).collect::<Result<Vec<_>, ExpressionFlaw>>()?))
+        let groups = demand.groups.iter().map(group).collect::<Result<Vec<_>, ExpressionFlaw>>()?;
+        let groups = if groups.is_empty() { Said::Always } else { joined(false, groups) };
+        Ok(joined(true, vec![of_kind(&value, demand.kind), groups]))
     }
 
-    /// Returns the value of a declared parameter.
-    fn declared(&self, declaration: &Declaration) -> Result<Symbol, ExpressionFlaw> {
-        let Some(name) = self.parameters.source(declaration) else { return self.text(&declaration.text) };
-        if let Some((_, value)) = self.fixed.iter().find(|(fixed, _)| *fixed == name) {
-            return Ok(Symbol::Value(self.parameters.part(declaration, value)));
+    /// Returns the value of a parameter of the scope.
+    fn value(&self, at: usize) -> Result<Symbol, ExpressionFlaw> {
+        if let Some((text, among)) = self.scope.local(at) {
+            return self.text(text, among);
         }
-        Ok(Symbol::Parameter { name, takes_texts: declaration.takes_texts() })
+        let declaration = self.parameters.declaration(at);
+        let Some(name) = self.parameters.source(declaration) else { return self.text(&declaration.text, at) };
+        Ok(match self.fixed.iter().find(|(fixed, _)| *fixed == name) {
+            Some((_, value)) => Symbol::Value(self.parameters.part(declaration, value)),
+            None => Symbol::Parameter(name, declaration.demand.kind),
+        })
     }
 
-    /// Returns the value of the text of an attribute.
-    fn text(&self, text: &str) -> Result<Symbol, ExpressionFlaw> {
-        let Some(name) = text.strip_prefix('$') else { return Ok(Symbol::Value(super::distribution::parsed(text))) };
+    /// Returns the value of the text of an attribute that sees the first `among` parameters.
+    fn text(&self, text: &str, among: usize) -> Result<Symbol, ExpressionFlaw> {
+        let Some(name) = text.strip_prefix('$') else { return Ok(Symbol::Value(Value::parse(text))) };
         match name.strip_prefix('{').map(|inside| inside.strip_suffix('}')) {
-            None => self.named(name),
+            None => self.value(self.scope.find(among, name)?),
             Some(None) => Err(ExpressionFlaw::Unexpected { found: text.to_owned(), expected: "`}` at the end" }),
             Some(Some(inside)) => {
-                let term = |name: &str| self.named(name)?.term();
+                let term = |name: &str| self.value(self.scope.find(among, name)?)?.term();
                 Ok(match Computed::parse(inside)?.term(&term)? {
                     Term::Number(number) => Symbol::Value(Value::Number(number)),
                     term => Symbol::Term(term),
                 })
             }
         }
-    }
-
-    fn named(&self, name: &str) -> Result<Symbol, ExpressionFlaw> {
-        let unknown = || {
-            let nearest = nearest(name, self.parameters.names()).map(str::to_owned);
-            ExpressionFlaw::NoParameter { name: name.to_owned(), nearest }
-        };
-        self.declared(self.parameters.find(name).ok_or_else(unknown)?)
     }
 }
 
@@ -117,28 +143,50 @@ impl Symbol {
         match self {
             Self::Value(Value::Number(number)) => Ok(Term::Number(number)),
             Self::Value(other) => Err(ExpressionFlaw::Type { found: other.to_string(), expected: "a number" }),
-            Self::Parameter { name, takes_texts: true } => {
+            Self::Parameter(name, kind) if kind.is_text() => {
                 Err(ExpressionFlaw::Type { found: name, expected: "a number" })
             }
-            Self::Parameter { name, takes_texts: false } => Ok(Term::Parameter(name)),
+            Self::Parameter(name, _) => Ok(Term::Parameter(name)),
             Self::Term(term) => Ok(term),
         }
     }
 }
 
+/// Returns the statement that a value is of a type.
+fn of_kind(value: &Symbol, kind: Kind) -> Said {
+    match (value, kind) {
+        (Symbol::Value(value), _) => Said::of(kind.takes(&value.to_string())),
+        (Symbol::Parameter(_, known), _) if *known == kind || known.is_text() => Said::Always,
+        (_, Kind::Whole(least, most)) => {
+            let Ok(term) = value.clone().term() else { return Said::Always };
+            let rest = Term::Applied(Function::Remainder, vec![term.clone(), Term::Number(1.0)]);
+            let relate = |left: &Term, relation, right: f64| {
+                Said::If(Expression::Relate { left: left.clone(), relation, right: Term::Number(right) })
+            };
+            joined(
+                true,
+                vec![
+                    relate(&rest, Relation::Equal, 0.0),
+                    relate(&term, Relation::GreaterOrEqual, least as f64),
+                    relate(&term, Relation::LessOrEqual, most as f64),
+                ],
+            )
+        }
+        _ => Said::Always,
+    }
+}
+
 fn compared(rule: Rule, value: &Symbol, limit: &Symbol) -> Result<Said, ExpressionFlaw> {
     let relation = rule.relation();
-    let compare = |parameter: &String, takes_texts: bool, relation, value: &Value| {
-        let value = if takes_texts { Value::from(value.to_string().as_str()) } else { value.clone() };
+    let compare = |parameter: &String, kind: Kind, relation, value: &Value| {
+        let value = if kind.is_text() { Value::from(value.to_string().as_str()) } else { value.clone() };
         Said::If(Expression::Compare { parameter: parameter.clone(), relation, with: Operand::Value(value) })
     };
     Ok(match (value, limit) {
         (Symbol::Value(value), Symbol::Value(limit)) => Said::of(rule.holds(value, limit)),
-        (Symbol::Parameter { name, takes_texts }, Symbol::Value(limit)) => compare(name, *takes_texts, relation, limit),
-        (Symbol::Value(value), Symbol::Parameter { name, takes_texts }) => {
-            compare(name, *takes_texts, relation.mirrored(), value)
-        }
-        (Symbol::Parameter { name, .. }, Symbol::Parameter { name: other, .. }) => {
+        (Symbol::Parameter(name, kind), Symbol::Value(limit)) => compare(name, *kind, relation, limit),
+        (Symbol::Value(value), Symbol::Parameter(name, kind)) => compare(name, *kind, relation.mirrored(), value),
+        (Symbol::Parameter(name, _), Symbol::Parameter(other, _)) => {
             let with = Operand::Parameter(other.clone());
             Said::If(Expression::Compare { parameter: name.clone(), relation, with })
         }

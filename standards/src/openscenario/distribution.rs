@@ -1,5 +1,6 @@
 //! Distributions of parameters: which parameters a file opens, with which values.
 
+use super::kind::Kind;
 use super::scope::Node;
 use crate::xml::{Flaw, ReadError};
 use paracosm_engine::Declared;
@@ -35,17 +36,17 @@ enum Choices {
 }
 
 impl Distribution {
-    /// Reads an element `ParameterValueDistribution` of a scenario that declares parameters with the given names.
-    pub fn read(root: Node<'_>, declared: &[String]) -> Result<Self, ReadError> {
+    /// Reads an element `ParameterValueDistribution` of a scenario that declares parameters with the given names and types.
+    pub fn read(root: Node<'_>, declared: &[(String, Kind)]) -> Result<Self, ReadError> {
         let name = |node: Node<'_>| name(node, "parameterName", declared);
         if let Some(chances) = root.first("Stochastic") {
             let mut all: Vec<Opened> = Vec::new();
             for node in chances.all("StochasticDistribution") {
-                let name = name(node)?;
+                let (name, of) = name(node)?;
                 if all.iter().any(|other| other.names.contains(&name)) {
                     return Err(twice_distributed(node, &name));
                 }
-                all.push(Opened::chance(name, node)?);
+                all.push(Opened::chance(name, of, node)?);
             }
             return Ok(Self(all));
         }
@@ -54,11 +55,16 @@ impl Distribution {
             let kind = node.choice("a kind of distribution such as DistributionSet")?;
             let (names, values) = match kind.name() {
                 "DistributionSet" => {
-                    let value = |element: Node<'_>| Ok(vec![element.required("value")?.into_owned()]);
+                    let (name, of) = name(node)?;
+                    let value = |element: Node<'_>| Ok(vec![of.required(element, "value")?.into_owned()]);
                     let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
-                    (vec![name(node)?], Choices::Tuples(levels))
+                    (vec![name], Choices::Tuples(levels))
                 }
-                "DistributionRange" => (vec![name(node)?], range(kind)?),
+                "DistributionRange" => {
+                    let (name, of) = name(node)?;
+                    let values = range(kind, &name, of)?;
+                    (vec![name], values)
+                }
                 "ValueSetDistribution" => tuples(kind, declared)?,
                 _ => return Err(kind.refused("use a DistributionSet, a DistributionRange or a ValueSetDistribution")),
             };
@@ -78,16 +84,19 @@ impl Distribution {
 }
 
 impl Opened {
-    fn chance(name: String, node: Node<'_>) -> Result<Self, ReadError> {
+    fn chance(name: String, of: Kind, node: Node<'_>) -> Result<Self, ReadError> {
         let kind = node.choice("a kind of distribution such as UniformDistribution")?;
         let (domain, chances) = match kind.name() {
+            "UniformDistribution" | "NormalDistribution" if of != Kind::Double => {
+                return Err(node.unexpected("parameterName", &name, "a parameter of the type double; a ProbabilityDistributionSet gives chances to values of other types"));
+            }
             "UniformDistribution" => (interval(kind)?, space::Distribution::Uniform),
             "NormalDistribution" => {
                 let (mean, deviation) = (kind.number("expectedValue")?, libm::sqrt(kind.length("variance")?));
                 (interval(kind)?, space::Distribution::Normal(mean, deviation))
             }
             _ => {
-                let value = |element: Node<'_>| Ok(parsed(&element.required("value")?));
+                let value = |element: Node<'_>| Ok(of.value(&of.required(element, "value")?));
                 let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
                 let weights = kind.all("Element").map(|element| element.length("weight")).collect::<Result<_, _>>()?;
                 (Domain::Choice(levels), space::Distribution::Weights(weights))
@@ -97,6 +106,14 @@ impl Opened {
         let parameter = opened.declared(|_| None).parameter;
         Space::new(vec![parameter]).map_err(|flaw| kind.error(Flaw::Parameter(flaw)))?;
         Ok(opened)
+    }
+
+    /// Returns the name of the parameter if the distribution opens a single one.
+    pub fn single(&self) -> Option<&str> {
+        match self.names.as_slice() {
+            [name] => Some(name),
+            _ => None,
+        }
     }
 
     /// Returns the name of the parameter that stands for these parameters in a test.
@@ -135,7 +152,7 @@ impl Opened {
         match &self.values {
             Choices::Tuples(levels) => {
                 let distance = |level: &&Vec<String>| -> f64 {
-                    level.iter().zip(declared).map(|(value, declared)| apart(&parsed(value), declared)).sum()
+                    level.iter().zip(declared).map(|(value, declared)| apart(&Value::parse(value), declared)).sum()
                 };
                 levels.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|level| joint(level))
             }
@@ -165,33 +182,21 @@ impl Opened {
     }
 }
 
-/// Returns the name of a parameter that the scenario declares.
-fn name(node: Node<'_>, attribute: &'static str, declared: &[String]) -> Result<String, ReadError> {
+/// Returns the name and the type of a parameter that the scenario declares.
+fn name(node: Node<'_>, attribute: &'static str, declared: &[(String, Kind)]) -> Result<(String, Kind), ReadError> {
     let name = node.element.required(attribute)?;
-    if declared.iter().any(|known| known == name) {
-        return Ok(name.to_owned());
-    }
-    Err(node.dangling(attribute, "parameter", declared.iter().map(String::as_str)))
+    let known = declared.iter().find(|(known, _)| known == name).cloned();
+    known.ok_or_else(|| node.dangling(attribute, "parameter", declared.iter().map(|(known, _)| known.as_str())))
 }
 
 /// Returns the values of parameters that change together as one value.
 fn joint(parts: &[String]) -> Value {
-    parsed(&parts.join(JOINT))
-}
-
-/// Returns a value as spaces have it: a number, or a word.
-pub(super) fn parsed(text: &str) -> Value {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() => Value::Number(number),
-        _ => Value::from(text),
-    }
+    Value::parse(&parts.join(JOINT))
 }
 
 /// Makes the error that a parameter has a second distribution.
 fn twice_distributed(node: Node<'_>, name: &str) -> ReadError {
-    let (element, attribute) = (node.name().to_owned(), "parameterName".to_owned());
-    let expected = "one distribution of each parameter".to_owned();
-    node.error(Flaw::Value { element, attribute, found: name.to_owned(), expected, nearest: None })
+    node.unexpected("parameterName", name, "one distribution of each parameter")
 }
 
 fn interval(node: Node<'_>) -> Result<Domain, ReadError> {
@@ -199,15 +204,19 @@ fn interval(node: Node<'_>) -> Result<Domain, ReadError> {
     Ok(Domain::Interval { lo: limits.number("lowerLimit")?, hi: limits.number("upperLimit")? })
 }
 
-fn range(node: Node<'_>) -> Result<Choices, ReadError> {
+fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
     let limits = node.child("Range")?;
+    if of.is_text() {
+        return Err(node.unexpected("parameterName", name, "a parameter whose type is a number"));
+    }
+    for (node, attribute) in [(limits, "lowerLimit"), (limits, "upperLimit"), (node, "stepWidth")] {
+        of.required(node, attribute)?;
+    }
     let (lo, hi, step) = (limits.number("lowerLimit")?, limits.number("upperLimit")?, node.number("stepWidth")?);
     let count = (hi - lo) / step + TOLERANCE;
     if !(step > 0.0 && (0.0..MOST_LEVELS).contains(&count)) {
-        let found = node.required("stepWidth")?.into_owned();
         let expected = format!("a step above 0 that divides {lo} to {hi} into at most {MOST_LEVELS} parts");
-        let (element, attribute) = (node.name().to_owned(), "stepWidth".to_owned());
-        return Err(node.error(Flaw::Value { element, attribute, found, expected, nearest: None }));
+        return Err(node.unexpected("stepWidth", &node.required("stepWidth")?, expected));
     }
     let levels: Vec<Value> = (0..=count as usize).map(|index| (lo + index as f64 * step).min(hi).into()).collect();
     // A range of a single value is no interval.
@@ -215,24 +224,23 @@ fn range(node: Node<'_>) -> Result<Choices, ReadError> {
     Ok(if lo < hi { Choices::Range { lo, hi, levels } } else { single() })
 }
 
-fn tuples(kind: Node<'_>, declared: &[String]) -> Result<(Vec<String>, Choices), ReadError> {
+fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, Choices), ReadError> {
     let mut names: Vec<String> = Vec::new();
     let mut levels = Vec::new();
     for set in kind.all("ParameterValueSet") {
         let mut level = Vec::new();
         for (index, assignment) in set.all("ParameterAssignment").enumerate() {
-            let name = name(assignment, "parameterRef", declared)?;
+            let (name, of) = name(assignment, "parameterRef", declared)?;
             if levels.is_empty() {
                 names.push(name);
             } else if names.get(index).is_none_or(|known| *known != name) {
                 return Err(assignment.dangling("parameterRef", "parameter", names.iter().map(String::as_str)));
             }
-            level.push(assignment.required("value")?.into_owned());
+            level.push(of.required(assignment, "value")?.into_owned());
         }
         if let Some(missing) = names.get(level.len()) {
-            let (element, attribute) = (set.name().to_owned(), "parameterRef".to_owned());
             let expected = format!("an assignment of `{missing}` as in the first set");
-            return Err(set.error(Flaw::Value { element, attribute, found: String::new(), expected, nearest: None }));
+            return Err(set.unexpected("parameterRef", "", expected));
         }
         levels.push(level);
     }

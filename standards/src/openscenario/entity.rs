@@ -114,6 +114,9 @@ impl Entity {
             _ => return Err(node.refused("use a Vehicle, a Pedestrian or a MiscObject")),
         };
         let vehicle = (node.name() == "Vehicle").then(|| Limits::read(node)).transpose()?;
+        if node.element.text("mass").is_some() {
+            node.length("mass")?;
+        }
         let bounds = node.child("BoundingBox")?;
         let (centre, dimensions) = (bounds.child("Center")?, bounds.child("Dimensions")?);
         let [length, width, height] =
@@ -150,6 +153,7 @@ const VEHICLES: [(&str, Class); 10] = [
 impl Limits {
     fn read(vehicle: Node<'_>) -> Result<Self, ReadError> {
         let performance = vehicle.child("Performance")?;
+        performance.length("maxSpeed")?;
         Ok(Self {
             acceleration: performance.length("maxAcceleration")?,
             deceleration: performance.length("maxDeceleration")?,

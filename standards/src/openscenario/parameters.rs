@@ -1,20 +1,17 @@
 //! The parameters of a scenario as parameters of tests: their declarations, their values, and their constraints.
 
-use super::constraints::{Said, written};
-use super::distribution::{Distribution, Opened, parsed};
-use super::rule::Rule;
+use super::constraints::constraint;
+use super::demand::{Breach, Demand};
+use super::distribution::{Distribution, Opened};
+use super::kind::Kind;
+use super::local::declarations;
 use super::scope::{Node, Scope, references};
-use crate::xml::{Flaw, ReadError};
-use paracosm_engine::{Declared, Scenario};
-use paracosm_space::constraint::Expression;
+use crate::xml::ReadError;
+use paracosm_engine::{Constraint, Declared, Scenario};
 use paracosm_space::{Domain, Parameter, Value, Values};
 
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
-/// The types whose values are texts, also if they look like numbers.
-const TEXTS: [&str; 2] = ["string", "dateTime"];
-/// The type of truths.
-const BOOLEAN: &str = "boolean";
 /// The values of a parameter of the type of truths.
 const TRUTHS: [&str; 2] = ["true", "false"];
 /// The bound of a parameter that is a number without a distribution.
@@ -25,66 +22,52 @@ const BOUND: f64 = 1e9;
 pub(super) struct Parameters {
     distribution: Distribution,
     declarations: Vec<Declaration>,
-    constraints: Vec<Expression>,
+    constraints: Vec<Constraint>,
 }
 
 /// The declaration of a parameter.
 #[derive(Debug)]
 pub(super) struct Declaration {
-    pub name: String,
-    /// The type in words of the standard, for example `double`.
-    kind: String,
     /// The value, which may be an expression of earlier parameters.
     pub text: String,
-    /// The groups of constraints: the groups are alternatives, and the limits of a group hold together. A limit may be an
-    /// expression of any parameters.
-    pub groups: Vec<Vec<(Rule, String)>>,
+    pub demand: Demand,
+}
+
+impl Declaration {
+    fn name(&self) -> &str {
+        &self.demand.name
+    }
+
+    /// Returns `true` if the value follows from other parameters.
+    fn follows(&self) -> bool {
+        self.text.starts_with('$')
+    }
 }
 
 impl Parameters {
     /// Reads the declarations of a scenario.
     pub fn read(root: Node<'_>, distribution: Distribution) -> Result<Self, ReadError> {
-        let limit = |node: Node<'_>| Ok((Rule::read(node)?, node.element.required("value")?.to_owned()));
-        let declaration = |node: Node<'_>| {
-            if node.element.text("name") == Some(EGO) {
-                let (element, attribute) = (node.name().to_owned(), "name".to_owned());
-                let expected = "another name, because this one chooses the ego vehicle".to_owned();
-                return Err(node.error(Flaw::Value {
-                    element,
-                    attribute,
-                    found: EGO.to_owned(),
-                    expected,
-                    nearest: None,
-                }));
+        let declaration = |element| {
+            let node = Node { element, ..root };
+            if element.text("name") == Some(EGO) {
+                return Err(node.unexpected("name", EGO, "another name, because this one chooses the ego vehicle"));
             }
-            let groups = node.all("ConstraintGroup").map(|group| group.all("ValueConstraint").map(limit).collect());
-            Ok(Declaration {
-                name: node.element.required("name")?.to_owned(),
-                kind: node.element.text("parameterType").unwrap_or_default().to_owned(),
-                text: node.element.text("value").unwrap_or_default().to_owned(),
-                groups: groups.collect::<Result<_, ReadError>>()?,
-            })
+            let demand = Demand::read(node)?;
+            let declared = Declaration { text: element.text("value").unwrap_or_default().to_owned(), demand };
+            if !declared.follows() && !declared.demand.kind.takes(&declared.text) {
+                return Err(Breach::of(declared.demand.kind).error(node, &declared.text));
+            }
+            Ok(declared)
         };
-        let declarations = declarations(root).map(declaration).collect::<Result<_, ReadError>>()?;
-        let mut read = Self { distribution, declarations, constraints: Vec::new() };
-        for (node, declaration) in self::declarations(root).zip(&read.declarations) {
-            if declaration.groups.is_empty() {
-                continue;
-            }
-            let said = written(&read, declaration).map_err(|flaw| {
-                let (element, attribute) = ("ConstraintGroup".to_owned(), "value".to_owned());
-                node.error(Flaw::Expression { element, attribute, text: declaration.name.clone(), flaw })
-            })?;
-            match said {
-                Said::Always => {}
-                Said::If(expression) => read.constraints.push(expression),
-                Said::Never => {
-                    let (element, attribute) = (node.name().to_owned(), "value".to_owned());
-                    let (found, expected) = (declaration.text.clone(), "a value that its constraints allow".to_owned());
-                    return Err(node.error(Flaw::Value { element, attribute, found, expected, nearest: None }));
-                }
-            }
+        let declarations = declarations(root.element).map(declaration).collect::<Result<Vec<_>, ReadError>>()?;
+        let mut scope = Scope::default();
+        for declaration in &declarations {
+            scope.set(declaration.name(), declaration.text.as_str());
         }
+        let mut read = Self { distribution, declarations, constraints: Vec::new() };
+        let constraints = read.declarations.iter().enumerate();
+        let constraints = constraints.map(|(at, declared)| constraint(&read, &scope, at, &declared.demand));
+        read.constraints = constraints.filter_map(Result::transpose).collect::<Result<_, ReadError>>()?;
         Ok(read)
     }
 
@@ -101,92 +84,108 @@ impl Parameters {
             s.constrain(constraint.clone());
         }
         let mut scope = Scope::default();
-        for (node, declaration) in declarations(root).zip(&self.declarations) {
+        for (element, declaration) in declarations(root.element).zip(&self.declarations) {
+            let node = Node { element, scope: &scope };
+            let demand = &declaration.demand;
             let value = match self.given(declaration, &given) {
                 Some(value) => value,
-                None => Node { scope: &scope, ..node }.text("value")?.unwrap_or_default().into_owned(),
+                None => node.text("value")?.unwrap_or_default().into_owned(),
             };
-            scope.set(declaration.name.as_str(), value);
+            // A whole number that follows from other parameters is a constraint between these.
+            if !demand.kind.is_whole() && !demand.kind.takes(&value) {
+                return Err(Breach::of(demand.kind).error(node, &value));
+            }
+            scope.set(demand.name.as_str(), value);
         }
         Ok(scope)
     }
 
     /// Returns all parameters of tests: first the parameters of the distribution, then the other declared parameters.
     fn list(&self) -> impl Iterator<Item = Declared> {
-        let nominal = |name: &str| self.find(name).map(|declaration| parsed(&declaration.text));
-        let opened = self.distribution.0.iter().map(move |opened| opened.declared(nominal));
+        let nominal = |name: &str| {
+            self.find(name).map(|index| &self.declarations[index]).map(|of| of.demand.kind.value(&of.text))
+        };
+        let whole = |opened: &Opened| {
+            opened
+                .single()
+                .and_then(|name| self.find(name))
+                .is_some_and(|at| self.declarations[at].demand.kind.is_whole())
+        };
+        let opened = self.distribution.0.iter();
+        let opened = opened.map(move |opened| Declared { whole: whole(opened), ..opened.declared(nominal) });
         let closed = self.declarations.iter().filter(|declaration| self.is_closed(declaration)).map(|declaration| {
-            let takes_texts = declaration.takes_texts();
-            let value = if takes_texts { Value::from(declaration.text.as_str()) } else { parsed(&declaration.text) };
-            let domain = match value {
-                _ if declaration.kind == BOOLEAN => Domain::Choice(TRUTHS.map(Value::from).into()),
-                Value::Number(number) => Domain::Interval { lo: (-BOUND).min(number), hi: BOUND.max(number) },
-                ref other => Domain::Choice(vec![other.clone()]),
+            let kind = declaration.demand.kind;
+            let value = kind.value(&declaration.text);
+            let domain = match (kind, &value) {
+                (Kind::Boolean, _) => Domain::Choice(TRUTHS.map(Value::from).into()),
+                (Kind::Whole(least, most), _) => Domain::Interval { lo: least as f64, hi: most as f64 },
+                (_, Value::Number(number)) => Domain::Interval { lo: (-BOUND).min(*number), hi: BOUND.max(*number) },
+                (_, other) => Domain::Choice(vec![other.clone()]),
             };
-            let mut parameter = Parameter::new(declaration.name.as_str(), domain);
+            let mut parameter = Parameter::new(declaration.name(), domain);
             parameter.default = Some(value);
-            Declared { open: false, takes_texts, ..Declared::open(parameter) }
+            let (takes_texts, whole) = (kind.is_text(), kind.is_whole());
+            Declared { open: false, takes_texts, whole, ..Declared::open(parameter) }
         });
         opened.chain(closed)
     }
 
-    /// Returns the declaration of a parameter.
-    pub fn find(&self, name: &str) -> Option<&Declaration> {
-        self.declarations.iter().find(|declaration| declaration.name == name)
+    /// Returns the index of the declaration of a parameter.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.declarations.iter().position(|declaration| declaration.name() == name)
     }
 
-    /// Iterates over the names of all declared parameters.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.declarations.iter().map(|declaration| declaration.name.as_str())
+    /// Returns the declaration with an index.
+    pub fn declaration(&self, at: usize) -> &Declaration {
+        &self.declarations[at]
     }
 
     /// Returns `true` if a parameter of tests stands for the declared parameter alone, and the parameter is closed.
     fn is_closed(&self, declaration: &Declaration) -> bool {
-        self.distribution.of(&declaration.name).is_none() && !declaration.text.starts_with('$')
+        self.distribution.of(declaration.name()).is_none() && !declaration.follows()
     }
 
     /// Returns the value that a test gives a declared parameter; `None` if the value follows from other parameters.
     fn given(&self, declaration: &Declaration, test: &Values) -> Option<String> {
-        if let Some(opened) = self.distribution.of(&declaration.name) {
+        if let Some(opened) = self.distribution.of(declaration.name()) {
             let parts = opened.parts(test.get(&opened.name())?);
-            return parts.into_iter().find(|(name, _)| *name == declaration.name).map(|(_, value)| value);
+            return parts.into_iter().find(|(name, _)| *name == declaration.name()).map(|(_, value)| value);
         }
-        self.is_closed(declaration).then(|| test.get(&declaration.name).map(ToString::to_string)).flatten()
+        self.is_closed(declaration).then(|| test.get(declaration.name()).map(ToString::to_string)).flatten()
     }
 
     /// Returns the name of the parameter of tests that gives a declared parameter its value; `None` if the value follows from
     /// other parameters.
     pub fn source(&self, declaration: &Declaration) -> Option<String> {
-        let opened = self.distribution.of(&declaration.name).map(Opened::name);
-        opened.or_else(|| self.is_closed(declaration).then(|| declaration.name.clone()))
+        let opened = self.distribution.of(declaration.name()).map(Opened::name);
+        opened.or_else(|| self.is_closed(declaration).then(|| declaration.name().to_owned()))
     }
 
     /// Returns the value of a declared parameter if its parameter of tests has the given value.
     pub fn part(&self, declaration: &Declaration, value: &Value) -> Value {
-        let parts = self.distribution.of(&declaration.name).map(|opened| opened.parts(value)).unwrap_or_default();
-        let own = parts.into_iter().find(|(name, _)| *name == declaration.name);
-        own.map_or_else(|| value.clone(), |(_, text)| parsed(&text))
+        let parts = self.distribution.of(declaration.name()).map(|opened| opened.parts(value)).unwrap_or_default();
+        let own = parts.into_iter().find(|(name, _)| *name == declaration.name());
+        own.map_or_else(|| value.clone(), |(_, text)| declaration.demand.kind.value(&text))
     }
 
-    /// Returns the parameters of tests for whose values, one by one, the constraints of a declared parameter have to be
-    /// written, with these values. They are tuples and truths, with which nothing can be computed.
-    pub fn cases(&self, declaration: &Declaration) -> Vec<(String, Vec<Value>)> {
+    /// Returns the parameters of tests behind declared parameters for whose values, one by one, constraints have to be
+    /// written, with these values. The values are tuples and truths, with which nothing can be computed.
+    pub fn cases(&self, mut open: Vec<usize>) -> Vec<(String, Vec<Value>)> {
         let mut cases: Vec<(String, Vec<Value>)> = Vec::new();
-        let (mut open, mut seen) = (vec![declaration], Vec::new());
-        let limits = declaration.groups.iter().flatten().flat_map(|(_, text)| references(text));
-        open.extend(limits.filter_map(|name| self.find(name)));
-        while let Some(declaration) = open.pop() {
-            if seen.contains(&declaration.name.as_str()) {
+        let mut seen = Vec::new();
+        while let Some(at) = open.pop() {
+            if seen.contains(&at) {
                 continue;
             }
-            seen.push(&declaration.name);
+            seen.push(at);
+            let declaration = &self.declarations[at];
             let Some(name) = self.source(declaration) else {
                 open.extend(references(&declaration.text).filter_map(|name| self.find(name)));
                 continue;
             };
-            let values = match self.distribution.of(&declaration.name) {
+            let values = match self.distribution.of(declaration.name()) {
                 Some(opened) => opened.tuples(),
-                None if declaration.kind == BOOLEAN => Some(TRUTHS.map(Value::from).into()),
+                None if declaration.demand.kind == Kind::Boolean => Some(TRUTHS.map(Value::from).into()),
                 None => None,
             };
             if let Some(values) = values.filter(|_| cases.iter().all(|(known, _)| *known != name)) {
@@ -197,18 +196,21 @@ impl Parameters {
     }
 }
 
-impl Declaration {
-    /// Returns `true` if the values of the parameter are texts, also if they look like numbers.
-    pub fn takes_texts(&self) -> bool {
-        TEXTS.contains(&self.kind.as_str())
+/// Returns the names and the types of the parameters that a scenario declares.
+pub(super) fn declared_kinds(root: Node<'_>) -> Result<Vec<(String, Kind)>, ReadError> {
+    let one = |element| {
+        let node = Node { element, ..root };
+        Ok((element.required("name")?.to_owned(), Kind::read(node)?))
+    };
+    declarations(root.element).map(one).collect()
+}
+
+/// Returns the parameters that a scenario declares, with the values of the declarations.
+pub(super) fn declared_values(root: Node<'_>) -> Result<Scope, ReadError> {
+    let mut scope = Scope::default();
+    for element in declarations(root.element) {
+        let value = Node { element, scope: &scope }.text("value")?.unwrap_or_default().into_owned();
+        scope.set(element.required("name")?, value);
     }
-}
-
-/// Returns the names of the parameters that a scenario declares.
-pub(super) fn declared_names(root: Node<'_>) -> Result<Vec<String>, ReadError> {
-    declarations(root).map(|declaration| Ok(declaration.element.required("name")?.to_owned())).collect()
-}
-
-fn declarations(root: Node<'_>) -> impl Iterator<Item = Node<'_>> {
-    root.first("ParameterDeclarations").into_iter().flat_map(|all| all.all("ParameterDeclaration"))
+    Ok(scope)
 }

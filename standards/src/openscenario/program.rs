@@ -1,11 +1,14 @@
 //! A scenario of a file as a program: the same world, streams and signals as those of any other program.
 
-use super::catalogs::{CatalogFiles, declare};
+use super::catalogs::{CatalogFiles, Found};
 use super::condition::{Check, Condition};
+use super::constraints::constraint;
 use super::distribution::Distribution;
 use super::elements::schema;
+use super::linked;
+use super::local::Local;
 use super::measure::Measure;
-use super::parameters::{EGO, Parameters, declared_names};
+use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
@@ -14,7 +17,7 @@ use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
 use paracosm_engine::vehicle::Vehicle;
-use paracosm_engine::{AutonomousVehicle, Declared, Lead, Monitor, Pose, Program, Scenario, Stream};
+use paracosm_engine::{AutonomousVehicle, Constraint, Declared, Lead, Monitor, Pose, Program, Scenario, Stream};
 use paracosm_space::{Domain, Parameter};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -39,9 +42,11 @@ pub struct Xosc {
     folder: PathBuf,
     document: Document,
     catalogs: CatalogFiles,
-    parameters: Arc<Parameters>,
-    notes: Vec<NoEffect>,
-    roads: Mutex<BTreeMap<PathBuf, Roads>>,
+    parameters: Parameters,
+    /// The remarks on the file and on the file of the distribution.
+    notes: Vec<String>,
+    /// The roads that were read, by the names of their files in the scenario.
+    roads: Mutex<BTreeMap<String, Roads>>,
 }
 
 /// A map and its road network.
@@ -49,6 +54,17 @@ pub struct Xosc {
 struct Roads {
     map: Arc<Map>,
     network: Arc<RoadNetwork>,
+    /// The remarks on the file of the map.
+    notes: Arc<[String]>,
+}
+
+/// The contents of a file with the values of one test.
+struct Read {
+    board: Storyboard,
+    roads: Roads,
+    /// The constraints that parts of the scenario state.
+    constraints: Vec<Constraint>,
+    found: Found,
 }
 
 /// The storyboard that controls all entities, as an object of the world without a body.
@@ -87,65 +103,60 @@ impl Xosc {
             let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
-                schema().check(root.element)?;
-                let file = folder.join(node.child("ScenarioFile")?.required("filepath")?.as_ref());
+                let notes = in_file(&schema().check(root.element)?, file);
+                let file = linked::file(node.child("ScenarioFile")?, "filepath", &folder)?;
                 let scenario = Document::open(&file)?;
                 let distribution = {
                     let tree = scenario.tree()?;
-                    let declared = declared_names(Node { element: scenario.root(&tree, ROOT)?, scope: &none })?;
+                    let declared = declared_kinds(Node { element: scenario.root(&tree, ROOT)?, scope: &none })?;
                     Distribution::read(node, &declared)?
                 };
-                Ok((scenario, folder_of(&file), distribution))
+                Ok((scenario, folder_of(&file), distribution, notes))
             };
             distribution.map(named).transpose()?
         };
         match named {
-            None => Self::of(name, document, folder, Distribution::default()),
-            Some((scenario, folder, distribution)) => Self::of(name, scenario, folder, distribution),
+            None => Self::of(name, document, folder, (Distribution::default(), Vec::new())),
+            Some((scenario, folder, distribution, notes)) => Self::of(name, scenario, folder, (distribution, notes)),
         }
     }
 
-    fn of(name: String, document: Document, folder: PathBuf, distribution: Distribution) -> Result<Self, ReadError> {
-        let (catalogs, parameters, notes) = {
+    fn of(
+        name: String,
+        document: Document,
+        folder: PathBuf,
+        (distribution, mut notes): (Distribution, Vec<String>),
+    ) -> Result<Self, ReadError> {
+        let (catalogs, parameters) = {
             let tree = document.tree()?;
             let root = document.root(&tree, ROOT)?;
-            let notes = schema().check(root)?;
-            let mut scope = Scope::default();
-            declare(Node { element: root, scope: &Scope::default() }, &mut scope)?;
+            notes.extend(in_file(&schema().check(root)?, root.file()));
+            let none = Scope::default();
+            let parameters = Parameters::read(Node { element: root, scope: &none }, distribution)?;
+            let scope = declared_values(Node { element: root, scope: &none })?;
             let root = Node { element: root, scope: &scope };
-            let parameters = Arc::new(Parameters::read(root, distribution)?);
-            (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters, notes)
+            (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters)
         };
         let read = Self { name, folder, document, catalogs, parameters, notes, roads: Mutex::default() };
-        read.board(&mut |root| {
-            let mut scope = Scope::default();
-            declare(root, &mut scope)?;
-            Ok(scope)
-        })?;
+        read.board(&mut declared_values)?;
         Ok(read)
-    }
-
-    /// Returns the parts of the scenario file that have no effect.
-    pub fn notes(&self) -> &[NoEffect] {
-        &self.notes
     }
 
     /// Makes the program of the scenario. Its name is the path of the file.
     pub fn program(self) -> Program {
-        let without: Vec<_> = self.notes.iter().map(|note| note.name.as_str()).collect();
-        let about = match without.as_slice() {
-            [] => "a scenario of a file".to_owned(),
-            names => format!("a scenario of a file; without effect in it: {}", names.join(", ")),
-        };
-        let name = self.name.clone();
-        Program::of(name, about, move |s| self.build(s))
+        Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s))
     }
 
     fn build(&self, s: &mut Scenario) {
-        let (board, roads) = match self.board(&mut |root| self.parameters.declared(root, s)) {
+        let Read { board, roads, constraints, found } = match self.board(&mut |root| self.parameters.declared(root, s))
+        {
             Ok(read) => read,
             Err(error) => return s.refuse(&error.to_string()),
         };
+        s.note(|| [&self.notes, &found.notes(), &roads.notes[..]].concat());
+        for constraint in constraints {
+            s.constrain(constraint);
+        }
         let usual = board.entities[ego(&board)].name.clone();
         let names = board.entities.iter().map(|entity| entity.name.as_str().into()).collect();
         let mut parameter = Parameter::new(EGO, Domain::Choice(names));
@@ -158,7 +169,7 @@ impl Xosc {
         let longest = longest(&board);
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
             Ok(stage) => Rc::new(RefCell::new(stage)),
-            Err(lost) => return s.refuse(&lost.to_string()),
+            Err(misplaced) => return s.refuse(&format!("{}:{misplaced}", self.document.file().display())),
         };
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
@@ -194,10 +205,7 @@ impl Xosc {
     }
 
     /// Reads the storyboard and the roads, with the values of parameters that `values` gives.
-    fn board(
-        &self,
-        values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>,
-    ) -> Result<(Storyboard, Roads), ReadError> {
+    fn board(&self, values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>) -> Result<Read, ReadError> {
         let tree = self.document.tree()?;
         let root = self.document.root(&tree, ROOT)?;
         let trees = self.catalogs.trees()?;
@@ -205,22 +213,35 @@ impl Xosc {
         let scope = values(Node { element: root, scope: &Scope::default() })?;
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;
-        let roads = self.roads_in(&self.folder.join(logic.required("filepath")?.as_ref()), logic)?;
-        Ok((Storyboard::read(root, &catalogs)?, roads))
+        let roads = self.roads_in(logic)?;
+        let board = Storyboard::read(root, &catalogs)?;
+        let found = catalogs.found();
+        let stated = |local: &Local| constraint(&self.parameters, &local.scope, local.scope.len() - 1, &local.demand);
+        let constraints =
+            found.locals.iter().filter_map(|local| stated(local).transpose()).collect::<Result<_, _>>()?;
+        Ok(Read { board, roads, constraints, found })
     }
 
-    /// Returns the roads of a file, which is read once.
-    fn roads_in(&self, file: &FilePath, logic: Node<'_>) -> Result<Roads, ReadError> {
+    /// Returns the roads of the file that an element names, which is read once.
+    fn roads_in(&self, logic: Node<'_>) -> Result<Roads, ReadError> {
+        let named = logic.required("filepath")?;
         let mut known = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(roads) = known.get(file) {
+        if let Some(roads) = known.get(named.as_ref()) {
             return Ok(roads.clone());
         }
-        let map = Map::read(file)?;
+        let file = linked::file(logic, "filepath", &self.folder)?;
+        let map = Map::read(&file)?;
         let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
-        let roads = Roads { map: Arc::new(map), network };
-        known.insert(file.to_owned(), roads.clone());
+        let notes = map.notes.iter().map(|note| note.in_file(&file)).collect();
+        let roads = Roads { map: Arc::new(map), network, notes };
+        known.insert(named.into_owned(), roads.clone());
         Ok(roads)
     }
+}
+
+/// Describes parts of a file that have no effect.
+fn in_file(parts: &[NoEffect], file: &FilePath) -> Vec<String> {
+    parts.iter().map(|part| part.in_file(file)).collect()
 }
 
 fn folder_of(file: &FilePath) -> PathBuf {

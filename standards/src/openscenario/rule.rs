@@ -61,6 +61,18 @@ impl Rule {
         }
     }
 
+    /// Returns the rule in words, which a limit follows.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Equal => "equal to",
+            Self::NotEqual => "not equal to",
+            Self::Greater => "greater than",
+            Self::GreaterOrEqual => "at least",
+            Self::Less => "less than",
+            Self::LessOrEqual => "at most",
+        }
+    }
+
     /// Returns the stream that is true while a measure fulfils the rule.
     pub fn compare(self, measure: &Stream<f64>, value: f64) -> Stream<bool> {
         match self {

@@ -3,43 +3,104 @@
 use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, Value};
 use paracosm_space::nearest;
 use std::borrow::Cow;
+use std::sync::Arc;
 
-/// The values of the parameters that an element sees, by name. Later values hide earlier values.
+/// The values of the parameters that an element sees. Later parameters hide earlier parameters with the same name. The parameters
+/// of the whole scenario come first.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Scope(Vec<(String, String)>);
+pub(super) struct Scope(Vec<Arc<Entry>>);
+
+/// A parameter with its value.
+#[derive(Debug)]
+struct Entry {
+    name: String,
+    value: String,
+    /// The text of the value, and the number of parameters that the text sees; `None` for a parameter of the whole scenario.
+    local: Option<(String, usize)>,
+}
 
 impl Scope {
     /// Returns the value of a parameter.
     pub fn get(&self, name: &str) -> Option<&str> {
-        self.0.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+        self.position(self.len(), name).map(|at| self.0[at].value.as_str())
+    }
+
+    /// Returns the number of parameters.
+    pub fn len(&self) -> usize {
+        self.0.len()
     }
 
     /// Returns the names of all parameters.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|(name, _)| name.as_str())
+        self.0.iter().map(|entry| entry.name.as_str())
     }
 
-    /// Sets a parameter.
+    /// Adds a parameter of the whole scenario.
     pub fn set(&mut self, name: impl Into<String>, value: impl Into<String>) {
-        self.0.push((name.into(), value.into()));
+        self.0.push(Arc::new(Entry { name: name.into(), value: value.into(), local: None }));
     }
 
-    fn parameter(&self, name: &str) -> Result<&str, ExpressionFlaw> {
-        let unknown = || {
-            let nearest = nearest(name, self.0.iter().map(|(known, _)| known.as_str())).map(str::to_owned);
+    /// Adds a parameter of a part of the scenario. The text of its value sees the first `seen` parameters.
+    pub fn define(&mut self, name: &str, text: &str, seen: usize, value: &str) {
+        let (name, value, local) = (name.to_owned(), value.to_owned(), Some((text.to_owned(), seen)));
+        self.0.push(Arc::new(Entry { name, value, local }));
+    }
+
+    /// Returns the text of a parameter of a part of the scenario, and the number of parameters that the text sees; `None` for a
+    /// parameter of the whole scenario.
+    pub fn local(&self, at: usize) -> Option<(&str, usize)> {
+        self.0[at].local.as_ref().map(|(text, among)| (text.as_str(), *among))
+    }
+
+    /// Returns the indices of the parameters of the whole scenario on which a parameter and texts depend.
+    pub fn sources<'t>(&'t self, at: usize, texts: impl Iterator<Item = &'t str>) -> Vec<usize> {
+        let mut open: Vec<(&str, usize)> = texts.map(|text| (text, self.len())).collect();
+        let (mut seen, mut found) = (vec![at], Vec::new());
+        match self.local(at) {
+            None => found.push(at),
+            Some(local) => open.push(local),
+        }
+        while let Some((text, among)) = open.pop() {
+            for at in references(text).filter_map(|name| self.position(among, name)) {
+                if seen.contains(&at) {
+                    continue;
+                }
+                seen.push(at);
+                match self.local(at) {
+                    None => found.push(at),
+                    Some(local) => open.push(local),
+                }
+            }
+        }
+        found
+    }
+
+    fn position(&self, among: usize, name: &str) -> Option<usize> {
+        self.0[..among].iter().rposition(|entry| entry.name == name)
+    }
+
+    /// Returns the index of a parameter among the first `among` parameters, which must exist.
+    pub fn find(&self, among: usize, name: &str) -> Result<usize, ExpressionFlaw> {
+        self.position(among, name).ok_or_else(|| {
+            let nearest = nearest(name, self.names().take(among)).map(str::to_owned);
             ExpressionFlaw::NoParameter { name: name.to_owned(), nearest }
-        };
-        self.get(name).ok_or_else(unknown)
+        })
     }
 
     /// Returns the text of an attribute with the values of its parameters.
     pub fn resolve<'t>(&self, text: &'t str) -> Result<Cow<'t, str>, ExpressionFlaw> {
+        self.resolve_among(self.len(), text)
+    }
+
+    /// Returns the text of an attribute that sees the first `among` parameters.
+    fn resolve_among<'t>(&self, among: usize, text: &'t str) -> Result<Cow<'t, str>, ExpressionFlaw> {
         let Some(name) = text.strip_prefix('$') else { return Ok(Cow::Borrowed(text)) };
+        let value = |name: &str| self.find(among, name).map(|at| self.0[at].value.as_str());
         match name.strip_prefix('{').map(|inside| inside.strip_suffix('}')) {
-            None => Ok(Cow::Owned(self.parameter(name)?.to_owned())),
+            None => Ok(Cow::Owned(value(name)?.to_owned())),
             Some(None) => Err(ExpressionFlaw::Unexpected { found: text.to_owned(), expected: "`}` at the end" }),
             Some(Some(inside)) => {
-                let parameter = |name: &str| self.parameter(name).map(Value::of);
+                let parameter = |name: &str| value(name).map(Value::of);
                 Ok(Cow::Owned(Expression::parse(inside)?.value(&parameter)?.to_string()))
             }
         }
@@ -101,10 +162,20 @@ impl<'a> Node<'a> {
         self.error(Flaw::Refused { element: self.name().to_owned(), reason })
     }
 
+    /// Makes the error that the value `found` of an attribute is not allowed.
+    pub fn unexpected(self, attribute: &str, found: &str, expected: impl Into<String>) -> ReadError {
+        self.element.unexpected_value(attribute, found, expected, [])
+    }
+
     /// Returns the value of an attribute; `None` if the attribute is absent or empty.
     pub fn text(self, attribute: &'static str) -> Result<Option<Cow<'a, str>>, ReadError> {
+        self.text_among(self.scope.len(), attribute)
+    }
+
+    /// Returns the value of an attribute that sees the first `among` parameters; `None` if the attribute is absent or empty.
+    pub fn text_among(self, among: usize, attribute: &'static str) -> Result<Option<Cow<'a, str>>, ReadError> {
         let Some(text) = self.element.text(attribute) else { return Ok(None) };
-        let resolved = self.scope.resolve(text).map_err(|flaw| {
+        let resolved = self.scope.resolve_among(among, text).map_err(|flaw| {
             let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
             self.error(Flaw::Expression { element, attribute, text: text.to_owned(), flaw })
         })?;
@@ -151,6 +222,13 @@ impl<'a> Node<'a> {
             number.filter(|number| number.abs() <= f64::from(i32::MAX)).map(|number| number as i32)
         };
         self.parsed(attribute, "a whole number", whole)
+    }
+
+    /// Returns the whole number in an attribute, which must exist and must not be negative.
+    pub fn count(self, attribute: &'static str) -> Result<u32, ReadError> {
+        let number = self.whole(attribute)?;
+        let wrong = |_| self.unexpected(attribute, &number.to_string(), "a whole number that is not negative");
+        u32::try_from(number).map_err(wrong)
     }
 
     /// Returns the truth in an attribute; `default` if the attribute is absent.

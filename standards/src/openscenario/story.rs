@@ -1,13 +1,13 @@
 //! The storyboard of a scenario: initial actions, and stories of acts, maneuver groups, maneuvers, events and actions.
 
 use super::action::Action;
-use super::catalogs::{Catalogs, declare};
+use super::catalogs::Catalogs;
 use super::clock::Clock;
 use super::condition::{Trigger, trigger};
 use super::entity::Entity;
 use super::names::Names;
 use super::position::Position;
-use super::scope::{Node, Scope};
+use super::scope::Node;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
 
@@ -18,8 +18,8 @@ pub(super) struct Storyboard {
     pub variables: Vec<Variable>,
     /// The time of day at the beginning.
     pub clock: Clock,
-    /// The initial actions, each with its entity.
-    pub init: Vec<(usize, Action)>,
+    /// The initial actions, each with its entity and its line in the file.
+    pub init: Vec<(usize, Action, u32)>,
     /// All elements of all stories. An element comes before the elements within it.
     pub items: Vec<Item>,
     /// The trigger that ends the scenario; `None` if there is none.
@@ -120,15 +120,17 @@ impl Storyboard {
             match actor.name() {
                 "Private" => {
                     let group = names.group(actor, "entityRef")?;
-                    for action in actor.all("PrivateAction") {
-                        let action = Action::private(action, names)?;
-                        init.extend(group.iter().map(|entity| (*entity, action.clone())));
+                    for node in actor.all("PrivateAction") {
+                        let action = Action::private(node, names)?;
+                        init.extend(group.iter().map(|entity| (*entity, action.clone(), node.element.line())));
                     }
                 }
                 "GlobalAction" => match global(actor, names)? {
                     Kind::Clock(now) => clock = now,
                     Kind::Change(variable, change) => change.apply(&mut variables[variable].value),
-                    Kind::Action(group, action) => init.extend(group.iter().map(|entity| (*entity, action.clone()))),
+                    Kind::Action(group, action) => {
+                        init.extend(group.iter().map(|entity| (*entity, action.clone(), actor.element.line())));
+                    }
                     _ => (),
                 },
                 _ => return Err(actor.refused("use a Private or a GlobalAction")),
@@ -172,7 +174,7 @@ impl Reader<'_> {
         let name = node.text("name")?.unwrap_or_default().into_owned();
         let most_runs = match node.element.text("maximumExecutionCount") {
             None => 1,
-            Some(_) => node.whole("maximumExecutionCount")?.max(0) as u32,
+            Some(_) => node.count("maximumExecutionCount")?,
         };
         let read = |name| node.first(name).map(|found| trigger(found, self.names)).transpose();
         let (start, stop) = (read("StartTrigger")?, read("StopTrigger")?);
@@ -183,17 +185,16 @@ impl Reader<'_> {
     }
 
     fn story(&mut self, node: Node<'_>) -> Result<(), ReadError> {
-        let mut scope: Scope = node.scope.clone();
-        declare(node, &mut scope)?;
-        let node = Node { element: node.element, scope: &scope };
-        let story = self.push(node, Kind::Story, None)?;
-        for act in node.all("Act") {
-            let index = self.push(act, Kind::Act, Some(story))?;
-            for group in act.all("ManeuverGroup") {
-                self.group(group, index)?;
+        self.names.catalogs.declaring(node, &[], |node| {
+            let story = self.push(node, Kind::Story, None)?;
+            for act in node.all("Act") {
+                let index = self.push(act, Kind::Act, Some(story))?;
+                for group in act.all("ManeuverGroup") {
+                    self.group(group, index)?;
+                }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     fn group(&mut self, node: Node<'_>, act: usize) -> Result<(), ReadError> {

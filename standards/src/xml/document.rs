@@ -35,6 +35,11 @@ impl Document {
         Self(Source::new(file, text))
     }
 
+    /// Returns the path of the file.
+    pub fn file(&self) -> &Path {
+        self.0.file()
+    }
+
     /// Returns the text of the file.
     pub fn text(&self) -> &str {
         self.0.text()
@@ -43,7 +48,14 @@ impl Document {
     /// Returns the tree of the elements of the text.
     pub fn tree(&self) -> Result<roxmltree::Document<'_>, ReadError> {
         roxmltree::Document::parse(self.0.text()).map_err(|error| {
-            let line = Some(error.pos().row);
+            let line = match error {
+                // The file is cut off: its end is the place of the mistake.
+                roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode => {
+                    self.0.line(self.text().len())
+                }
+                _ => error.pos().row,
+            };
+            let line = Some(line);
             let flaw = match error {
                 roxmltree::Error::DtdDetected => Flaw::DocumentType,
                 error => Flaw::Malformed(Malformed(error)),

@@ -4,6 +4,7 @@ use super::error::{Flaw, ReadError};
 use super::source::Source;
 use paracosm_space::nearest;
 use roxmltree::Node;
+use std::path::Path;
 
 /// An element with its place in a file.
 #[derive(Debug, Clone, Copy)]
@@ -27,9 +28,14 @@ impl<'a, 'i> Element<'a, 'i> {
         self.source.line(self.node.range().start)
     }
 
+    /// Returns the path of the file that has the element.
+    pub fn file(&self) -> &'a Path {
+        self.source.file()
+    }
+
     /// Makes an error at the place of the element.
     pub fn error(&self, flaw: Flaw) -> ReadError {
-        ReadError { file: self.source.file().to_owned(), line: Some(self.line()), flaw: Box::new(flaw) }
+        ReadError { file: self.file().to_owned(), line: Some(self.line()), flaw: Box::new(flaw) }
     }
 
     /// Returns all elements directly within this one, in the order of the file.

@@ -2,7 +2,7 @@
 
 use super::expression::ExpressionFlaw;
 use paracosm_engine::road::RoadError;
-use paracosm_space::{SpaceError, did_you_mean};
+use paracosm_space::{SpaceError, did_you_mean, plural};
 use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -98,6 +98,30 @@ pub enum Flaw {
         element: String,
         /// The name of the missing child; several names with `or` between them if one of them is required.
         child: &'static str,
+    },
+    /// An element has fewer children of a kind than it needs.
+    #[error("<{element}> has {}, expected at least {least}", plural(*found, child))]
+    TooFew {
+        /// The name of the element.
+        element: String,
+        /// The children, in a word.
+        child: &'static str,
+        /// The number of the children.
+        found: usize,
+        /// The least number of the children.
+        least: usize,
+    },
+    /// An element has more children of a kind than are allowed.
+    #[error("<{element}> has {}, expected at most {most}", plural(*found, child))]
+    TooMany {
+        /// The name of the element.
+        element: String,
+        /// The children, in a word.
+        child: &'static str,
+        /// The number of the children.
+        found: usize,
+        /// The greatest allowed number of the children.
+        most: usize,
     },
     /// The value of an attribute is not allowed.
     #[error("`{attribute}=\"{found}\"` of <{element}> is not allowed, expected {expected}{}", did_you_mean(nearest))]

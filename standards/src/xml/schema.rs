@@ -7,6 +7,8 @@ use super::element::Element;
 use super::error::{Flaw, ReadError};
 use paracosm_space::nearest;
 use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
 
 /// The way in which an element of a standard is supported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,6 +87,21 @@ pub struct NoEffect {
     pub count: usize,
     /// The line of the first, from 1.
     pub line: u32,
+}
+
+impl NoEffect {
+    /// Describes the part with the path of its file and its line.
+    pub fn in_file(&self, file: &Path) -> String {
+        format!("{}:{}: {self}", file.display(), self.line)
+    }
+}
+
+impl fmt::Display for NoEffect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, reason, count, .. } = self;
+        let times = if *count == 1 { String::new() } else { format!(" ({count} times)") };
+        write!(f, "`{name}`{times} has no effect: {reason}")
+    }
 }
 
 /// The element that stands for all parents.

@@ -39,6 +39,10 @@ fn parse(text: String) -> Result<Map, String> {
     Map::parse("road.xodr".as_ref(), text).map_err(|error| error.to_string())
 }
 
+fn in_file(note: &Note) -> String {
+    note.in_file("x.xodr".as_ref())
+}
+
 #[track_caller]
 fn refuses(changes: &[(&str, &str)], says: &str) {
     let message = parse(with(changes)).expect_err("it was accepted");
@@ -175,8 +179,8 @@ fn links_between_lanes_that_do_not_meet_are_noted_and_not_used() {
     let apart = parse(text.replacen("x=\"10\"", "x=\"12\"", 1)).expect("it is sound");
     // Lane -1 leads to the east road, and lane 1 comes from it by a link of the road and by one of the junction.
     assert_eq!(
-        apart.notes.iter().map(Note::to_string).collect::<Vec<_>>(),
-        ["line 38: the link joins lanes that are 2.000 m apart; cars do not use it; and 2 links more"]
+        apart.notes.iter().map(in_file).collect::<Vec<_>>(),
+        ["x.xodr:38: the link joins lanes that are 2.000 m apart; cars do not use it; and 2 links more"]
     );
     let network = apart.network().expect("it has lanes");
     assert!(network.lane(network.lane_of("we", 1).expect("it has the lane")).successors.is_empty());
@@ -252,11 +256,11 @@ fn traffic_on_the_left_drives_along_the_lanes_on_the_left() {
 #[test]
 fn elements_without_effect_are_noted_once_with_their_number() {
     let twice = with(&[("<link/>", r#"<link/><userData code="a"/><userData code="b"/>"#)]);
-    let notes: Vec<String> = parse(twice).expect("it is sound").notes.iter().map(Note::to_string).collect();
-    assert_eq!(notes, ["line 4: `userData` (2 times) has no effect: it is data for other programs"]);
+    let notes: Vec<String> = parse(twice).expect("it is sound").notes.iter().map(in_file).collect();
+    assert_eq!(notes, ["x.xodr:4: `userData` (2 times) has no effect: it is data for other programs"]);
     let attribute = parse(with(&[("junction=\"-1\"", "junction=\"-1\" colour=\"red\"")])).expect("it is sound");
-    let notes: Vec<String> = attribute.notes.iter().map(Note::to_string).collect();
-    assert_eq!(notes, ["line 3: `road.colour` has no effect: the standard does not have this attribute"]);
+    let notes: Vec<String> = attribute.notes.iter().map(in_file).collect();
+    assert_eq!(notes, ["x.xodr:3: `road.colour` has no effect: the standard does not have this attribute"]);
     assert!(parse(with(&[("<link/>", "<objects/><signals/>")])).expect("it is sound").notes.is_empty());
 }
 
@@ -445,4 +449,12 @@ fn the_page_of_elements_is_written_from_the_table_and_its_tests() {
     }
     let found = fs::read_to_string(&path).unwrap_or_default();
     assert!(found == page, "docs/opendrive.md is old; write it again with UPDATE_GOLDEN=1");
+}
+
+#[test]
+fn more_than_a_hundred_thousand_roads_are_refused() {
+    let road = "<road id=\"1\" length=\"5\" junction=\"-1\"/>\n";
+    let text = format!("<OpenDRIVE><header revMajor=\"1\" revMinor=\"6\"/>\n{}</OpenDRIVE>", road.repeat(100_001));
+    let message = parse(text).expect_err("they are too many");
+    assert_eq!(message, "road.xodr:1: <OpenDRIVE> has 100001 roads, expected at most 100000");
 }

@@ -82,6 +82,12 @@ fn a_mistake_in_an_object_is_refused_with_its_line() {
         ),
         ("distance=\"50\"", "distance=\"0.001\"", "objects.xodr:33: `distance=\"0.001\"` of <repeat>"),
         ("s=\"15\" t=\"-5\"", "s=\"-15\" t=\"-5\"", "objects.xodr:40: `s=\"-15\"` of <signal>"),
+        ("zOffset=\"1.7\"", "zOffset=\"1000\"", "objects.xodr:40: `zOffset=\"1000\"` of <signal> is not allowed"),
+        (
+            "<cornerRoad s=\"90\" t=\"-6\" dz=\"0\" height=\"1\"/>",
+            "",
+            "objects.xodr:27: <outline> has 1 corner, expected at least 2",
+        ),
         ("<cornerLocal", "<cornerLokal", "did you mean `cornerLocal`?"),
     ] {
         assert!(text().contains(from), "{from}");

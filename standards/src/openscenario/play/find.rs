@@ -21,7 +21,7 @@ pub(in crate::openscenario) enum Lost {
     NoLane { road: String, lane: i32, s: f64, first: i32, last: i32 },
     #[error("road `{road}` has no place at s = {s} m, it is {length} m long")]
     NoPlace { road: String, s: f64, length: f64 },
-    #[error("`{entity}` is beside all roads, and has no place on a lane")]
+    #[error("`{entity}` is beside all roads or has no place yet, so it has no place on a lane")]
     OffRoad { entity: String },
     #[error("no road leads from `{from}` to `{to}` within 2 km")]
     NoWay { from: String, to: String },
@@ -31,6 +31,15 @@ pub(in crate::openscenario) enum Lost {
     OffRoute,
     #[error("no road leads from road `{from}` to road `{to}`")]
     NoRoute { from: String, to: String },
+}
+
+/// The reason why an initial action cannot begin. The line is that of the action in the file.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{line}: an initial action of `{entity}` cannot begin: {lost}")]
+pub(in crate::openscenario) struct Misplaced {
+    pub line: u32,
+    pub entity: String,
+    pub lost: Lost,
 }
 
 /// The least distance in metres beyond the end of a road at which a position is not on the road.

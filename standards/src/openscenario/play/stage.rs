@@ -2,7 +2,7 @@
 
 use super::actor::{Actor, Step};
 use super::cast::Cast;
-use super::find::Lost;
+use super::find::{Lost, Misplaced};
 use super::motion::Motion;
 use super::watch::{Question, Watch};
 use crate::opendrive::Map;
@@ -48,7 +48,7 @@ struct Playing {
 
 impl Stage {
     /// Sets the stage: all entities are where the initial actions put them.
-    pub fn new(board: Storyboard, map: Arc<Map>, ego: usize, lead: Lead) -> Result<Self, Lost> {
+    pub fn new(board: Storyboard, map: Arc<Map>, ego: usize, lead: Lead) -> Result<Self, Misplaced> {
         let asked =
             Self::conditions(&board).flat_map(|condition| &condition.check.measures).filter_map(Measure::offroad);
         let asked: Vec<usize> = asked.collect();
@@ -95,9 +95,13 @@ impl Stage {
                 actors.iter().for_each(|entity| stage.cast.actors[*entity].present = *entity == ego);
             }
         }
-        for (entity, action) in &init {
+        for (entity, action, line) in &init {
             stage.cast.actors[*entity].present |= matches!(action, Action::Teleport(_));
-            if let Some(motion) = stage.cast.begin(*entity, action)? {
+            let begun = stage.cast.begin(*entity, action).map_err(|lost| {
+                let entity = stage.cast.actors[*entity].entity.name.clone();
+                Misplaced { line: *line, entity, lost }
+            })?;
+            if let Some(motion) = begun {
                 motions.push((*entity, motion));
             }
         }

@@ -1,0 +1,240 @@
+//! The declarations of parameters: their types, and the constraints of parameters in stories and catalogs.
+
+use super::bad::changed_in;
+use super::worlds::file;
+use paracosm_engine::Program;
+use paracosm_space::constraint::Expression;
+use paracosm_space::{Domain, Value};
+use paracosm_standards::openscenario::Xosc;
+use std::fs;
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+const GAP: &str = "name=\"gap\" parameterType=\"double\" value=\"50\"";
+const LENGTH: &str = "<ParameterDeclaration name=\"length\" parameterType=\"double\" value=\"5\"/>";
+const ASSIGNED: &str = "parameterRef=\"length\" value=\"4\"";
+
+/// Writes the scenario of the slow leader with changes in it, in its catalog, and in the file of a distribution.
+fn changed(scenario: &[(&str, &str)], catalog: &[(&str, &str)], variation: &[(&str, &str)]) -> (TempDir, PathBuf) {
+    let (folder, path) = changed_in("slow-leader.xosc", "<OpenSCENARIO>", "<OpenSCENARIO>");
+    let path = |name: &str| if name == "slow-leader.xosc" { path.clone() } else { folder.path().join(name) };
+    fs::copy(file("slow-leader-variation.xosc"), path("variation.xosc")).unwrap();
+    let scenario_of_variation = [("slow-leader.xosc", "bad.xosc")];
+    for (name, changes) in [
+        ("slow-leader.xosc", scenario),
+        ("catalogs/entities.xosc", catalog),
+        ("variation.xosc", &scenario_of_variation),
+        ("variation.xosc", variation),
+    ] {
+        let mut text = fs::read_to_string(path(name)).unwrap();
+        for (found, by) in changes {
+            assert!(text.contains(found), "{found}");
+            text = text.replacen(found, by, 1);
+        }
+        fs::write(path(name), text).unwrap();
+    }
+    let read = path(if variation.is_empty() { "slow-leader.xosc" } else { "variation.xosc" });
+    (folder, read)
+}
+
+fn program(scenario: &[(&str, &str)], catalog: &[(&str, &str)], variation: &[(&str, &str)]) -> Result<Program, String> {
+    let (folder, path) = changed(scenario, catalog, variation);
+    let read = Xosc::read(&path).map(Xosc::program);
+    read.map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
+}
+
+#[track_caller]
+fn refuses(scenario: &[(&str, &str)], catalog: &[(&str, &str)], variation: &[(&str, &str)], says: &str) {
+    let message = program(scenario, catalog, variation).expect_err("it was accepted");
+    assert!(message.contains(says), "expected `{says}` in: {message}");
+}
+
+/// Returns the names of the parameters of each constraint, and the answer to a test with these values.
+fn checked(program: &Program, values: &[(&str, f64)]) -> (Vec<Vec<String>>, Result<(), String>) {
+    let declaration = program.declare().unwrap();
+    let mut test = declaration.nominal();
+    for (name, value) in values {
+        test.set(*name, Value::Number(*value));
+    }
+    let names = |expression: &Expression| expression.names().into_iter().map(str::to_owned).collect();
+    let names = declaration.constraints.iter().map(|constraint| names(&constraint.expression)).collect();
+    (names, program.check(&test).map_err(|error| error.to_string()))
+}
+
+#[test]
+fn a_declared_value_has_the_type_of_its_parameter() {
+    for (kind, value, expected) in [
+        ("int", "50.5", "a whole number from -2147483648 to 2147483647"),
+        ("integer", "50.5", "a whole number from -2147483648 to 2147483647"),
+        ("unsignedInt", "-1", "a whole number from 0 to 4294967295"),
+        ("unsignedShort", "65536", "a whole number from 0 to 65535"),
+        ("double", "near", "a finite number"),
+        ("double", "NaN", "a finite number"),
+        ("boolean", "yes", "true or false"),
+        ("dateTime", "noon", "a time such as 2026-01-31T12:00:00"),
+    ] {
+        let by = format!("name=\"gap\" parameterType=\"{kind}\" value=\"{value}\"");
+        let says =
+            format!("bad.xosc:11: `value=\"{value}\"` of <ParameterDeclaration> is not allowed, expected {expected}");
+        refuses(&[(GAP, &by)], &[], &[], &says);
+    }
+    refuses(&[("\"double\" value=\"50\"", "\"integr\" value=\"50\"")], &[], &[], "did you mean `integer`?");
+    refuses(&[("parameterType=\"double\" value=\"50\"", "value=\"50\"")], &[], &[], "no attribute `parameterType`");
+}
+
+#[test]
+fn a_distribution_has_values_of_the_type_of_its_parameter() {
+    let whole = [(GAP, "name=\"gap\" parameterType=\"unsignedShort\" value=\"50\"")];
+    let expected = "is not allowed, expected a whole number from 0 to 65535";
+    refuses(
+        &whole,
+        &[],
+        &[("<Element value=\"20\"/>", "<Element value=\"20.5\"/>")],
+        &format!("variation.xosc:11: `value=\"20.5\"` of <Element> {expected}"),
+    );
+    let range = |step: &str, lower: &str| {
+        format!(
+            "<DistributionRange stepWidth=\"{step}\"><Range lowerLimit=\"{lower}\" upperLimit=\"50\"/></DistributionRange>"
+        )
+    };
+    let set = "<DistributionSet><Element value=\"20\"/><Element value=\"50\"/></DistributionSet>";
+    refuses(
+        &whole,
+        &[],
+        &[(set, &range("0.5", "20"))],
+        &format!("variation.xosc:11: `stepWidth=\"0.5\"` of <DistributionRange> {expected}"),
+    );
+    refuses(
+        &whole,
+        &[],
+        &[(set, &range("10", "-20"))],
+        &format!("variation.xosc:11: `lowerLimit=\"-20\"` of <Range> {expected}"),
+    );
+    let text = [(GAP, "name=\"gap\" parameterType=\"string\" value=\"50\"")];
+    refuses(&text, &[], &[(set, &range("10", "20"))], "expected a parameter whose type is a number");
+    let program = program(&whole, &[], &[(set, &range("10", "20"))]).unwrap();
+    let gap =
+        program.declare().unwrap().parameters.into_iter().find(|declared| declared.parameter.name == "gap").unwrap();
+    let levels = [20.0, 30.0, 40.0, 50.0].map(Value::Number).to_vec();
+    assert_eq!((gap.whole, gap.opened().domain), (true, Domain::Choice(levels)));
+}
+
+#[test]
+fn a_whole_number_has_no_distribution_over_an_interval_and_no_set_with_fractions() {
+    for (name, found, by, says) in [
+        (
+            "slow-leader-chances.xosc",
+            "name=\"speed\" parameterType=\"double\"",
+            "name=\"speed\" parameterType=\"integer\"",
+            "`parameterName=\"speed\"` of <StochasticDistribution> is not allowed, expected a parameter of the type double",
+        ),
+        (
+            "slow-leader-tuples.xosc",
+            "name=\"gap\" parameterType=\"double\"",
+            "name=\"gap\" parameterType=\"boolean\"",
+            "of <ParameterAssignment> is not allowed, expected true or false",
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let scenario = fs::read_to_string(file("slow-leader.xosc")).unwrap();
+        let scenario =
+            scenario.replacen(found, by, 1).replacen("\"boolean\" value=\"50\"", "\"boolean\" value=\"1\"", 1);
+        fs::write(folder.path().join("slow-leader.xosc"), scenario).unwrap();
+        fs::copy(file(name), folder.path().join(name)).unwrap();
+        let message = Xosc::read(&folder.path().join(name)).err().expect("it is refused").to_string();
+        assert!(message.contains(name) && message.contains(says), "{message}");
+    }
+}
+
+#[test]
+fn closed_whole_numbers_and_truths_take_their_values_alone() {
+    let scenario = [
+        (GAP, "name=\"gap\" parameterType=\"unsignedShort\" value=\"50\""),
+        ("name=\"start\"", "name=\"wet\" parameterType=\"boolean\" value=\"1\"/><ParameterDeclaration name=\"start\""),
+    ];
+    let declaration = program(&scenario, &[], &[]).unwrap().declare().unwrap();
+    let declared = |name: &str| declaration.parameters.iter().find(|one| one.parameter.name == name).unwrap();
+    let gap = |value: f64| declared("gap").check(&Value::Number(value)).map_err(|error| error.to_string());
+    assert_eq!(gap(65_535.0), Ok(()));
+    assert_eq!(gap(20.5), Err("parameter `gap`: found 20.5, expected a whole number".to_owned()));
+    for value in [-1.0, 65_536.0] {
+        assert!(
+            gap(value).is_err_and(|message| message.contains("[0, 65535]") || message.contains("0..65535")),
+            "{value}"
+        );
+    }
+    assert_eq!(declared("wet").nominal(), Value::from("true"));
+    assert!(declared("wet").check(&Value::from("yes")).is_err());
+}
+
+#[test]
+fn a_whole_number_that_follows_from_others_is_a_constraint_between_them() {
+    let start = "name=\"start\" parameterType=\"double\" value=\"${$gap + 10}\"";
+    let whole = "name=\"start\" parameterType=\"integer\" value=\"${$gap / 2 + 60}\"";
+    let program = program(&[(start, whole)], &[], &[]).unwrap();
+    let (names, even) = checked(&program, &[("gap", 40.0)]);
+    assert_eq!((names, even), (vec![vec!["speed".to_owned()], vec!["gap".to_owned()]], Ok(())));
+    let message = checked(&program, &[("gap", 41.0)]).1.unwrap_err();
+    assert!(message.contains("bad.xosc:12: the constraint `(gap / 2 + 60) % 1 == 0 and"), "{message}");
+}
+
+#[test]
+fn an_assignment_to_a_parameter_of_a_catalog_has_its_type_and_keeps_its_constraints() {
+    let whole = [(LENGTH, "<ParameterDeclaration name=\"length\" parameterType=\"int\" value=\"5\"/>")];
+    refuses(
+        &[(ASSIGNED, "parameterRef=\"length\" value=\"4.5\"")],
+        &whole,
+        &[],
+        "bad.xosc:22: `value=\"4.5\"` of <ParameterAssignment> is not allowed, expected a whole number",
+    );
+    let limited = |value: &str| {
+        format!(
+            "<ParameterDeclaration name=\"length\" parameterType=\"double\" value=\"{value}\"><ConstraintGroup>\
+             <ValueConstraint rule=\"lessOrEqual\" value=\"4.5\"/></ConstraintGroup></ParameterDeclaration>"
+        )
+    };
+    // The ego vehicle has the value of the declaration.
+    refuses(
+        &[],
+        &[(LENGTH, &limited("5"))],
+        &[],
+        "entities.xosc:6: `value=\"5\"` of <ParameterDeclaration> is not allowed, expected a value that is at most 4.5",
+    );
+    refuses(
+        &[(ASSIGNED, "parameterRef=\"length\" value=\"6\"")],
+        &[(LENGTH, &limited("4"))],
+        &[],
+        "bad.xosc:22: `value=\"6\"` of <ParameterAssignment> is not allowed, expected a value that is at most 4.5",
+    );
+    refuses(
+        &[(ASSIGNED, "parameterRef=\"lenght\" value=\"4\"")],
+        &[],
+        &[],
+        "bad.xosc:22: `parameterRef=\"lenght\"` of <ParameterAssignment> names no declared parameter of the file (did you mean `length`?)",
+    );
+    assert!(program(&[], &[(LENGTH, &limited("4"))], &[]).is_ok());
+}
+
+#[test]
+fn constraints_of_catalogs_and_stories_are_constraints_between_the_parameters_behind_them() {
+    let limited = "<ParameterDeclaration name=\"length\" parameterType=\"double\" value=\"4\"/>\
+        <ParameterDeclaration name=\"half\" parameterType=\"double\" value=\"${$length / 2}\"><ConstraintGroup>\
+        <ValueConstraint rule=\"lessOrEqual\" value=\"3\"/></ConstraintGroup></ParameterDeclaration>";
+    let story = "<Story name=\"story\"><ParameterDeclarations><ParameterDeclaration name=\"own\" parameterType=\"double\" \
+        value=\"$speed\"><ConstraintGroup><ValueConstraint rule=\"notEqualTo\" value=\"$gap\"/></ConstraintGroup>\
+        </ParameterDeclaration></ParameterDeclarations>";
+    let scenario = [(ASSIGNED, "parameterRef=\"length\" value=\"${$gap / 10}\""), ("<Story name=\"story\">", story)];
+    let program = program(&scenario, &[(LENGTH, limited)], &[]).unwrap();
+    let (mut names, nominal) = checked(&program, &[]);
+    names.iter_mut().for_each(|names| names.sort());
+    assert_eq!(names, [vec!["speed"], vec!["gap"], vec!["gap", "speed"]]);
+    assert_eq!(nominal, Ok(()));
+    // The length is 7 m, and half of it follows from the assigned value.
+    let message = checked(&program, &[("gap", 70.0)]).1.unwrap_err();
+    assert!(
+        message.contains("entities.xosc:6: the constraint `gap / 10 / 2 <= 3` does not hold for gap = 70"),
+        "{message}"
+    );
+    let message = checked(&program, &[("gap", 30.0)]).1.unwrap_err();
+    assert!(message.contains("the constraint `speed != gap` does not hold for speed = 30, gap = 30"), "{message}");
+}
