@@ -73,7 +73,7 @@ fn l2_family(bencher: Bencher, (dims, n): (usize, usize)) {
 #[divan::bench(args = [2, 3], sample_count = 3)]
 fn kwise_dispersion_of_20_dimensions(bencher: Bencher, k: usize) {
     let (rules, points) = (Rules::free(&[]), points(Strategy::HALTON, 20, 1_000));
-    bencher.bench(|| kwise_dispersion(20, &rules, black_box(&points), k, Deadline::never()));
+    bencher.bench(|| kwise_dispersion(20, &rules, None, black_box(&points), k, Deadline::never()));
 }
 
 /// Covering arrays; the arguments are the number of parameters, the levels of each, and the strength.

@@ -119,6 +119,12 @@ pub enum CertificateFlaw {
     /// A parameter has values marked `~`, which the system should reject and which a certificate does not support.
     #[error("a certificate does not support negative values (`~`): it counts every combination in a test as covered")]
     Negatives,
+    /// A constraint depends on continuous parameters, which a certificate does not support.
+    #[error(
+        "a certificate does not support constraints on continuous parameters: it proves bounds on boxes of the whole space; \
+         leave the certificate out, and `estimate` gives the bracket of the dispersion within the valid part"
+    )]
+    ValidPart,
     /// Neither `dispersion` nor `k-wise-dispersion` was measured.
     #[error(
         "a certificate proves the measures `dispersion`, which needs a continuous parameter, and `k-wise-dispersion`; \
@@ -165,6 +171,9 @@ pub fn certify(
 ) -> Result<(Coverage, Certificate), Error> {
     if !tests.demand.negatives.is_empty() {
         return Err(CertificateFlaw::Negatives.into());
+    }
+    if tests.space.checks_each_test() {
+        return Err(CertificateFlaw::ValidPart.into());
     }
     let rules = tests.space.rules()?;
     let kept = keeping(tests, &tests.demand.kinds(&tests.space)?);

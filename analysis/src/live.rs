@@ -22,7 +22,7 @@ use paracosm_space::{Point, Space, SpaceError};
 /// ```
 #[derive(Debug, Clone)]
 pub struct LiveCoverage {
-    /// The holes in the continuous parameters; `None` if the space has no continuous parameters.
+    /// The holes in the continuous parameters; `None` if the space has no continuous parameters, or constraints on them.
     holes: Option<EmptyBoxes>,
     /// The combinations of discrete values; `None` if there are no combinations or too many.
     combinations: Option<KwiseCounter>,
@@ -44,7 +44,9 @@ impl LiveCoverage {
         let most = (4 * MOST_HOLES / dims.saturating_mul(dims).max(4)).max(100);
         let rules = space.rules()?;
         let k = k.unwrap_or(2).min(rules.levels().len());
-        Ok(Self { holes: EmptyBoxes::at_most(dims, most).ok(), combinations: KwiseCounter::new(&rules, k).ok() })
+        // The boxes know nothing of a valid part.
+        let holes = if space.checks_each_test() { None } else { EmptyBoxes::at_most(dims, most).ok() };
+        Ok(Self { holes, combinations: KwiseCounter::new(&rules, k).ok() })
     }
 
     /// Adds a test to the set of tests whose coverage is kept.
@@ -67,7 +69,8 @@ impl LiveCoverage {
         self.combinations.as_ref().map(|counter| (counter.covered(), counter.valid()))
     }
 
-    /// Returns the dispersion of the continuous parameters; `None` if the space has no continuous parameters. The
+    /// Returns the dispersion of the continuous parameters; `None` if the space has no continuous parameters, or if
+    /// constraints depend on these. The
     /// result is a bracket if there are more holes than can be tracked.
     pub fn dispersion(&self) -> Option<Bracket> {
         self.holes.as_ref().map(EmptyBoxes::dispersion)

@@ -5,14 +5,15 @@
 //! them.
 
 use paracosm_campaign::{Error, Reason};
-use paracosm_coverage::dispersion::is_at_most;
+use paracosm_coverage::dispersion::{is_at_most, valid_is_at_most};
 use paracosm_coverage::theory::points;
 use paracosm_coverage::theory::rows::RandomRows;
+use paracosm_coverage::valid::Validity;
 use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::covering::{CoveringError, CoveringRequest, covering_array};
 use paracosm_generators::{Generator, GeneratorError, Request, Strategy};
-use paracosm_space::Space;
 use paracosm_space::demand::Demand;
+use paracosm_space::{Point, Space};
 use serde::{Serialize, Serializer};
 use std::time::Duration;
 use thiserror::Error;
@@ -82,7 +83,7 @@ pub struct Plan {
     /// The numbers of points that leave no hole above epsilon; `None` if the space has no continuous parameters.
     pub points: Option<Vec<Need>>,
     /// The numbers of tests that satisfy both k and epsilon, with separate points for each row; `None` if the space
-    /// lacks discrete or continuous parameters.
+    /// lacks discrete or continuous parameters, or if constraints depend on continuous parameters.
     pub tests: Option<Vec<Need>>,
 }
 
@@ -157,8 +158,15 @@ impl Plan {
             ..CoveringRequest::new(&rules, k)
         };
         let rows = if levels.is_empty() { None } else { Some(rows_needed(&request, delta)?) };
-        let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, deadline)?) };
-        let tests = rows.as_ref().zip(points.as_ref()).map(|(rows, points)| joined(rows, points));
+        let validity = Validity::of(space, &rules);
+        let points = match &validity {
+            _ if dims == 0 => None,
+            Some(validity) => Some(valid_points_needed(space, validity, epsilon, deadline)?),
+            None => Some(points_needed(dims, epsilon, delta, deadline)?),
+        };
+        // Rows with different valid parts need different points.
+        let both = rows.as_ref().zip(points.as_ref()).filter(|_| validity.is_none());
+        let tests = both.map(|(rows, points)| joined(rows, points));
         Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
     }
 }
@@ -218,16 +226,43 @@ fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> R
         proved(Strategy::SOBOL, points::enough_of_sobol(dims, epsilon)),
         need("random, a-priori bound", points::enough_at_random(dims, epsilon, delta), Guarantee::Probable),
     ];
-    for (i, strategy) in MEASURED.into_iter().enumerate().filter(|(_, strategy)| strategy.dims().contains(&dims)) {
+    // It may be proved that no measurement can end well.
+    let least = points::needed_by_any_set(dims, epsilon).unwrap_or(u64::MAX);
+    let space = Space::unit_cube(dims);
+    needs.extend(measured(&space, least, deadline, &|points, deadline| is_at_most(points, epsilon, deadline))?);
+    Ok(needs)
+}
+
+/// Returns the numbers of points that have a dispersion of at most epsilon within the valid part of a space. No bound is known
+/// before a measurement.
+fn valid_points_needed(
+    space: &Space,
+    validity: &Validity,
+    epsilon: f64,
+    deadline: Deadline,
+) -> Result<Vec<Need>, Error> {
+    let valid = validity.whole();
+    measured(space, 0, deadline, &|points, deadline| valid_is_at_most(points, &valid, epsilon, deadline))
+}
+
+/// Measures for each strategy how many points are enough. Any set needs at least `least` points.
+fn measured(space: &Space, least: u64, deadline: Deadline, is_enough: &IsEnough) -> Result<Vec<Need>, Error> {
+    let strategies = MEASURED.into_iter().enumerate();
+    let mut needs = Vec::new();
+    for (i, strategy) in strategies.filter(|(_, strategy)| strategy.dims().contains(&space.dims())) {
         let share = 1.0 / (MEASURED.len() - i) as f64;
-        let (tests, over) = match enough_of(strategy, dims, epsilon, deadline.part(share))? {
+        let (tests, over) = match enough_of(strategy, space, least, deadline.part(share), is_enough)? {
             Enough::Least(tests) => (Some(tests), None),
             Enough::Over(tests) => (None, Some(tests)),
         };
-        needs.push(Need { strategy: Some(strategy), over, ..need(strategy.name(), tests, Guarantee::Measured) });
+        let of = strategy.name().to_owned();
+        needs.push(Need { of, strategy: Some(strategy), tests, over, guarantee: Guarantee::Measured });
     }
     Ok(needs)
 }
+
+/// A function that says whether points are enough; `None` if the answer is not known at the deadline.
+type IsEnough<'a> = dyn Fn(&PointSet, Deadline) -> Option<bool> + 'a;
 
 /// A number of points that is enough.
 enum Enough {
@@ -237,31 +272,40 @@ enum Enough {
     Over(u64),
 }
 
-/// Finds the least number of first points of a strategy that have a dispersion of at most epsilon.
-fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) -> Result<Enough, Error> {
-    let space = Space::unit_cube(dims);
+/// Finds the least number of first points of a strategy that are enough.
+fn enough_of(
+    strategy: Strategy,
+    space: &Space,
+    least: u64,
+    deadline: Deadline,
+    is_enough: &IsEnough,
+) -> Result<Enough, Error> {
+    let dims = space.dims();
     let most = MOST_MEASURED.min(MOST_COORDINATES / dims);
-    if points::needed_by_any_set(dims, epsilon).is_none_or(|least| least > most as u64) {
-        // It is proved that no measurement can end well.
+    if least > most as u64 {
         return Ok(Enough::Over(most as u64));
     }
-    let mut generator = strategy.build(&Request::new(&space, most))?;
-    let mut all = Vec::new();
-    let mut is_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
+    let mut generator = strategy.build(&Request::new(space, most))?;
+    let mut all: Vec<Point> = Vec::new();
+    let mut are_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
         while all.len() < n {
             if deadline.passed() {
                 return Ok(None);
             }
             // In very many dimensions, even a few points take so long that the deadline has to be checked again.
-            all.extend(generator.ask((n - all.len()).min(1 + 10_000 / dims)));
+            let more = generator.ask((n - all.len()).min(1 + 10_000 / dims));
+            if more.is_empty() {
+                return Ok(None);
+            }
+            all.extend(more);
         }
         let points = PointSet::new(dims, all[..n].iter().map(|point| &point.continuous))?;
-        Ok(is_at_most(&points, epsilon, deadline))
+        Ok(is_enough(&points, deadline))
     };
     // Longer beginnings are never worse: double the length until it is enough, then search between by halving.
     let (mut short, mut long) = (0, 1);
     loop {
-        match is_enough(long, generator.as_mut())? {
+        match are_enough(long, generator.as_mut())? {
             Some(true) => break,
             Some(false) if 2 * long <= most => (short, long) = (long, 2 * long),
             _ => return Ok(Enough::Over(short as u64)),
@@ -269,7 +313,7 @@ fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) 
     }
     while long - short > 1 {
         let middle = short + (long - short) / 2;
-        match is_enough(middle, generator.as_mut())? {
+        match are_enough(middle, generator.as_mut())? {
             Some(true) => long = middle,
             Some(false) => short = middle,
             None => return Ok(Enough::Over(short as u64)),

@@ -14,6 +14,7 @@
 use crate::dispersion::{LargestEmptyBox, larger_than};
 use crate::kwise::{KwiseCoverage, KwiseError, advance, kwise_coverage, tuple};
 use crate::measure::{Compare, Computation, Descriptor, Measure};
+use crate::valid::{Effort, Validity};
 use crate::{Bracket, Deadline, PointSet};
 use paracosm_space::Point;
 use paracosm_space::rules::Rules;
@@ -110,7 +111,8 @@ pub fn projections(dims: usize, rules: &Rules, k: usize) -> Result<impl Iterator
 }
 
 /// Computes the largest dispersion over all choices of `k` parameters, with all valid combinations of discrete values.
-/// The parameters are `dims` continuous parameters and the discrete parameters of `rules`.
+/// The parameters are `dims` continuous parameters and the discrete parameters of `rules`. If constraints depend on continuous
+/// parameters, `valid` gives the valid part of each choice, and dispersions are within this part.
 ///
 /// The result is exact unless `deadline` cuts the search short. Its upper bound is then 1 if some projection was not
 /// even begun.
@@ -123,6 +125,7 @@ pub fn projections(dims: usize, rules: &Rules, k: usize) -> Result<impl Iterator
 pub fn kwise_dispersion(
     dims: usize,
     rules: &Rules,
+    valid: Option<&Validity>,
     tests: &[Point],
     k: usize,
     deadline: Deadline,
@@ -133,7 +136,7 @@ pub fn kwise_dispersion(
         // Counting is faster than looking at one combination after the other.
         return Ok(KwiseDispersion::of_coverage(counted));
     }
-    let found = worst_of(projections(dims, rules, k)?, tests, deadline);
+    let found = worst_of(projections(dims, rules, k)?, valid, tests, deadline);
     // `None` if the deadline passed before any projection was searched: then 0 is the only known lower bound.
     let mut worst = match found.worst {
         Some(worst) => worst,
@@ -148,18 +151,18 @@ pub fn kwise_dispersion(
 
 /// Computes the largest dispersion of the groups of tests that have the same discrete values. The result is the
 /// smallest epsilon for which the tests are (k, epsilon)-covering, if the tests cover k-wise. The result is 1 if there
-/// is no test.
+/// is no test. Dispersions are within the valid part of each row if `valid` is given.
 ///
 /// # Panics
 /// There is no continuous parameter, or a test does not belong to the space.
-pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Bracket {
+pub fn row_dispersion(dims: usize, valid: Option<&Validity>, tests: &[Point], deadline: Deadline) -> Bracket {
     if tests.is_empty() {
         return Bracket::exact(1.0);
     }
     let rows: BTreeSet<&[usize]> = tests.iter().map(|test| &test.discrete[..]).collect();
     let row =
         |row: &[usize]| Projection { fixed: row.iter().copied().enumerate().collect(), axes: (0..dims).collect() };
-    let found = worst_of(rows.into_iter().map(row), tests, deadline);
+    let found = worst_of(rows.into_iter().map(row), valid, tests, deadline);
     let lower = found.worst.map_or(0.0, |worst| worst.volume.lower);
     Bracket { lower, upper: found.upper.max(lower) }
 }
@@ -172,7 +175,12 @@ struct Worst {
     upper: f64,
 }
 
-fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], deadline: Deadline) -> Worst {
+fn worst_of(
+    mut projections: impl Iterator<Item = Projection>,
+    valid: Option<&Validity>,
+    tests: &[Point],
+    deadline: Deadline,
+) -> Worst {
     let mut worst: Option<KwiseDispersion> = None;
     let mut upper = 0.0f64;
     loop {
@@ -185,7 +193,8 @@ fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], 
             break;
         }
         let above = worst.as_ref().map_or(f64::NEG_INFINITY, |worst| worst.volume.lower);
-        let found: Vec<_> = block.into_par_iter().map(|projection| hole(projection, tests, above, deadline)).collect();
+        let hole = |projection| hole(projection, valid, tests, above, deadline);
+        let found: Vec<_> = block.into_par_iter().map(hole).collect();
         for hole in found.into_iter().flatten() {
             upper = upper.max(hole.volume.upper);
             if worst.as_ref().is_none_or(|worst| hole.volume.lower > worst.volume.lower) {
@@ -197,7 +206,13 @@ fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], 
 }
 
 /// Returns the largest hole of a projection; `None` if the search proves that the hole is no larger than `above`.
-fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
+fn hole(
+    projection: Projection,
+    valid: Option<&Validity>,
+    tests: &[Point],
+    above: f64,
+    deadline: Deadline,
+) -> Option<KwiseDispersion> {
     if deadline.passed() {
         let Projection { fixed, axes } = projection;
         return Some(KwiseDispersion { volume: Bracket { lower: 0.0, upper: 1.0 }, fixed, axes, witness: None });
@@ -207,7 +222,13 @@ fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline)
         let volume = if selected.next().is_some() { 0.0 } else { 1.0 };
         (volume > above).then_some((Bracket::exact(volume), None))
     } else {
-        larger_than(&projection.points(selected), above, deadline).map(|found| (found.volume, Some(found.witness)))
+        let valid = valid.map(|valid| valid.part(&projection, Effort::Quick));
+        // Without a valid test there is no hole.
+        if valid.as_ref().is_some_and(|valid| valid.share().upper == 0.0) {
+            return None;
+        }
+        let points = projection.points(selected);
+        larger_than(&points, valid.as_ref(), above, deadline).map(|found| (found.volume, Some(found.witness)))
     }?;
     let Projection { fixed, axes } = projection;
     Some(KwiseDispersion { volume, fixed, axes, witness })

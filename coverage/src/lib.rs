@@ -6,7 +6,8 @@
 //! measure the continuous parameters. [`kwise_dispersion`] measures both together. Each of these is described as a
 //! [`Measure`]. [`empty_boxes`] keeps the holes up to date while tests arrive one by one, and [`proof`] proves that
 //! no hole is larger. [`theory`] holds bounds that follow without any points. If tests failed, [`suspects`] says
-//! which combinations of discrete values may be the cause.
+//! which combinations of discrete values may be the cause. If constraints depend on continuous parameters, [`valid`] holds the
+//! valid part of the space.
 //!
 //! ```
 //! use paracosm_coverage::{Deadline, PointSet, dispersion::dispersion};
@@ -38,6 +39,7 @@ mod samples;
 pub mod star;
 pub mod suspects;
 pub mod theory;
+pub mod valid;
 mod witness;
 
 pub use bracket::{Bracket, Deadline};

@@ -3,6 +3,7 @@
 //! Reports, tables, figures, comparisons and help read the descriptors. The file that computes a measure describes
 //! it, and `MEASURES` in the crate's `lib.rs` lists all measures.
 
+use crate::valid::ValidPart;
 use crate::witness::{Dispersion, Fill};
 use crate::{Bracket, Deadline, PointSet};
 use paracosm_space::{did_you_mean, nearest};
@@ -60,9 +61,9 @@ pub enum Computation {
     Number(fn(&PointSet, Deadline) -> Option<f64>),
     /// A function for a number that is exact unless the deadline cuts the search short.
     Bracket(fn(&PointSet, Deadline) -> Bracket),
-    /// A function that finds the largest empty box. A callback receives the bracket of the volume while the bracket
-    /// narrows.
-    Hole(fn(&PointSet, Deadline, &mut dyn FnMut(Bracket)) -> Dispersion),
+    /// A function that finds the largest empty box within the valid part, if constraints leave only a part. A callback receives
+    /// the bracket of the volume while the bracket narrows.
+    Hole(fn(&PointSet, Option<&ValidPart>, Deadline, &mut dyn FnMut(Bracket)) -> Dispersion),
     /// A function that finds the largest empty ball; `None` if there are no points.
     Ball(fn(&PointSet, Deadline) -> Option<Fill>),
     /// The measure counts the combinations of discrete values that the tests contain.
@@ -106,16 +107,29 @@ impl Measure {
         self.0
     }
 
-    /// Computes the measure for `points`; returns `None` if the measure needs more than continuous coordinates. `watch`
-    /// receives the bracket while the bracket narrows.
-    pub fn take(self, points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Option<Finding> {
+    /// Computes the measure for `points`; returns `None` if the measure needs more than continuous coordinates. `valid` is the
+    /// valid part of the cube if constraints leave only a part; see [`Measure::is_of_the_valid_part`]. `watch` receives the
+    /// bracket while the bracket narrows.
+    pub fn take(
+        self,
+        points: &PointSet,
+        valid: Option<&ValidPart>,
+        deadline: Deadline,
+        watch: &mut dyn FnMut(Bracket),
+    ) -> Option<Finding> {
         match self.0.method {
             Computation::Number(number) => Some(Finding::Number(number(points, deadline))),
             Computation::Bracket(bracket) => Some(Finding::Bracket(bracket(points, deadline))),
-            Computation::Hole(hole) => Some(Finding::Hole(hole(points, deadline, watch))),
+            Computation::Hole(hole) => Some(Finding::Hole(hole(points, valid, deadline, watch))),
             Computation::Ball(ball) => Some(Finding::Ball(ball(points, deadline))),
             Computation::Combinations | Computation::KwiseHole => None,
         }
+    }
+
+    /// Returns `true` if the measure takes account of the valid part of the space. The other measures compare the tests with the
+    /// whole cube.
+    pub fn is_of_the_valid_part(self) -> bool {
+        !matches!(self.0.method, Computation::Number(_) | Computation::Bracket(_) | Computation::Ball(_))
     }
 
     /// Returns `true` if the measure depends on the continuous parameters only.

@@ -1,6 +1,6 @@
 //! The search for the largest empty box: the same on any number of threads, and honest about what it did not finish.
 
-use paracosm_coverage::dispersion::{Dispersion, dispersion, dispersion_watched, is_at_most};
+use paracosm_coverage::dispersion::{Dispersion, dispersion, dispersion_within, is_at_most};
 use paracosm_coverage::{Deadline, PointSet};
 use std::time::{Duration, Instant};
 
@@ -92,7 +92,7 @@ fn whoever_watches_sees_the_bracket_close_and_never_open_again() {
     let points = points(9, 300, false);
     let mut seen = Vec::new();
     let limit = Deadline::after(Duration::from_secs(1));
-    let found = dispersion_watched(&points, limit, &mut |bracket| seen.push(bracket)).volume;
+    let found = dispersion_within(&points, None, limit, &mut |bracket| seen.push(bracket)).volume;
     seen.push(found);
     assert!(seen.len() > 1);
     for pair in seen.windows(2) {

@@ -48,7 +48,7 @@ fn tests(dims: usize, levels: Vec<usize>) -> impl Strategy<Value = Vec<Point>> {
 proptest! {
     #[test]
     fn it_is_the_largest_over_all_pairs_of_parameters(tests in tests(3, vec![2, 3])) {
-        let found = kwise_dispersion(3, &Rules::free(&[2, 3]), &tests, 2, Deadline::never()).unwrap();
+        let found = kwise_dispersion(3, &Rules::free(&[2, 3]), None, &tests, 2, Deadline::never()).unwrap();
         prop_assert!(found.volume.is_exact());
         prop_assert_eq!(found.volume.lower, pairwise(3, &[2, 3], &tests));
     }
@@ -56,7 +56,7 @@ proptest! {
     #[test]
     fn with_all_parameters_it_is_the_dispersion(tests in tests(3, vec![])) {
         let points = PointSet::new(3, tests.iter().map(|test| &test.continuous)).unwrap();
-        let found = kwise_dispersion(3, &Rules::free(&[]), &tests, 3, Deadline::never()).unwrap();
+        let found = kwise_dispersion(3, &Rules::free(&[]), None, &tests, 3, Deadline::never()).unwrap();
         prop_assert_eq!(found.volume, dispersion(&points, Deadline::never()).volume);
     }
 }
@@ -64,7 +64,8 @@ proptest! {
 #[test]
 fn without_time_the_bracket_is_honest() {
     let tests = vec![Point { continuous: vec![0.5; 6], discrete: vec![] }];
-    let found = kwise_dispersion(6, &Rules::free(&[]), &tests, 2, Deadline::after(std::time::Duration::ZERO)).unwrap();
+    let found =
+        kwise_dispersion(6, &Rules::free(&[]), None, &tests, 2, Deadline::after(std::time::Duration::ZERO)).unwrap();
     assert_eq!(found.volume, Bracket { lower: 0.0, upper: 1.0 });
 }
 
@@ -72,9 +73,9 @@ fn without_time_the_bracket_is_honest() {
 fn a_hole_names_the_parameters_it_is_in() {
     let test = |x: f64, level| Point { continuous: vec![0.5, x], discrete: vec![level] };
     let tests: Vec<Point> = (0..10).map(|i| test(f64::from(i) / 10.0, usize::from(i < 9))).collect();
-    let found = kwise_dispersion(2, &Rules::free(&[2]), &tests, 2, Deadline::never()).unwrap();
+    let found = kwise_dispersion(2, &Rules::free(&[2]), None, &tests, 2, Deadline::never()).unwrap();
     // Level 0 has one test at (0.5, 0.9).
     assert_eq!((found.fixed, found.axes), (vec![(0, 0)], vec![1]));
     assert_eq!(found.volume, Bracket::exact(0.9));
-    assert!(kwise_dispersion(2, &Rules::free(&[2]), &tests, 4, Deadline::never()).is_err());
+    assert!(kwise_dispersion(2, &Rules::free(&[2]), None, &tests, 4, Deadline::never()).is_err());
 }

@@ -136,7 +136,7 @@ proptest! {
 
     #[test]
     fn every_projection_on_k_parameters_is_proved(tests in tests(3, &[2, 3], 120), k in 1..=5usize) {
-        let volume = kwise_dispersion(3, &Rules::free(&[2, 3]), &tests, k, Deadline::never()).unwrap().volume;
+        let volume = kwise_dispersion(3, &Rules::free(&[2, 3]), None, &tests, k, Deadline::never()).unwrap().volume;
         let proved = prove(3, &Rules::free(&[2, 3]), &tests, Scope::Every(k), volume, PLENTY).unwrap();
         prop_assert!(proved.upper >= volume.upper && proved.upper <= volume.upper * (1.0 + 10.0 * MARGIN));
         if proved.upper < 1.0 {
@@ -176,7 +176,7 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
     let tests: Vec<Point> = (1..400)
         .map(|i| Point { continuous: (0..5).map(|axis| coordinate(i, axis)).collect(), discrete: vec![] })
         .collect();
-    let volume = kwise_dispersion(5, &Rules::free(&[]), &tests, 3, Deadline::never()).unwrap().volume;
+    let volume = kwise_dispersion(5, &Rules::free(&[]), None, &tests, 3, Deadline::never()).unwrap().volume;
     let on = |threads, pivots| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let budget = Budget { pivots, ..PLENTY };

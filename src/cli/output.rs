@@ -110,9 +110,12 @@ impl Table {
     }
 
     fn continuous(&mut self, measured: &Continuous) {
-        for (measure, measured) in &measured.measured {
+        if let Some(share) = &measured.valid_share {
+            self.row("valid share", &format!("{} of the box of the continuous parameters", bracket(share)));
+        }
+        for (measure, result) in &measured.measured {
             let label = measure.descriptor().label;
-            match measured {
+            match result {
                 Measured::Number(number) => {
                     self.row(label, &number.map_or(format!("unknown: no tests, or {CUT_SHORT}"), digits));
                 }
@@ -131,6 +134,12 @@ impl Table {
                     }
                 }
             }
+        }
+        let measures = measured.measured.iter().map(|(measure, _)| measure);
+        let of_the_box = measures.filter(|measure| !measure.is_of_the_valid_part());
+        let whole: Vec<&str> = of_the_box.map(|measure| measure.descriptor().label).collect();
+        if measured.valid_share.is_some() && !whole.is_empty() {
+            self.row("  of the whole box", &format!("{}: they ignore the constraints", whole.join(", ")));
         }
     }
 

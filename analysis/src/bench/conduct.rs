@@ -5,11 +5,12 @@ use super::target::{TargetKind, generator_of, study_of};
 use super::{Bench, Case, ReferenceMap, Row};
 use crate::Modes;
 use paracosm_campaign::{Error, Expected, Learned, Log, Steering, Study, Trial, Worker};
-use paracosm_coverage::dispersion::dispersion;
+use paracosm_coverage::dispersion::dispersion_within;
+use paracosm_coverage::valid::Validity;
 use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::Generator;
 use paracosm_generators::functions::Placed;
-use paracosm_space::Point;
+use paracosm_space::{Point, Space};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -62,20 +63,23 @@ pub(super) fn row(
         modes,
         recall: found.and_then(|found| found.recall),
         precision: found.and_then(|found| found.precision),
-        dispersion: if map.is_some() { dispersion_of(target.space().dims(), &tests)? } else { None },
+        dispersion: if map.is_some() { dispersion_of(&target.space(), &tests)? } else { None },
     }))
 }
 
-/// Returns the dispersion of the tests that count for coverage (those with an outcome); `None` unless `dims` is in 1
-/// to `MOST_DIMS`.
-fn dispersion_of(dims: usize, tests: &[(Point, Option<bool>)]) -> Result<Option<f64>, Error> {
+/// Returns the dispersion of the tests that count for coverage (those with an outcome), an upper bound if it is not exact;
+/// `None` unless the number of continuous parameters is in 1 to `MOST_DIMS`.
+fn dispersion_of(space: &Space, tests: &[(Point, Option<bool>)]) -> Result<Option<f64>, Error> {
+    let dims = space.dims();
     if !(1..=MOST_DIMS).contains(&dims) {
         return Ok(None);
     }
     let covering = tests.iter().filter(|(_, fails)| fails.is_some()).map(|(point, _)| &point.continuous);
     let points = PointSet::new(dims, covering)?;
-    // Without a deadline the lower and the upper bound are the same.
-    Ok(Some(dispersion(&points, Deadline::never()).volume.upper))
+    let rules = space.rules()?;
+    let valid = Validity::of(space, &rules).map(|validity| validity.whole());
+    // Without a deadline and without a valid part, the lower and the upper bound are the same.
+    Ok(Some(dispersion_within(&points, valid.as_ref(), Deadline::never(), &mut |_| ()).volume.upper))
 }
 
 /// Tests with their outcomes.

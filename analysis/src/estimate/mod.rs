@@ -9,6 +9,7 @@ use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox};
 use paracosm_coverage::kwise::{KwiseCoverage, coverage_of_kinds};
 use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion, row_dispersion};
 use paracosm_coverage::measure::Finding;
+use paracosm_coverage::valid::Validity;
 use paracosm_coverage::{Bracket, Deadline, Measure, PointSet};
 use paracosm_space::demand::TestKind;
 use paracosm_space::{Coordinate, Point, Record, Value};
@@ -81,6 +82,7 @@ pub fn measure_holes(
         return Err(StrengthFlaw { k, parameters }.into());
     }
     let rules = tests.space.rules()?;
+    let validity = Validity::of(&tests.space, &rules);
     let kinds = tests.demand.kinds(&tests.space)?;
     let keeping = keeping(tests, &kinds);
     let violating = tests.points.len() - keeping.points.len();
@@ -96,7 +98,7 @@ pub fn measure_holes(
     let mut holes = Holes::default();
     let continuous = match tests.space.dims() {
         0 => None,
-        _ => Some(continuous(tests, measures, &mut clock, &mut holes, watch)?),
+        _ => Some(continuous(tests, validity.as_ref(), measures, &mut clock, &mut holes, watch)?),
     };
     let discrete = match levels.len() {
         0 => Some(None),
@@ -111,8 +113,10 @@ pub fn measure_holes(
     let k_epsilon = combinations.map(|discrete| {
         let complete = discrete.covered == discrete.valid;
         // Without continuous parameters a row has no hole.
-        let Bracket { lower, upper } =
-            if dims == 0 { Bracket::exact(0.0) } else { row_dispersion(dims, &tests.points, clock.next()) };
+        let Bracket { lower, upper } = match dims {
+            0 => Bracket::exact(0.0),
+            _ => row_dispersion(dims, validity.as_ref(), &tests.points, clock.next()),
+        };
         KEpsilon {
             k: discrete.k,
             complete,
@@ -129,7 +133,7 @@ pub fn measure_holes(
                 let all: Vec<usize> = (0..levels.len()).collect();
                 KwiseDispersion::of_coverage(counted(tests, &all, k, &kinds)?)
             }
-            dims => kwise_dispersion(dims, &rules, &tests.points, k, clock.next())?,
+            dims => kwise_dispersion(dims, &rules, validity.as_ref(), &tests.points, k, clock.next())?,
         };
         let worst = place(tests, &found.fixed, &found.axes, found.witness.as_ref());
         let volume = found.volume;
@@ -143,7 +147,11 @@ pub fn measure_holes(
 
 /// Returns the set of the tests that satisfy the constraints.
 pub fn keeping(tests: &TestSet, kinds: &[TestKind]) -> TestSet {
-    let keeps = |point: &&Point| kinds.iter().any(|kind| kind.rules().allows(&point.discrete));
+    let checked = || tests.space.constraints().iter().filter(|constraint| constraint.checks_each_test());
+    let keeps = |point: &&Point| {
+        kinds.iter().any(|kind| kind.rules().allows(&point.discrete))
+            && checked().all(|constraint| constraint.allows(point))
+    };
     let points = tests.points.iter().filter(keeps).cloned().collect();
     TestSet { space: tests.space.clone(), points, k: tests.k, demand: tests.demand.clone() }
 }
@@ -164,6 +172,7 @@ pub fn place(
 
 fn continuous(
     tests: &TestSet,
+    validity: Option<&Validity>,
     measures: &[Measure],
     clock: &mut Clock,
     holes: &mut Holes,
@@ -171,13 +180,14 @@ fn continuous(
 ) -> Result<Continuous, Error> {
     let points = PointSet::new(tests.space.dims(), tests.points.iter().map(|point| &point.continuous))?;
     let parameters: Vec<Coordinate> = tests.space.continuous().collect();
+    let valid = validity.map(Validity::whole);
     // From the fastest to the slowest measure: a measure leaves its unused time to the measures after it.
     let mut order: Vec<Measure> = measures.iter().copied().filter(|measure| measure.is_of_points()).collect();
     order.sort_by_key(|measure| measure.descriptor().pace);
     let mut taken = Vec::new();
     for measure in order {
         watch(measure, None);
-        let found = measure.take(&points, clock.next(), &mut |bracket| watch(measure, Some(bracket)));
+        let found = measure.take(&points, valid.as_ref(), clock.next(), &mut |bracket| watch(measure, Some(bracket)));
         let found = found.expect("the measure is one of points");
         if let Finding::Hole(hole) = &found
             && measure == Measure::DISPERSION
@@ -188,7 +198,8 @@ fn continuous(
     }
     let place = |measure: Measure| Measure::all().position(|other| other == measure);
     taken.sort_by_key(|(measure, _)| (place(*measure).is_none(), place(*measure)));
-    Ok(Continuous { parameters: parameters.iter().map(Coordinate::name).collect(), measured: taken })
+    let parameters = parameters.iter().map(Coordinate::name).collect();
+    Ok(Continuous { parameters, valid_share: valid.map(|valid| valid.share()), measured: taken })
 }
 
 /// Returns the finding of a measure in values of the parameters instead of coordinates.
@@ -312,7 +323,7 @@ mod tests {
             about: "a box in the corner, whatever the points are",
             pace: u8::MAX,
             compare: Compare::Never,
-            method: Computation::Hole(|points, _, _| {
+            method: Computation::Hole(|points, _, _, _| {
                 let witness = LargestEmptyBox { lower: vec![0.0; points.dims()], upper: vec![0.1; points.dims()] };
                 Dispersion { volume: Bracket::exact(witness.volume()), witness }
             }),

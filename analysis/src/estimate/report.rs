@@ -29,12 +29,15 @@ pub struct Coverage {
     pub k_wise_dispersion: Option<KwiseHole>,
 }
 
-/// The coverage of the continuous parameters, each scaled to `[0,1]`. The JSON object has the parameters, and each
-/// measure under its key.
+/// The coverage of the continuous parameters, each scaled to `[0,1]`. The JSON object has the parameters, the valid
+/// share if constraints leave only a part, and each measure under its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Continuous {
     /// The names of the continuous parameters; a signal has an entry for each of its coordinates.
     pub parameters: Vec<String>,
+    /// The share of the box of these parameters in which tests keep the constraints; `None` if no constraint depends on these
+    /// parameters. The volume of a hole is then a share of the valid part.
+    pub valid_share: Option<Bracket>,
     /// The measures that were taken with their results, in the order in which they are shown.
     pub measured: Vec<(Measure, Measured)>,
 }
@@ -81,6 +84,9 @@ impl Serialize for Continuous {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(1 + self.measured.len()))?;
         map.serialize_entry("parameters", &self.parameters)?;
+        if let Some(share) = &self.valid_share {
+            map.serialize_entry("valid_share", share)?;
+        }
         for (measure, measured) in &self.measured {
             map.serialize_entry(measure.descriptor().key, measured)?;
         }
@@ -91,7 +97,7 @@ impl Serialize for Continuous {
 /// The largest box without a test inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Hole {
-    /// The volume of the largest empty box, as a share of the space.
+    /// The volume of the largest empty box within the valid part of the space, as a share of this part.
     #[serde(flatten)]
     pub volume: Bracket,
     /// The two ends of the largest empty box along each parameter, as values of the parameter. The box has the lower
@@ -172,7 +178,7 @@ pub struct KEpsilon {
 pub struct KwiseHole {
     /// The number of parameters over which the hole extends.
     pub k: usize,
-    /// The volume of the hole, as a share of the space of its k parameters.
+    /// The volume of the hole, as a share of the valid part of the space of its k parameters.
     #[serde(flatten)]
     pub volume: Bracket,
     /// The place of the largest hole in the space.

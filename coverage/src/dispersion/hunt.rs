@@ -11,7 +11,7 @@
 //! It takes almost no memory, whereas a best-first search of the same tree fills gigabytes.
 
 use super::search::{Bar, BoxSearch, Found, MOST_LISTED, Open};
-use super::side::{Side, inside, volume};
+use super::side::{Side, Weight, inside};
 use super::{Dispersion, LargestEmptyBox};
 use crate::bracket::Watch;
 use crate::{Bracket, Deadline, PointSet};
@@ -36,10 +36,11 @@ const MOST_DIMS: usize = 1_500;
 /// The number of boxes that one attempt explores.
 const ATTEMPT: usize = 500;
 
-/// A search for the largest empty box among points in three or more dimensions, on all cores.
-pub(super) struct Hunt<'a> {
+/// A search for the heaviest empty box among points, on all cores.
+pub(super) struct Hunt<'a, W> {
     points: &'a PointSet,
-    /// The volume of the witness, for all threads to see.
+    weight: W,
+    /// The weight of the witness, for all threads to see.
     bar: Bar,
     witness: LargestEmptyBox,
     /// The boxes that have not been explored to the end, the largest first.
@@ -52,11 +53,16 @@ pub(super) struct Hunt<'a> {
     full: bool,
 }
 
-impl<'a> Hunt<'a> {
-    /// Makes a search for empty boxes that are larger than the box `witness` and larger than the volume `above`.
-    pub fn new(points: &'a PointSet, witness: LargestEmptyBox, above: f64) -> Self {
-        let bar = Bar::new(witness.volume().max(above));
-        Self { points, bar, witness, open: vec![Open::cube(points)], upper: 1.0, attempts: 0, full: false }
+impl<'a, W: Weight> Hunt<'a, W> {
+    /// Makes a search for empty boxes that are heavier than the box `witness` and heavier than `above`.
+    pub fn new(points: &'a PointSet, weight: W, witness: LargestEmptyBox, above: f64) -> Self {
+        let bar = Bar::new(weight.of(&sides(&witness)).max(above));
+        let cube = Open::cube(points, weight);
+        Self { points, weight, bar, witness, upper: cube.weight, open: vec![cube], attempts: 0, full: false }
+    }
+
+    fn size(&self, found: &LargestEmptyBox) -> f64 {
+        self.weight.of(&sides(found))
     }
 
     /// Searches for the largest empty box, until the result is exact or the deadline passes. `watch` receives the
@@ -86,11 +92,11 @@ impl<'a> Hunt<'a> {
     /// search must have been made for the same `above`.
     pub fn finds_none(mut self, above: f64, deadline: Deadline) -> Option<bool> {
         if self.points.dims() > MOST_DIMS {
-            return (self.witness.volume() > above).then_some(false);
+            return (self.size(&self.witness) > above).then_some(false);
         }
         self.begin(deadline);
         let (bar, dims) = (Bar::new(self.bar.get()), self.points.dims());
-        let explore = |search: &mut BoxSearch, part: &Open| {
+        let explore = |search: &mut BoxSearch<W>, part: &Open| {
             let mut watch = Watch::new(deadline);
             let mut over = deadline.passed();
             search.explore(part, &bar, above, |work| {
@@ -99,10 +105,10 @@ impl<'a> Hunt<'a> {
                 !over
             })
         };
-        let new_search = || BoxSearch::new(self.points, above);
+        let new_search = || BoxSearch::new(self.points, self.weight, above);
         let parts = self.open.par_iter().with_max_len(1);
         let done: Vec<bool> = parts.map_init(new_search, |search, part| explore(search, part).is_done()).collect();
-        if self.witness.volume().max(bar.get()) > above {
+        if self.size(&self.witness).max(bar.get()) > above {
             return Some(false);
         }
         done.into_iter().all(|done| done).then_some(true)
@@ -110,7 +116,7 @@ impl<'a> Hunt<'a> {
 
     /// The bracket that is known by now.
     fn bracket(&self) -> Bracket {
-        let lower = self.witness.volume();
+        let lower = self.size(&self.witness);
         if self.open.is_empty() {
             return Bracket::exact(lower);
         }
@@ -133,19 +139,19 @@ impl<'a> Hunt<'a> {
 
     /// Branches the largest open boxes until there are enough boxes above a volume to share out, the largest first.
     fn split(&mut self, above: f64, deadline: Deadline) {
-        self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+        self.open.sort_by(|a, b| a.weight.total_cmp(&b.weight));
         while let Some(largest) = self.open.last()
-            && largest.volume > above
+            && largest.weight > above
             && !deadline.passed()
             && self.open.iter().map(|open| open.inside.len()).sum::<usize>() <= MOST_LISTED
-            && self.open.iter().rev().take(PARTS).filter(|open| open.volume > above).count() < PARTS
+            && self.open.iter().rev().take(PARTS).filter(|open| open.weight > above).count() < PARTS
         {
             let mut first = true;
             if !self.step(|_| std::mem::take(&mut first)) {
                 break;
             }
             // The children are fewer than 2 d, and smaller than most boxes: the sort runs on a nearly sorted list.
-            self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+            self.open.sort_by(|a, b| a.weight.total_cmp(&b.weight));
         }
         self.open.reverse();
         self.close(1.0);
@@ -155,7 +161,7 @@ impl<'a> Hunt<'a> {
     fn step(&mut self, go_on: impl FnMut(usize) -> bool) -> bool {
         let Some(root) = self.open.pop() else { return true };
         let best = self.bar.get();
-        let found = BoxSearch::new(self.points, best).explore(&root, &self.bar, best, go_on);
+        let found = BoxSearch::new(self.points, self.weight, best).explore(&root, &self.bar, best, go_on);
         if found.lost {
             self.open.push(root);
         } else {
@@ -171,7 +177,7 @@ impl<'a> Hunt<'a> {
         let (floor, dims) = (self.bar.get(), self.points.dims());
         let bar = Bar::new(floor.max(down_to));
         let lowered = down_to > floor;
-        let explore = |search: &mut BoxSearch, part: &Open| {
+        let explore = |search: &mut BoxSearch<W>, part: &Open| {
             let mut watch = Watch::new(deadline);
             let mut late = deadline.passed();
             search.explore(part, &bar, floor.max(down_to), |work| {
@@ -183,7 +189,7 @@ impl<'a> Hunt<'a> {
             .open
             .par_iter()
             .with_max_len(1)
-            .map_init(|| BoxSearch::new(self.points, floor), |search, part| explore(search, part))
+            .map_init(|| BoxSearch::new(self.points, self.weight, floor), |search, part| explore(search, part))
             .collect();
         let done = found.iter().all(Found::is_done);
         self.full |= found.iter().any(|found| found.lost);
@@ -198,15 +204,15 @@ impl<'a> Hunt<'a> {
                 left.extend(found.open);
             }
             if let Some(witness) = found.witness
-                && witness.volume() > self.witness.volume()
+                && self.size(&witness) > self.size(&self.witness)
             {
                 self.witness = witness;
             }
         }
-        self.bar.raise(self.witness.volume());
+        self.bar.raise(self.size(&self.witness));
         if !lowered {
             self.open = left;
-            self.open.sort_by(|a, b| b.volume.total_cmp(&a.volume));
+            self.open.sort_by(|a, b| b.weight.total_cmp(&a.weight));
         }
         self.close(if done { down_to } else { 1.0 });
         done
@@ -225,7 +231,7 @@ impl<'a> Hunt<'a> {
     /// its result does not depend on the others.
     fn attempt(&mut self, deadline: Deadline) -> bool {
         let best = self.bar.get();
-        let attempt = |search: &mut BoxSearch, seed: u64| {
+        let attempt = |search: &mut BoxSearch<W>, seed: u64| {
             if deadline.passed() {
                 return None;
             }
@@ -237,16 +243,16 @@ impl<'a> Hunt<'a> {
             search.explore(&self.relaxed(seed), &Bar::new(best), best, few).witness
         };
         let seeds: Vec<u64> = (self.attempts..self.attempts + ROUND).collect();
-        let new_search = || BoxSearch::new(self.points, best);
+        let new_search = || BoxSearch::new(self.points, self.weight, best);
         let found: Vec<_> =
             seeds.into_par_iter().with_max_len(1).map_init(new_search, |search, seed| attempt(search, seed)).collect();
         self.attempts += ROUND;
         for witness in found.into_iter().flatten() {
-            if witness.volume() > self.witness.volume() {
+            if self.size(&witness) > self.size(&self.witness) {
                 self.witness = witness;
             }
         }
-        self.bar.raise(self.witness.volume());
+        self.bar.raise(self.size(&self.witness));
         self.close(1.0);
         self.bar.get() > best
     }
@@ -263,13 +269,7 @@ impl<'a> Hunt<'a> {
         };
         let ends = 2 * self.points.dims();
         let freed = 2 + below(ends.clamp(2, 16) - 1);
-        let mut sides: Vec<Side> = self
-            .witness
-            .lower
-            .iter()
-            .zip(&self.witness.upper)
-            .map(|(&lower, &upper)| Side::between(lower, upper))
-            .collect();
+        let mut sides = sides(&self.witness);
         for _ in 0..freed {
             let end = below(ends);
             let side = &mut sides[end / 2];
@@ -277,15 +277,15 @@ impl<'a> Hunt<'a> {
         }
         let points = 0..self.points.len() as u32;
         let inside = points.filter(|&point| inside(self.points.point(point as usize), &sides)).collect();
-        Open { volume: volume(&sides), sides, inside }
+        Open { weight: self.weight.of(&sides), sides, inside }
     }
 
     /// Forgets open boxes that are not larger than the witness. Lowers the upper bound to the largest of the other
     /// boxes and to the bound that has been proved.
     fn close(&mut self, proved: f64) {
         let best = self.bar.get();
-        self.open.retain(|open| open.volume > best);
-        let largest = self.open.iter().map(|open| open.volume).fold(best, f64::max);
+        self.open.retain(|open| open.weight > best);
+        let largest = self.open.iter().map(|open| open.weight).fold(best, f64::max);
         self.upper = self.upper.min(largest).min(proved.max(best)).max(best);
     }
 
@@ -306,6 +306,10 @@ impl<'a> Hunt<'a> {
             watch(self.bracket());
         }
     }
+}
+
+fn sides(found: &LargestEmptyBox) -> Vec<Side> {
+    found.lower.iter().zip(&found.upper).map(|(&lower, &upper)| Side::between(lower, upper)).collect()
 }
 
 /// The upper bound that the next pass should try to prove in the remaining time.

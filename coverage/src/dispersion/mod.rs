@@ -21,20 +21,25 @@
 //! If a search found nothing above a volume, its pivots prove that no box is larger (`trail.rs`).
 //!
 //! One dimension needs no search, and two dimensions have a search of their own (`plane.rs`).
+//!
+//! If constraints cut a valid part out of the cube, a box weighs what it has of this part (`valid.rs`).
 
 mod hunt;
 mod plane;
 mod search;
 mod side;
 mod trail;
+mod valid;
 
 pub(crate) use trail::trail;
 
 use crate::measure::{Compare, Computation, Descriptor, Measure};
+use crate::valid::ValidPart;
 pub use crate::witness::{Dispersion, LargestEmptyBox};
 use crate::{Bracket, Deadline, PointSet};
 use hunt::Hunt;
 use plane::Plane;
+use side::Volume;
 
 impl Measure {
     /// The measure "dispersion", which is the volume of the largest box without a test.
@@ -43,10 +48,10 @@ impl Measure {
         key: "dispersion",
         label: "dispersion",
         title: "dispersion",
-        about: "the volume of the largest box that no test has entered, as a share of the space",
+        about: "the volume of the largest box that no test has entered, as a share of the valid part of the space",
         pace: 4,
         compare: Compare::Always,
-        method: Computation::Hole(dispersion_watched),
+        method: Computation::Hole(dispersion_within),
     });
 }
 
@@ -59,27 +64,55 @@ impl Measure {
 /// From three dimensions on, the limit of memory (some 200 MiB) can also cut it short, but only for many points on a
 /// curved surface. Volume and witness of an exact result do not depend on the number of threads.
 pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
-    dispersion_watched(points, deadline, &mut |_| ())
+    dispersion_within(points, None, deadline, &mut |_| ())
 }
 
-/// Computes the [`dispersion`] of points, and calls `watch` with the present bracket each time the bracket narrows.
-pub fn dispersion_watched(points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
-    largest_above(points, f64::NEG_INFINITY, deadline, watch)
+/// Computes the [`dispersion`] of points, and calls `watch` with the present bracket each time the bracket narrows. If a
+/// valid part is given, a box has the volume of its valid part, as a share of the whole valid part.
+pub fn dispersion_within(
+    points: &PointSet,
+    valid: Option<&ValidPart>,
+    deadline: Deadline,
+    watch: &mut dyn FnMut(Bracket),
+) -> Dispersion {
+    match valid {
+        Some(valid) => valid::largest(points, valid, deadline, watch),
+        None => largest_above(points, f64::NEG_INFINITY, deadline, watch),
+    }
 }
 
 /// Returns true if the dispersion of the points is at most `volume`; `None` if the answer is not known at the deadline.
-/// This check takes less time than the computation of the dispersion.
+/// This check takes less time than the computation of the dispersion. See [`valid_is_at_most`] for the valid part of a space.
 pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<bool> {
     let slab = widest_slab(points);
     match points.dims() {
         1 => Some(slab.volume() <= volume),
         2 => Plane::new(points, slab, volume).finds_none(volume, deadline),
-        _ => Hunt::new(points, slab, volume).finds_none(volume, deadline),
+        _ => Hunt::new(points, Volume, slab, volume).finds_none(volume, deadline),
     }
 }
 
-/// Returns the dispersion of points; `None` if the search proves that the dispersion is at most `above`.
-pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
+/// Returns true if the dispersion of the points within the valid part is at most `share`; `None` if the answer is not known at
+/// the deadline, or if it depends on undecided cells of the valid part.
+pub fn valid_is_at_most(points: &PointSet, valid: &ValidPart, share: f64, deadline: Deadline) -> Option<bool> {
+    match valid::larger_than(points, valid, share, deadline) {
+        None => Some(true),
+        Some(found) if found.volume.lower > share => Some(false),
+        Some(found) => (found.volume.upper <= share).then_some(true),
+    }
+}
+
+/// Returns the dispersion of points, within the valid part if there is one; `None` if the search proves that the dispersion is
+/// at most `above`.
+pub(crate) fn larger_than(
+    points: &PointSet,
+    valid: Option<&ValidPart>,
+    above: f64,
+    deadline: Deadline,
+) -> Option<Dispersion> {
+    if let Some(valid) = valid {
+        return valid::larger_than(points, valid, above, deadline);
+    }
     let found = largest_above(points, above, deadline, &mut |_| ());
     (found.volume.upper > above).then_some(found)
 }
@@ -93,22 +126,30 @@ fn largest_above(points: &PointSet, above: f64, deadline: Deadline, watch: &mut 
             watch(Bracket { lower: slab.volume(), upper: 1.0 });
             Plane::new(points, slab, above).run(deadline)
         }
-        _ => Hunt::new(points, slab, above).run(deadline, watch),
+        _ => Hunt::new(points, Volume, slab, above).run(deadline, watch),
     }
 }
 
 /// The widest gap between neighbouring coordinates along any axis, as a box across the whole cube. The search starts
 /// from this candidate.
 fn widest_slab(points: &PointSet) -> LargestEmptyBox {
-    let dims = points.dims();
-    let gaps = (0..dims).flat_map(|axis| {
+    let width = |(_, lower, upper): &(usize, f64, f64)| upper - lower;
+    let widest = gaps(points).max_by(|a, b| width(a).total_cmp(&width(b))).expect("0 and 1 are apart");
+    slab(points.dims(), widest)
+}
+
+/// Iterates over the gaps between neighbouring coordinates: the axis, and the lower and the upper end.
+fn gaps(points: &PointSet) -> impl Iterator<Item = (usize, f64, f64)> {
+    (0..points.dims()).flat_map(|axis| {
         let mut coordinates: Vec<f64> = points.iter().map(|point| point[axis]).chain([0.0, 1.0]).collect();
         coordinates.sort_unstable_by(f64::total_cmp);
         let gaps = coordinates.windows(2).map(|gap| (axis, gap[0], gap[1]));
         gaps.collect::<Vec<_>>()
-    });
-    let width = |gap: &(usize, f64, f64)| gap.2 - gap.1;
-    let (axis, lower, upper) = gaps.max_by(|a, b| width(a).total_cmp(&width(b))).expect("0 and 1 are apart");
+    })
+}
+
+/// Returns a gap as a box across the whole cube.
+fn slab(dims: usize, (axis, lower, upper): (usize, f64, f64)) -> LargestEmptyBox {
     let mut slab = LargestEmptyBox { lower: vec![0.0; dims], upper: vec![1.0; dims] };
     (slab.lower[axis], slab.upper[axis]) = (lower, upper);
     slab

@@ -379,7 +379,7 @@ mod tests {
             let points = PointSet::new(2, &points).unwrap();
             let slab = || widest_slab(&points);
             let plane = Plane::new(&points, slab(), 0.0).run(Deadline::never());
-            let hunt = Hunt::new(&points, slab(), 0.0).run(Deadline::never(), &mut |_| ());
+            let hunt = Hunt::new(&points, crate::dispersion::side::Volume, slab(), 0.0).run(Deadline::never(), &mut |_| ());
             prop_assert_eq!(plane.volume, hunt.volume);
         }
     }

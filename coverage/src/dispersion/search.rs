@@ -6,45 +6,45 @@
 //! order of the tree is always the same.
 
 use super::LargestEmptyBox;
-use super::side::{End, Side, inside, volume};
+use super::side::{End, Side, Weight, inside, volume};
 use crate::PointSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A volume that many threads share and raise, so that all threads leave out smaller boxes. Non-negative floats have
+/// A weight that many threads share and raise, so that all threads leave out smaller boxes. Non-negative floats have
 /// the same order as their bits.
 #[derive(Debug)]
 pub(super) struct Bar(AtomicU64);
 
 impl Bar {
-    pub fn new(volume: f64) -> Self {
-        Self(AtomicU64::new(volume.to_bits()))
+    pub fn new(weight: f64) -> Self {
+        Self(AtomicU64::new(weight.to_bits()))
     }
 
     pub fn get(&self) -> f64 {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
 
-    pub fn raise(&self, volume: f64) {
-        self.0.fetch_max(volume.to_bits(), Ordering::Relaxed);
+    pub fn raise(&self, weight: f64) {
+        self.0.fetch_max(weight.to_bits(), Ordering::Relaxed);
     }
 }
 
 /// A box that waits to be explored, with the points strictly inside the box.
 #[derive(Debug, Clone)]
 pub(super) struct Open {
-    pub volume: f64,
+    pub weight: f64,
     pub sides: Vec<Side>,
     pub inside: Vec<u32>,
 }
 
 impl Open {
     /// Makes the box that is the whole unit cube, with all points strictly inside the cube.
-    pub fn cube(points: &PointSet) -> Self {
+    pub fn cube(points: &PointSet, weight: impl Weight) -> Self {
         let sides = vec![Side::between(0.0, 1.0); points.dims()];
         let all = 0..points.len() as u32;
         let inside = all.filter(|&point| inside(points.point(point as usize), &sides)).collect();
-        Self { volume: 1.0, sides, inside }
+        Self { weight: weight.of(&sides), sides, inside }
     }
 }
 
@@ -53,13 +53,13 @@ impl Open {
 struct Cut {
     axis: u32,
     end: End,
-    /// The volume of the rest of the box.
-    volume: f64,
+    /// The weight of the rest of the box.
+    weight: f64,
 }
 
 /// A box on the stack. Its sides lie on a stack of their own.
 struct Node {
-    volume: f64,
+    weight: f64,
     /// The place where the points inside the parent box are listed, and the axis of the cut: the points need only be
     /// compared along this axis.
     around: Range<usize>,
@@ -69,7 +69,7 @@ struct Node {
 /// The result of the depth-first search for the largest empty box.
 #[derive(Debug)]
 pub(super) struct Found {
-    /// The first of the largest empty boxes that exceed the search's limits in volume; `None` if no box does.
+    /// The first of the largest empty boxes that exceed the search's limits in weight; `None` if no box does.
     pub witness: Option<LargestEmptyBox>,
     /// The boxes that the search did not explore before its end.
     pub open: Vec<Open>,
@@ -87,9 +87,10 @@ impl Found {
 /// The default number of points that the lists of a search may hold, which take 64 MiB.
 pub(super) const MOST_LISTED: usize = 1 << 24;
 
-pub(super) struct BoxSearch<'a> {
+pub(super) struct BoxSearch<'a, W> {
     points: &'a PointSet,
-    /// The volume for which pivots are chosen: smaller boxes are not expected to matter.
+    weight: W,
+    /// The weight for which pivots are chosen: smaller boxes are not expected to matter.
     reference: f64,
     nodes: Vec<Node>,
     sides: Vec<Side>,
@@ -106,19 +107,19 @@ pub(super) struct BoxSearch<'a> {
     most_sides: usize,
 }
 
-impl<'a> BoxSearch<'a> {
-    pub fn new(points: &'a PointSet, reference: f64) -> Self {
+impl<'a, W: Weight> BoxSearch<'a, W> {
+    pub fn new(points: &'a PointSet, weight: W, reference: f64) -> Self {
         let (nodes, sides, lists, cuts, scales) = Default::default();
         // A box and its children must always fit.
         let most_listed = MOST_LISTED.max(4 * points.len());
         let most_sides = (MOST_LISTED / 8).max(4 * points.dims() * points.dims());
-        Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
+        Self { points, weight, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
     }
 
     /// Makes a search that records its pivots, so that a proof can repeat the search from the points and the pivots.
     /// The search tries cuts in the order of the axes.
-    pub fn with_trail(points: &'a PointSet, reference: f64) -> Self {
-        Self { trail: Some(Vec::new()), ..Self::new(points, reference) }
+    pub fn with_trail(points: &'a PointSet, weight: W, reference: f64) -> Self {
+        Self { trail: Some(Vec::new()), ..Self::new(points, weight, reference) }
     }
 
     /// Returns the pivots that the search recorded, in the order in which the search took them.
@@ -138,7 +139,7 @@ impl<'a> BoxSearch<'a> {
         self.sides.clear();
         self.sides.extend_from_slice(&root.sides);
         self.nodes.clear();
-        self.nodes.push(Node { volume: root.volume, around: 0..self.lists.len(), cut: None });
+        self.nodes.push(Node { weight: root.weight, around: 0..self.lists.len(), cut: None });
         let mut found = Found { witness: None, open: Vec::new(), lost: false };
         let mut best = floor;
         let mut sides = Vec::with_capacity(dims);
@@ -146,7 +147,7 @@ impl<'a> BoxSearch<'a> {
             let top = self.nodes.len() * dims;
             sides.clear();
             sides.extend(self.sides.drain(top..));
-            if node.volume <= best || node.volume < shared.get() {
+            if node.weight <= best || node.weight < shared.get() {
                 continue;
             }
             if !go_on(node.around.len()) {
@@ -163,7 +164,7 @@ impl<'a> BoxSearch<'a> {
                 let lower = sides.iter().map(|side| side.lower).collect();
                 let upper = sides.iter().map(|side| side.upper).collect();
                 found.witness = Some(LargestEmptyBox { lower, upper });
-                best = node.volume;
+                best = node.weight;
                 shared.raise(best);
                 if self.trail.is_some() {
                     // A larger box means that there is no proof.
@@ -174,12 +175,12 @@ impl<'a> BoxSearch<'a> {
         found
     }
 
-    /// Moves the waiting boxes above a volume from the stack to `found.open`.
+    /// Moves the waiting boxes above a weight from the stack to `found.open`.
     fn leave(&mut self, above: f64, found: &mut Found) {
         let dims = self.points.dims();
         let mut listed = 0;
         for (node, sides) in self.nodes.drain(..).zip(self.sides.chunks_exact(dims)) {
-            if node.volume <= above {
+            if node.weight <= above {
                 continue;
             }
             // The points are inside the parent box, so that only the axis of the cut need be compared.
@@ -193,7 +194,7 @@ impl<'a> BoxSearch<'a> {
                 found.lost = true;
                 return;
             }
-            found.open.push(Open { volume: node.volume, sides: sides.to_vec(), inside });
+            found.open.push(Open { weight: node.weight, sides: sides.to_vec(), inside });
         }
     }
 
@@ -211,21 +212,21 @@ impl<'a> BoxSearch<'a> {
             for end in [End::Lower, End::Upper] {
                 if side.allows(x, end) {
                     sides[axis] = side.moved(x, end);
-                    self.cuts.push(Cut { axis: axis as u32, end, volume: volume(sides) });
+                    self.cuts.push(Cut { axis: axis as u32, end, weight: self.weight.of(sides) });
                 }
             }
             sides[axis] = side;
         }
         if self.trail.is_none() {
             // The largest comes last: it is the most constrained, and on top of the stack.
-            self.cuts.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+            self.cuts.sort_by(|a, b| a.weight.total_cmp(&b.weight));
         }
         for cut in &self.cuts {
             let axis = cut.axis as usize;
             let (side, x) = (sides[axis], pivot[axis]);
-            if cut.volume > best && cut.volume >= shared {
+            if cut.weight > best && cut.weight >= shared {
                 sides[axis] = side.moved(x, cut.end);
-                self.nodes.push(Node { volume: cut.volume, around: list.clone(), cut: Some(cut.axis) });
+                self.nodes.push(Node { weight: cut.weight, around: list.clone(), cut: Some(cut.axis) });
                 self.sides.extend_from_slice(sides);
             }
             sides[axis] = side.kept(x, cut.end);
@@ -250,7 +251,7 @@ impl<'a> BoxSearch<'a> {
 
     /// The listed point whose possible cuts leave the least sum of cubed volumes.
     ///
-    /// The choice uses shares of the box's volume. Whether a cut is worth exploring is decided by its volume.
+    /// The choice uses shares of the box's volume. Whether a cut is worth exploring is decided by its weight.
     fn pivot(&mut self, list: Range<usize>, sides: &[Side]) -> Option<usize> {
         let least = self.reference / volume(sides);
         self.scales.clear();

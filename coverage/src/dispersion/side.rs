@@ -1,4 +1,6 @@
-//! The sides of a box under search: where they end, and where empty boxes inside may end.
+//! The sides of a box under search: where they end, where empty boxes inside may end, and how much a box weighs.
+
+use crate::valid::{Bound, ValidPart};
 
 /// The interval of a box along one axis, with constraints on the empty boxes inside the box.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +57,32 @@ impl Side {
             End::Lower => Self { lower_below: self.lower_below.min(x), ..self },
             End::Upper => Self { upper_above: self.upper_above.max(x), ..self },
         }
+    }
+}
+
+/// The weight by which a search compares boxes. It never shrinks when a box grows, also after rounding.
+pub(super) trait Weight: Copy + Sync {
+    /// Returns the weight of a box with the given sides.
+    fn of(self, sides: &[Side]) -> f64;
+}
+
+/// The volume of a box as its weight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Volume;
+
+/// One end of the bracket of the valid volume of a box as its weight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Valid<'a>(pub &'a ValidPart, pub Bound);
+
+impl Weight for Volume {
+    fn of(self, sides: &[Side]) -> f64 {
+        volume(sides)
+    }
+}
+
+impl Weight for Valid<'_> {
+    fn of(self, sides: &[Side]) -> f64 {
+        self.0.weight(self.1, |axis| (sides[axis].lower, sides[axis].upper))
     }
 }
 

@@ -24,7 +24,7 @@ fn greedy_tests_fill_the_holes_that_existing_ones_leave() {
 fn greedy_tests_of_a_mixed_space_first_cover_its_values_and_then_leave_no_hole_behind_any_two() {
     let space = mixed(3, &[3, 4, 2]);
     let kwise = |tests: &[Point]| {
-        let found = kwise_dispersion(3, &Rules::free(&space.levels()), tests, 2, Deadline::never())
+        let found = kwise_dispersion(3, &Rules::free(&space.levels()), None, tests, 2, Deadline::never())
             .expect("two of six parameters");
         found.volume.lower
     };
@@ -50,7 +50,7 @@ fn greedy_can_aim_at_what_any_two_of_twenty_parameters_show() {
     let space = Space::unit_cube(20);
     let kwise = |strategy, aim| {
         let tests = tests(strategy, &Request { seed: Some(1), aim, ..Request::new(&space, 60) });
-        kwise_dispersion(20, &Rules::free(&[]), &tests, 2, Deadline::never()).expect("two of twenty").volume.lower
+        kwise_dispersion(20, &Rules::free(&[]), None, &tests, 2, Deadline::never()).expect("two of twenty").volume.lower
     };
     let greedy = kwise(Strategy::GREEDY, Some(Aim::KwiseDispersion));
     for strategy in [Strategy::RANDOM, Strategy::HALTON, Strategy::SOBOL_OWEN, Strategy::LHS] {

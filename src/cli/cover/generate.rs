@@ -169,7 +169,7 @@ impl Options {
             None => Duration::ZERO,
         };
         let tests = TestSet { k: self.sampling.k, demand, ..TestSet::new(space.clone(), points) };
-        let reached = Reached::of(tests, existing.len(), measuring);
+        let reached = Reached::of(tests, existing.len(), measuring)?;
         // The tests decide if the time was enough: the limit may have passed just after the last test.
         let end = if interrupted { "an interrupt" } else { &format!("the --time-limit of {} s", limit.as_secs_f64()) };
         let missed = self.sampling.epsilon.filter(|_| cut_short).and_then(|epsilon| reached.missed(epsilon, end));

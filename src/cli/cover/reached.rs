@@ -5,6 +5,7 @@ use super::array::combinations;
 use crate::cli::output::{bracket, digits, plural};
 use crate::coverage::kwise::KwiseError;
 use crate::coverage::kwise_dispersion::row_dispersion;
+use crate::coverage::valid::Validity;
 use crate::coverage::{Bracket, Deadline};
 use paracosm_analysis::estimate::Discrete;
 use paracosm_analysis::{Coverage, Promise};
@@ -24,10 +25,16 @@ pub(super) struct Reached {
 
 impl Reached {
     /// Measures the largest dispersion among the rows of tests within a time limit.
-    pub fn of(tests: TestSet, existing: usize, limit: Duration) -> Self {
+    ///
+    /// # Errors
+    /// No test can keep the constraints of the space.
+    pub fn of(tests: TestSet, existing: usize, limit: Duration) -> Result<Self, Error> {
         let dims = tests.space.dims();
-        let epsilon = (dims > 0).then(|| row_dispersion(dims, &tests.points, Deadline::after(limit)));
-        Self { tests, existing, epsilon }
+        let rules = tests.space.rules()?;
+        let validity = Validity::of(&tests.space, &rules);
+        let measured = || row_dispersion(dims, validity.as_ref(), &tests.points, Deadline::after(limit));
+        let epsilon = (dims > 0).then(measured);
+        Ok(Self { tests, existing, epsilon })
     }
 
     /// Describes the guarantee of random rows, and the measured coverage of the tests.

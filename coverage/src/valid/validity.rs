@@ -1,0 +1,129 @@
+//! The valid part of a space, and of any choice of its parameters.
+//!
+//! A place in a projection is valid if some valid test lies there, whatever values the other parameters have. So a cell of
+//! a projection is certainly invalid if no row of discrete values and no values of the other continuous parameters make a
+//! test valid. It is certainly valid if one row and one choice of the others make all its tests valid.
+
+use super::ValidPart;
+use super::bisect::Limits;
+use crate::kwise_dispersion::Projection;
+use paracosm_space::Space;
+use paracosm_space::rules::Rules;
+
+/// The greatest number of rows of discrete values that are looked at. If there are more, no cell counts as invalid.
+const MOST_ROWS: usize = 64;
+/// The greatest number of continuous parameters outside of a projection whose corners are all tried.
+const MOST_BESIDE: usize = 4;
+
+/// The effort that goes into a valid part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// The effort for a single part: thousands of cells.
+    Full,
+    /// The effort for one of many parts: hundreds of cells.
+    Quick,
+}
+
+/// The constraints of a space that depend on continuous parameters.
+#[derive(Debug, Clone)]
+pub struct Validity<'a> {
+    space: &'a Space,
+    rules: &'a Rules,
+    /// The continuous parameters on which the constraints depend, as positions among the continuous parameters.
+    axes: Vec<usize>,
+    /// The discrete parameters on which the same constraints depend, as positions among the discrete parameters.
+    discrete: Vec<usize>,
+}
+
+impl<'a> Validity<'a> {
+    /// Makes the validity of a space with these rules; `None` if no constraint depends on continuous parameters.
+    pub fn of(space: &'a Space, rules: &'a Rules) -> Option<Self> {
+        let constraints = || space.constraints().iter().filter(|constraint| constraint.checks_each_test());
+        constraints().next()?;
+        let names: Vec<&str> = constraints().flat_map(|constraint| constraint.expression().names()).collect();
+        let axes = space.continuous().enumerate().filter(|(_, axis)| names.contains(&axis.parameter.name.as_str()));
+        let levels = space.discrete().enumerate().filter(|(_, level)| names.contains(&level.parameter.name.as_str()));
+        let (axes, discrete) = (axes.map(|(at, _)| at).collect(), levels.map(|(at, _)| at).collect());
+        Some(Self { space, rules, axes, discrete })
+    }
+
+    /// Returns the valid part of all continuous parameters together.
+    pub fn whole(&self) -> ValidPart {
+        self.part(&Projection { fixed: Vec::new(), axes: (0..self.space.dims()).collect() }, Effort::Full)
+    }
+
+    /// Returns the valid part of a projection.
+    pub fn part(&self, projection: &Projection, effort: Effort) -> ValidPart {
+        let (rows, all) = self.rows(&projection.fixed);
+        let beside: Vec<usize> = self.axes.iter().copied().filter(|axis| !projection.axes.contains(axis)).collect();
+        let probes = probes(beside.len());
+        let answer = |lower: &[f64], upper: &[f64]| {
+            let (mut low, mut high) = (vec![0.0; self.space.dims()], vec![1.0; self.space.dims()]);
+            for (at, &axis) in projection.axes.iter().enumerate() {
+                (low[axis], high[axis]) = (lower[at], upper[at]);
+            }
+            let asked = rows.iter().map(|row| self.space.allows_part(row, &low, &high)).collect::<Vec<_>>();
+            if asked.contains(&Some(true)) {
+                return Some(true);
+            }
+            if asked.iter().all(|answer| *answer == Some(false)) {
+                return if all { Some(false) } else { None };
+            }
+            for probe in probes.iter().filter(|probe| !probe.is_empty()) {
+                for (&axis, &x) in beside.iter().zip(probe) {
+                    (low[axis], high[axis]) = (x, x);
+                }
+                let open = rows.iter().zip(&asked).filter(|(_, answer)| answer.is_none());
+                if open.into_iter().any(|(row, _)| self.space.allows_part(row, &low, &high) == Some(true)) {
+                    return Some(true);
+                }
+            }
+            None
+        };
+        let axes = (0..projection.axes.len()).filter(|&at| self.axes.contains(&projection.axes[at])).collect();
+        let limits = match effort {
+            Effort::Full => Limits { cuts: 4096, questions: 1 << 16 },
+            Effort::Quick => Limits { cuts: 512, questions: 1 << 12 },
+        };
+        ValidPart::bisect(projection.axes.len(), axes, limits, answer)
+    }
+
+    /// Returns a complete row for each valid choice of levels on which the constraints depend, and whether these are all.
+    fn rows(&self, fixed: &[(usize, usize)]) -> (Vec<Vec<usize>>, bool) {
+        let levels = self.rules.levels();
+        let mut partial = vec![fixed.to_vec()];
+        for &parameter in self.discrete.iter().filter(|&parameter| fixed.iter().all(|(known, _)| known != parameter)) {
+            let with = |row: &Vec<(usize, usize)>| {
+                let row = row.clone();
+                (0..levels[parameter]).map(move |level| [&row[..], &[(parameter, level)]].concat())
+            };
+            let valid = |row: &Vec<(usize, usize)>| self.rules.is_valid(row);
+            partial = partial.iter().flat_map(with).filter(valid).take(MOST_ROWS + 1).collect();
+        }
+        let all = partial.len() <= MOST_ROWS;
+        partial.truncate(MOST_ROWS);
+        (partial.into_iter().filter_map(|row| self.completed(row)).collect(), all)
+    }
+
+    fn completed(&self, mut row: Vec<(usize, usize)>) -> Option<Vec<usize>> {
+        for (parameter, &levels) in self.rules.levels().iter().enumerate() {
+            if row.iter().any(|(known, _)| *known == parameter) {
+                continue;
+            }
+            let level = (0..levels).find(|&level| self.rules.is_valid(&[&row[..], &[(parameter, level)]].concat()))?;
+            row.push((parameter, level));
+        }
+        row.sort_unstable();
+        Some(row.into_iter().map(|(_, level)| level).collect())
+    }
+}
+
+/// Returns places of the unit cube of so many dimensions: the centre, and all corners if they are few.
+fn probes(dims: usize) -> Vec<Vec<f64>> {
+    let mut probes = vec![vec![0.5; dims]];
+    if dims <= MOST_BESIDE {
+        let corner = |bits: usize| (0..dims).map(|axis| f64::from(u8::from(bits >> axis & 1 == 1))).collect();
+        probes.extend((0..1usize << dims).map(corner));
+    }
+    probes
+}
