@@ -6,6 +6,7 @@ use paracosm_campaign::Error;
 use paracosm_coverage::Bracket;
 use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::kwise::KwiseCounter;
+use paracosm_coverage::valid::Validity;
 use paracosm_space::{Point, Space, SpaceError};
 
 /// The coverage of a set of tests that grows by one test at a time.
@@ -22,7 +23,7 @@ use paracosm_space::{Point, Space, SpaceError};
 /// ```
 #[derive(Debug, Clone)]
 pub struct LiveCoverage {
-    /// The holes in the continuous parameters; `None` if the space has no continuous parameters, or constraints on them.
+    /// The holes in the continuous parameters; `None` if the space has no continuous parameters.
     holes: Option<EmptyBoxes>,
     /// The combinations of discrete values; `None` if there are no combinations or too many.
     combinations: Option<KwiseCounter>,
@@ -44,8 +45,11 @@ impl LiveCoverage {
         let most = (4 * MOST_HOLES / dims.saturating_mul(dims).max(4)).max(100);
         let rules = space.rules()?;
         let k = k.unwrap_or(2).min(rules.levels().len());
-        // The boxes know nothing of a valid part.
-        let holes = if space.checks_each_test() { None } else { EmptyBoxes::at_most(dims, most).ok() };
+        let holes = match Validity::of(space, &rules) {
+            Some(validity) => EmptyBoxes::within(validity.whole(), most),
+            None => EmptyBoxes::at_most(dims, most),
+        };
+        let holes = holes.ok();
         Ok(Self { holes, combinations: KwiseCounter::new(&rules, k).ok() })
     }
 
@@ -69,9 +73,8 @@ impl LiveCoverage {
         self.combinations.as_ref().map(|counter| (counter.covered(), counter.valid()))
     }
 
-    /// Returns the dispersion of the continuous parameters; `None` if the space has no continuous parameters, or if
-    /// constraints depend on these. The
-    /// result is a bracket if there are more holes than can be tracked.
+    /// Returns the dispersion of the continuous parameters; `None` if the space has no continuous parameters. The
+    /// result is a bracket if there are more holes than can be tracked, or if constraints leave only a part of the space.
     pub fn dispersion(&self) -> Option<Bracket> {
         self.holes.as_ref().map(EmptyBoxes::dispersion)
     }

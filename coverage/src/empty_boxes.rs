@@ -26,6 +26,8 @@
 //! To find the boxes that hold a point, all boxes are looked at in blocks, with an array for each end of each axis.
 //! For tens of thousands of boxes that costs less than a tree.
 //!
+//! Within the valid part of a space, a box has the share of the valid part that it may take up, instead of its volume.
+//!
 //! `n` random points have `O(n (log n)^(d-1))` maximal boxes, with a factor that grows with `d` (in the worst case
 //! `O(n^d)`: Backer, Keil, The mono- and bichromatic empty rectangle and square problems in all dimensions, LATIN
 //! 2010). The first `n` points of the Halton sequence have this number of maximal boxes:
@@ -41,9 +43,11 @@
 
 mod side;
 
+use crate::valid::ValidPart;
 use crate::{Bracket, PointSetError};
 use side::Side;
 use std::collections::{BTreeMap, btree_map::Entry};
+use std::sync::Arc;
 
 /// Marks a face that lies in a wall of the cube, or the missing faces of a side that goes all the way round.
 const WALL: u32 = u32::MAX;
@@ -69,6 +73,8 @@ pub struct EmptyBoxes {
     dims: usize,
     /// `true` if boxes go on beyond a face of the cube from the opposite face.
     periodic: bool,
+    /// The valid part of the cube; `None` if the whole cube is valid.
+    valid: Option<Arc<ValidPart>>,
     /// The coordinates of the points, one point after the other.
     points: Vec<f64>,
     /// For each coordinate of each point, the next point with the same coordinate; the last of them leads to the
@@ -103,7 +109,8 @@ impl EmptyBox<'_> {
         (lower, if lower < upper { upper } else { upper + 1.0 })
     }
 
-    /// Returns the volume of the box, as a share of the volume of the unit cube.
+    /// Returns the volume of the box, as a share of the volume of the unit cube. Within a valid part, it is the greatest share of
+    /// the valid part that the box may take up.
     pub fn volume(&self) -> f64 {
         self.boxes.volumes[self.at]
     }
@@ -127,7 +134,7 @@ impl EmptyBoxes {
     /// # Errors
     /// `dims` is 0.
     pub fn at_most(dims: usize, most: usize) -> Result<Self, PointSetError> {
-        Self::with(dims, most, false)
+        Self::with(dims, most, false, None)
     }
 
     /// Makes the periodic empty boxes of a set without points, with the same limit as [`EmptyBoxes::at_most`]. Periodic
@@ -148,10 +155,19 @@ impl EmptyBoxes {
     /// # Errors
     /// `dims` is 0.
     pub fn periodic_at_most(dims: usize, most: usize) -> Result<Self, PointSetError> {
-        Self::with(dims, most, true)
+        Self::with(dims, most, true, None)
     }
 
-    fn with(dims: usize, most: usize, periodic: bool) -> Result<Self, PointSetError> {
+    /// Makes the empty boxes within the valid part of a cube, with the same limit as [`EmptyBoxes::at_most`]. Boxes are compared
+    /// by their shares of the valid part.
+    ///
+    /// # Errors
+    /// The cube has no dimension.
+    pub fn within(valid: Arc<ValidPart>, most: usize) -> Result<Self, PointSetError> {
+        Self::with(valid.dims(), most, false, Some(valid))
+    }
+
+    fn with(dims: usize, most: usize, periodic: bool, valid: Option<Arc<ValidPart>>) -> Result<Self, PointSetError> {
         if dims == 0 {
             return Err(PointSetError::NoDimension);
         }
@@ -159,6 +175,7 @@ impl EmptyBoxes {
         Ok(Self {
             dims,
             periodic,
+            valid,
             points: Vec::new(),
             rings: Vec::new(),
             alike: vec![BTreeMap::new(); dims],
@@ -222,7 +239,12 @@ impl EmptyBoxes {
     /// Returns the dispersion of the points added so far. It is exact unless a box was forgotten that is larger than
     /// all boxes that are left.
     pub fn dispersion(&self) -> Bracket {
-        let lower = self.largest().volume();
+        let largest = self.largest().volume();
+        if let Some(valid) = &self.valid {
+            let least = valid.least_share(|axis| self.largest().side(axis));
+            return Bracket { lower: least.min(largest), upper: largest.max(self.forgotten) };
+        }
+        let lower = largest;
         if self.forgotten <= lower {
             return Bracket::exact(lower);
         }
@@ -310,7 +332,10 @@ impl EmptyBoxes {
                         lower.push(side.lower);
                         upper.push(side.upper);
                     }
-                    self.volumes.push(part.iter().map(|side| side.width()).product());
+                    self.volumes.push(match &self.valid {
+                        None => part.iter().map(|side| side.width()).product(),
+                        Some(valid) => valid.greatest_share_of(|axis| (part[axis].lower, part[axis].upper)),
+                    });
                 } else {
                     self.supports.truncate(start);
                 }

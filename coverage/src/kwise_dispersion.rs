@@ -228,7 +228,7 @@ fn hole(
             return None;
         }
         let points = projection.points(selected);
-        larger_than(&points, valid.as_ref(), above, deadline).map(|found| (found.volume, Some(found.witness)))
+        larger_than(&points, valid.as_deref(), above, deadline).map(|found| (found.volume, Some(found.witness)))
     }?;
     let Projection { fixed, axes } = projection;
     Some(KwiseDispersion { volume, fixed, axes, witness })

@@ -1,6 +1,7 @@
 //! The dispersion within the valid part of a space, against areas of clipped polygons and against all boxes.
 
 use paracosm_coverage::dispersion::{Dispersion, dispersion, dispersion_within, valid_is_at_most};
+use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::kwise_dispersion::{Projection, kwise_dispersion, row_dispersion};
 use paracosm_coverage::valid::{Effort, Validity};
 use paracosm_coverage::{Bracket, Deadline, PointSet};
@@ -120,6 +121,24 @@ fn the_result_does_not_depend_on_threads_and_a_short_time_gives_a_wider_bracket(
     assert!(share.lower <= quarter && quarter <= share.upper && share.upper - share.lower < 0.002, "{share:?}");
     let Bracket { lower, upper } = within(&space, &points, Deadline::after(Duration::ZERO)).1.volume;
     assert!(lower <= found.volume.lower && found.volume.upper <= upper, "{lower} {upper} {found:?}");
+}
+
+#[test]
+fn boxes_that_are_kept_point_by_point_give_the_same_bracket() {
+    let space = square(&["a * a + b * b <= 1 or a > 0.9".to_owned()]);
+    let rules = space.rules().unwrap();
+    let valid = Validity::of(&space, &rules).unwrap().whole();
+    let mut boxes = EmptyBoxes::within(valid.clone(), usize::MAX).unwrap();
+    let points: Vec<[f64; 2]> =
+        (1..40).map(|i| [f64::from(i) * 0.754_877_666, f64::from(i) * 0.569_840_290].map(f64::fract)).collect();
+    for (n, point) in points.iter().enumerate() {
+        boxes.add(point).unwrap();
+        let set = PointSet::new(2, &points[..=n]).unwrap();
+        let searched = dispersion_within(&set, Some(&valid), Deadline::never(), &mut |_| ()).volume;
+        let kept = boxes.dispersion();
+        assert_eq!(kept.upper, searched.upper, "{n}");
+        assert!(kept.lower <= searched.lower && searched.lower - kept.lower < 0.01, "{n}: {kept:?} {searched:?}");
+    }
 }
 
 #[test]

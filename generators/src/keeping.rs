@@ -61,6 +61,10 @@ pub(crate) fn keeping(
         let Share { valid, probes, broken } = share;
         return Err(GeneratorError::Rare { valid, probes, constraint: broken.unwrap_or_default() });
     }
+    if request.epsilon.is_some() && strategy.goes_on() {
+        // A search for an epsilon knows the valid part.
+        return build(request);
+    }
     // Some of the proposed tests are left out.
     let most = request.budget.saturating_mul(share.probes) / share.valid;
     let inner = build(&Request { budget: (most / RESERVE[1]).saturating_mul(RESERVE[0]).max(most) + 1, ..*request })?;
@@ -138,6 +142,9 @@ impl Generator for Keeping {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use paracosm_coverage::Deadline;
+    use paracosm_coverage::kwise_dispersion::row_dispersion;
+    use paracosm_coverage::valid::Validity;
     use paracosm_space::{Domain, Parameter};
     use proptest::prelude::{prop_assert, proptest};
 
@@ -168,6 +175,21 @@ mod tests {
         let mut tests = Strategy::HALTON.build(&Request::new(&space, 60)).unwrap();
         let tests = tests.ask(60);
         assert!(tests.len() == 60 && tests.iter().all(|test| test.discrete[0] != 2 && space.allows(test)));
+    }
+
+    #[test]
+    fn a_search_for_an_epsilon_reaches_it_in_the_valid_part_of_each_row() {
+        let space = space(&["x + y < 0.3 * a", "x * y <= 0.2 or a == 1"]);
+        let rules = space.rules().unwrap();
+        let validity = Validity::of(&space, &rules).unwrap();
+        let epsilon = 0.25;
+        for strategy in [Strategy::HALTON, Strategy::GREEDY] {
+            let request = Request { k: Some(1), epsilon: Some(epsilon), ..Request::new(&space, 400) };
+            let tests = strategy.build(&request).unwrap().ask(400);
+            assert!(tests.iter().all(|test| space.allows(test)));
+            let found = row_dispersion(2, Some(&validity), &tests, Deadline::never());
+            assert!(found.upper <= epsilon && tests.len() < 60, "{strategy}: {found:?} of {} tests", tests.len());
+        }
     }
 
     #[test]

@@ -79,7 +79,7 @@ fn dispersion_of(space: &Space, tests: &[(Point, Option<bool>)]) -> Result<Optio
     let rules = space.rules()?;
     let valid = Validity::of(space, &rules).map(|validity| validity.whole());
     // Without a deadline and without a valid part, the lower and the upper bound are the same.
-    Ok(Some(dispersion_within(&points, valid.as_ref(), Deadline::never(), &mut |_| ()).volume.upper))
+    Ok(Some(dispersion_within(&points, valid.as_deref(), Deadline::never(), &mut |_| ()).volume.upper))
 }
 
 /// Tests with their outcomes.

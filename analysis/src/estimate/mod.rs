@@ -187,7 +187,7 @@ fn continuous(
     let mut taken = Vec::new();
     for measure in order {
         watch(measure, None);
-        let found = measure.take(&points, valid.as_ref(), clock.next(), &mut |bracket| watch(measure, Some(bracket)));
+        let found = measure.take(&points, valid.as_deref(), clock.next(), &mut |bracket| watch(measure, Some(bracket)));
         let found = found.expect("the measure is one of points");
         if let Finding::Hole(hole) = &found
             && measure == Measure::DISPERSION

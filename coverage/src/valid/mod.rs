@@ -97,6 +97,11 @@ impl ValidPart {
         if possible < certain { (possible / certain * (1.0 + inexact)).min(1.0) } else { 1.0 }
     }
 
+    /// Returns the greatest share of the valid part that a box takes up.
+    pub(crate) fn greatest_share_of(&self, side: impl Fn(usize) -> (f64, f64)) -> f64 {
+        self.greatest_share(self.weight(Bound::Possible, side))
+    }
+
     /// Returns the possible weight that a box needs to take up more than a share of the valid part.
     pub(crate) fn weight_for(&self, share: f64) -> f64 {
         share * self.cells[0].certain * (1.0 - self.rounding())

@@ -9,6 +9,8 @@ use super::bisect::Limits;
 use crate::kwise_dispersion::Projection;
 use paracosm_space::Space;
 use paracosm_space::rules::Rules;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The greatest number of rows of discrete values that are looked at. If there are more, no cell counts as invalid.
 const MOST_ROWS: usize = 64;
@@ -16,7 +18,7 @@ const MOST_ROWS: usize = 64;
 const MOST_BESIDE: usize = 4;
 
 /// The effort that goes into a valid part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
     /// The effort for a single part: thousands of cells.
     Full,
@@ -24,8 +26,9 @@ pub enum Effort {
     Quick,
 }
 
-/// The constraints of a space that depend on continuous parameters.
-#[derive(Debug, Clone)]
+/// The constraints of a space that depend on continuous parameters. It keeps the parts that it made, because rows and
+/// projections share them.
+#[derive(Debug)]
 pub struct Validity<'a> {
     space: &'a Space,
     rules: &'a Rules,
@@ -33,7 +36,12 @@ pub struct Validity<'a> {
     axes: Vec<usize>,
     /// The discrete parameters on which the same constraints depend, as positions among the discrete parameters.
     discrete: Vec<usize>,
+    known: Mutex<BTreeMap<Key, Arc<ValidPart>>>,
 }
+
+/// What a valid part depends on: its axes, the levels of the constrained discrete parameters in each of its rows, and the
+/// effort.
+type Key = (Vec<usize>, Vec<Vec<usize>>, Effort);
 
 impl<'a> Validity<'a> {
     /// Makes the validity of a space with these rules; `None` if no constraint depends on continuous parameters.
@@ -44,17 +52,35 @@ impl<'a> Validity<'a> {
         let axes = space.continuous().enumerate().filter(|(_, axis)| names.contains(&axis.parameter.name.as_str()));
         let levels = space.discrete().enumerate().filter(|(_, level)| names.contains(&level.parameter.name.as_str()));
         let (axes, discrete) = (axes.map(|(at, _)| at).collect(), levels.map(|(at, _)| at).collect());
-        Some(Self { space, rules, axes, discrete })
+        Some(Self { space, rules, axes, discrete, known: Mutex::default() })
     }
 
     /// Returns the valid part of all continuous parameters together.
-    pub fn whole(&self) -> ValidPart {
+    pub fn whole(&self) -> Arc<ValidPart> {
         self.part(&Projection { fixed: Vec::new(), axes: (0..self.space.dims()).collect() }, Effort::Full)
     }
 
+    /// Returns the valid part of the continuous parameters for a row of discrete values.
+    pub fn of_row(&self, row: &[usize]) -> Arc<ValidPart> {
+        let fixed = row.iter().copied().enumerate().collect();
+        self.part(&Projection { fixed, axes: (0..self.space.dims()).collect() }, Effort::Quick)
+    }
+
     /// Returns the valid part of a projection.
-    pub fn part(&self, projection: &Projection, effort: Effort) -> ValidPart {
+    pub fn part(&self, projection: &Projection, effort: Effort) -> Arc<ValidPart> {
         let (rows, all) = self.rows(&projection.fixed);
+        let levels = |row: &Vec<usize>| self.discrete.iter().map(|&parameter| row[parameter]).collect();
+        let key: Key = (projection.axes.clone(), rows.iter().map(levels).collect(), effort);
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known().get(&key).cloned();
+        found.unwrap_or_else(|| {
+            let part = Arc::new(self.bisected(projection, effort, &rows, all));
+            known().insert(key, part.clone());
+            part
+        })
+    }
+
+    fn bisected(&self, projection: &Projection, effort: Effort, rows: &[Vec<usize>], all: bool) -> ValidPart {
         let beside: Vec<usize> = self.axes.iter().copied().filter(|axis| !projection.axes.contains(axis)).collect();
         let probes = probes(beside.len());
         let answer = |lower: &[f64], upper: &[f64]| {

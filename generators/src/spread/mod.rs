@@ -13,6 +13,9 @@
 //!
 //! Random points are chosen in this way too: a user who asks for an epsilon does not ask for independent points.
 //!
+//! If constraints depend on continuous parameters, a set leaves out the points that break them, and a hole is what a box has
+//! of the valid part of its row.
+//!
 //! A row's set is known only when the row gets no more points, so everything is planned before the first test. The
 //! tests that split the largest holes come first, so that a campaign that is stopped early has visited all rows.
 
@@ -23,8 +26,9 @@ use crate::seeded::mix;
 use crate::sequence::{PerRow, Sequence};
 use crate::strategy::MethodKind;
 use crate::{Generator, GeneratorError, Request, Strategy, family::Family, greedy::GreedyRows};
+use paracosm_coverage::valid::Validity;
 use paracosm_space::Point;
-use row::{Limits, Row, Set};
+use row::{Added, Limits, Row, Set};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
@@ -47,7 +51,7 @@ pub(crate) struct Spread {
 #[derive(Default)]
 struct Planned {
     rows: Vec<(Vec<usize>, Set)>,
-    /// For each test, its row and the number of its point.
+    /// For each test, its row and the number of its point in the row's set.
     tests: std::vec::IntoIter<(usize, u64)>,
 }
 
@@ -78,8 +82,14 @@ impl Spread {
         }
         let mut existing = family.points_of_rows(request.existing);
         let dims = request.space.dims();
-        let limits = Limits::new(dims, family.len(), epsilon, request.deadline);
-        let row = |number| Row::new(dims, family.row(number), existing.remove(&number).unwrap_or_default(), &limits);
+        let limits = Limits::new(request.space, family.len(), epsilon, request.deadline);
+        let rules = request.space.rules()?;
+        let validity = Validity::of(request.space, &rules);
+        let row = |number| {
+            let (discrete, existing) = (family.row(number), existing.remove(&number).unwrap_or_default());
+            let valid = validity.as_ref().map(|validity| validity.of_row(&discrete));
+            Row::new(dims, discrete, valid, existing, &limits)
+        };
         let rows = (0..family.len()).map(row).collect();
         let plan = Plan { rows, sets, budget: request.budget, limits };
         Ok(Self { plan: Some(plan), planned: Planned::default() })
@@ -137,8 +147,8 @@ impl Plan {
         let mut tests = Vec::new();
         let mut rows = Vec::new();
         for (number, (discrete, chosen)) in self.rows.into_iter().map(Row::chosen).enumerate() {
-            let Some((set, holes)) = chosen else { continue };
-            tests.extend(holes.into_iter().enumerate().map(|(point, hole)| (hole, point as u64, number, rows.len())));
+            let Some((set, added)) = chosen else { continue };
+            tests.extend(added.into_iter().map(|Added { number: point, hole }| (hole, point, number, rows.len())));
             rows.push((discrete, set));
         }
         tests.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
