@@ -3,7 +3,7 @@
 use crate::opendrive::Map;
 use crate::openscenario::entity::Entity;
 use crate::openscenario::place::Place;
-use crate::openscenario::project::project;
+use crate::openscenario::project::{project, project_near};
 use crate::openscenario::route::Legs;
 use nalgebra::Vector2;
 use paracosm_engine::{LedMotion, Pose};
@@ -155,6 +155,35 @@ impl Actor {
                 self.speed = 0.0;
             }
         }
+        self.finish(dt, before, from, map);
+    }
+
+    /// Takes over the motion of a car that a driver drives.
+    pub fn follow(&mut self, motion: LedMotion, dt: f64, map: &Map) {
+        let (from, before) = (self.pose, self.speed);
+        let heading = motion.pose.heading;
+        let forward = Pose { position: Vector2::zeros(), heading };
+        let position = motion.pose.position - forward.turn_to_plane(self.entity.middle);
+        self.pose = Pose { position, heading };
+        self.speed = motion.speed;
+        self.place = self.below(dt, map).map_or(Whereabouts::Free(self.pose), Whereabouts::OnLane);
+        self.finish(dt, before, from, map);
+    }
+
+    /// Returns the place under the entity; `None` beside all roads. Where roads overlap, this is the road on which the entity was
+    /// before the tick, or the road that follows on its way.
+    fn below(&self, dt: f64, map: &Map) -> Option<Place> {
+        let near = self.on_lane().and_then(|before| {
+            let mut ahead = *before;
+            project_near(&self.pose, before, map).or_else(|| {
+                ahead.follow(self.speed * dt, self.route.as_ref(), map);
+                project_near(&self.pose, &ahead, map)
+            })
+        });
+        near.or_else(|| project(&self.pose, map))
+    }
+
+    fn finish(&mut self, dt: f64, before: f64, from: Pose, map: &Map) {
         if let Some(seconds) = &mut self.offroad {
             let is_off = match &self.place {
                 Whereabouts::OnLane(place) => place.is_offroad(map),
@@ -163,21 +192,6 @@ impl Actor {
             *seconds = if is_off { *seconds + dt } else { 0.0 };
         }
         self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
-        self.finish(dt, before, from);
-    }
-
-    /// Takes over the motion of a car that a driver drives.
-    pub fn follow(&mut self, motion: LedMotion, dt: f64) {
-        let (from, before) = (self.pose, self.speed);
-        let heading = motion.pose.heading;
-        let forward = Pose { position: Vector2::zeros(), heading };
-        let position = motion.pose.position - forward.turn_to_plane(self.entity.middle);
-        self.pose = Pose { position, heading };
-        self.speed = motion.speed;
-        self.finish(dt, before, from);
-    }
-
-    fn finish(&mut self, dt: f64, before: f64, from: Pose) {
         self.acceleration = (self.speed - before) / dt;
         self.velocity = (self.pose.position - from.position) / dt;
         self.travelled += (self.pose.position - from.position).norm();
