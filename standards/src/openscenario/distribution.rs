@@ -57,8 +57,14 @@ impl Distribution {
             let (names, kinds, values) = match kind.name() {
                 "DistributionSet" => {
                     let (name, of) = name(node)?;
-                    let value = |element: Node<'_>| Ok(vec![of.required(element, "value")?.into_owned()]);
-                    let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
+                    let mut levels: Vec<Vec<String>> = Vec::new();
+                    for element in kind.all("Element") {
+                        let text = of.required(element, "value")?;
+                        if levels.iter().flatten().any(|known| of.value(known) == of.value(&text)) {
+                            return Err(element.unexpected("value", &text, "a value that the set does not have yet"));
+                        }
+                        levels.push(vec![text.into_owned()]);
+                    }
                     (vec![name], vec![of], Choices::Tuples(levels))
                 }
                 "DistributionRange" => {
@@ -220,6 +226,13 @@ fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
         of.required(node, attribute)?;
     }
     let (lo, hi, step) = (limits.number("lowerLimit")?, limits.number("upperLimit")?, node.number("stepWidth")?);
+    if lo > hi {
+        return Err(limits.unexpected(
+            "upperLimit",
+            &limits.required("upperLimit")?,
+            format!("a number of at least {lo}"),
+        ));
+    }
     let count = (hi - lo) / step + TOLERANCE;
     if !(step > 0.0 && (0.0..MOST_LEVELS).contains(&count)) {
         let expected = format!("a step above 0 that divides {lo} to {hi} into at most {MOST_LEVELS} parts");
