@@ -216,7 +216,7 @@ pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Val
     while let Some((line, record)) = file.next(tests.len())? {
         for &(column, name, value) in &fixed {
             let found = Value::parse(&record[column]);
-            if found != *value {
+            if found != *value && record[column] != value.to_string() {
                 let flaw = CellFlaw::Fixed { found, name: name.to_owned(), value: value.clone() };
                 return Err(file.wrong(line, flaw, Some(column)));
             }

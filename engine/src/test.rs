@@ -27,6 +27,14 @@ impl Declared {
         Self { parameter, open: true, opens: None, takes_texts: false, whole: false }
     }
 
+    /// Returns a value as the parameter has it: a number is a text if the parameter takes texts, or if this text is one of its
+    /// levels.
+    pub fn taken(&self, value: Value) -> Value {
+        let text = || Value::from(value.to_string().as_str());
+        let is_level = || self.parameter.levels().is_some_and(|levels| levels.contains(&text()));
+        if value.number().is_some() && (self.takes_texts || is_level()) { text() } else { value }
+    }
+
     /// Checks that the parameter can take a value.
     ///
     /// # Errors

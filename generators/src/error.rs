@@ -140,8 +140,8 @@ pub enum GeneratorError {
     },
     /// Hardly any test keeps the constraints of the space.
     #[error(
-        "only {valid} of {probes} tests keep the constraints; many break `{constraint}`: open the parameters over a smaller part, \
-         or fix one of them"
+        "only {valid} of {probes} tests keep the constraints, expected 1 of 100; many break `{constraint}`: make the intervals of \
+         its parameters smaller, or fix one of the parameters"
     )]
     Rare {
         /// The number of tests that keep the constraints.

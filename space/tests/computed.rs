@@ -248,3 +248,21 @@ fn certainty_is_found_at_bounds_that_are_computed_exactly() {
     assert_eq!(part([0.5, 0.4], [0.6, 0.5]), None);
     assert_eq!(part([0.5, 0.5], [0.6, 0.6]), Some(false));
 }
+
+#[test]
+fn the_longest_comparison_is_read_written_and_checked() {
+    let text = format!("speed{} < 3000", " + speed".repeat(1000));
+    let space = space().with_constraints([&text]).unwrap();
+    assert_eq!(space.constraints()[0].expression().to_string(), text);
+    let test = |share: f64| Point { continuous: vec![share, 0.0], discrete: vec![0, 0] };
+    assert!(space.allows(&test(0.2)) && !space.allows(&test(0.4)));
+}
+
+#[test]
+fn a_constraint_that_no_value_of_an_interval_keeps_is_broken_by_every_row() {
+    for text in ["speed > 10.5", "abs(speed) < -1", "speed * speed - 101 > 0"] {
+        let space = space().with_constraints([text]).unwrap();
+        assert!(!space.constraints()[0].holds(&[0, 0]), "{text}");
+        assert!(space.rules().is_err(), "{text}");
+    }
+}

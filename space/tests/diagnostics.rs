@@ -48,6 +48,15 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check("lanes + sped > 2", 1, "no parameter is called `sped` (did you mean `speed`?)");
     let deep = format!("{}lanes < 3", "-".repeat(1000));
     check(&deep, 129, "the constraint has more than 128 levels of nesting; divide it into several constraints");
+    let long = format!("lanes{} < 3", " + speed".repeat(1001));
+    check(
+        &long,
+        8007,
+        "the comparison has more than 1000 operators `+ - * / %`, expected fewer; a new parameter can replace a part of it",
+    );
+    check("speed ** 2 < 3", 7, "found `**`, expected `pow(a, b)`");
+    check("speed^2 < 3", 6, "found `^`, expected `pow(a, b)`");
+    check("speed \u{2212} 2 < 3", 7, "found `\u{2212}`, expected `-`");
     check(
         "weather == 'fogg'",
         12,

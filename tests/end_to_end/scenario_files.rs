@@ -219,6 +219,47 @@ fn a_parameter_of_whole_numbers_is_opened_to_whole_numbers() {
 }
 
 #[test]
+fn a_text_that_looks_like_a_number_keeps_the_constraints_of_its_parameter() {
+    let dir = folder();
+    let change = |name: &str, changes: [&str; 2], by: [&str; 2]| {
+        let mut text = fs::read_to_string(dir.path().join(name)).expect("it is there");
+        for (found, by) in changes.iter().zip(by) {
+            assert!(text.contains(found), "{found}");
+            text = text.replacen(found, by, 1);
+        }
+        fs::write(dir.path().join(name), text).expect("it is writable");
+    };
+    let lane = "<ParameterDeclarations><ParameterDeclaration name=\"lane\" parameterType=\"string\" value=\"-1\">\
+        <ConstraintGroup><ValueConstraint rule=\"equalTo\" value=\"-1\"/></ConstraintGroup>\
+        <ConstraintGroup><ValueConstraint rule=\"equalTo\" value=\"-2\"/></ConstraintGroup></ParameterDeclaration>";
+    change("slow-leader.xosc", ["<ParameterDeclarations>", "laneId=\"-1\""], [lane, "laneId=\"$lane\""]);
+    let lanes =
+        "<DistributionSet><Element value=\"-1\"/><Element value=\"-2\"/><Element value=\"-3\"/></DistributionSet>";
+    let gaps = "<DistributionSet><Element value=\"20\"/><Element value=\"50\"/></DistributionSet>";
+    change("slow-leader-variation.xosc", ["parameterName=\"gap\"", gaps], ["parameterName=\"lane\"", lanes]);
+    let lanes = |out: &str| {
+        let mut lanes: Vec<String> =
+            trials(dir.path(), out).iter().map(|trial| trial["test"]["lane"].to_string()).collect();
+        lanes.sort_unstable();
+        lanes.dedup();
+        lanes
+    };
+    let run = |file: &str, options: &[&str]| {
+        fuzz(dir.path(), &[&[file, "--driver", "aeb", "--budget", "8"], options].concat())
+    };
+    succeeds(run("slow-leader-variation.xosc", &["--out", "all"]));
+    assert_eq!(lanes("all"), ["\"-1\"", "\"-2\""]);
+    succeeds(fuzz(dir.path(), &["replay", "all", "0"]));
+    succeeds(run("slow-leader-variation.xosc", &["--set", "lane=-2", "--out", "fixed"]));
+    succeeds(run("slow-leader.xosc", &["--open", "lane=-2", "--open", "speed=20..30", "--out", "opened"]));
+    assert_eq!(lanes("opened"), ["\"-2\""]);
+    refused(
+        &run("slow-leader-variation.xosc", &["--set", "lane=-3", "--out", "no"]),
+        &["`lane == '-1' or lane == '-2'`"],
+    );
+}
+
+#[test]
 fn a_scenario_with_a_mistake_is_refused_with_its_line_and_nothing_is_written() {
     let dir = folder();
     let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");

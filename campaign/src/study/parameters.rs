@@ -139,16 +139,19 @@ impl Study {
     /// Returns a parameter of the scenario over a part of its domain.
     pub(super) fn over(&self, name: &str, domain: &Domain) -> Result<Parameter, Error> {
         let declared = self.find_declared(name)?;
-        let ends = match domain {
-            Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
-            Domain::Choice(levels) => levels.clone(),
+        let (domain, ends) = match domain {
+            Domain::Interval { lo, hi } => (domain.clone(), vec![Value::Number(*lo), Value::Number(*hi)]),
+            Domain::Choice(levels) => {
+                let levels: Vec<Value> = levels.iter().map(|level| declared.taken(level.clone())).collect();
+                (Domain::Choice(levels.clone()), levels)
+            }
         };
         // If the ends of an interval are in the wrong order, that is reported before they are found to lie outside.
         Space::new(vec![Parameter::new(name, domain.clone())])?;
         for end in &ends {
             declared.check(end)?;
         }
-        let domain = listed(&declared, domain)?;
+        let domain = listed(&declared, &domain)?;
         let mut parameter = declared.parameter;
         if matches!((&parameter.domain, &domain), (Domain::Choice(_), Domain::Interval { .. })) {
             return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
@@ -192,7 +195,9 @@ impl Study {
 
     /// Fixes a parameter at a value; a signal at a value or at a list of values.
     pub(super) fn fix(&mut self, name: &str, value: Value) -> Result<(), Error> {
-        self.find_declared(name)?.check(&value)?;
+        let declared = self.find_declared(name)?;
+        let value = declared.taken(value);
+        declared.check(&value)?;
         self.rebuild(name, None)?;
         self.subject.scenario_mut()?.fixed.set(name, value);
         Ok(())

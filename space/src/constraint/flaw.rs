@@ -87,6 +87,14 @@ pub enum ConstraintFlaw {
         /// The greatest depth of nesting that is allowed.
         most: usize,
     },
+    /// A comparison computes with too many operators.
+    #[error(
+        "the comparison has more than {most} operators `+ - * / %`, expected fewer; a new parameter can replace a part of it"
+    )]
+    TooLong {
+        /// The greatest number of operators that is allowed.
+        most: usize,
+    },
     /// A value stands in front of `in`, where a parameter has to stand.
     #[error("found {found}, expected the name of a parameter before `in`")]
     ValueBeforeIn {

@@ -66,6 +66,9 @@ impl Over {
             };
             if is_exact { truth(expression, &exact) == Some(true) } else { truth(expression, &known) != Some(false) }
         };
+        if discrete.is_empty() && !holds(&[]) {
+            return Ok((Condition::NEVER, is_exact));
+        }
         let Some(written) = table::expressions(&discrete, holds) else { return Ok((Condition::ALWAYS, false)) };
         let mut parts = Vec::new();
         for part in written {

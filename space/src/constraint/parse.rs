@@ -9,6 +9,8 @@ use std::str::FromStr;
 
 /// The greatest depth to which parentheses, `not` and `implies` may be nested.
 const DEEPEST: usize = 128;
+/// The greatest number of operators `+ - * / %` in a comparison. Each of them makes the tree of the comparison one level deeper.
+const MOST_OPERATORS: usize = 1000;
 
 /// The places of the parts of a comparison, as offsets in bytes.
 pub(super) struct Places {
@@ -28,7 +30,7 @@ impl FromStr for Expression {
 
 /// Returns the expression, and the places of its comparisons in the order of the text.
 pub(super) fn parse(text: &str) -> Result<(Expression, Vec<Places>), ConstraintError> {
-    let mut parser = Parser { tokens: tokens(text)?, next: 0, depth: 0, places: Vec::new() };
+    let mut parser = Parser { tokens: tokens(text)?, next: 0, depth: 0, operators: 0, places: Vec::new() };
     let expression = parser.implication()?;
     match parser.peek() {
         Token::End => Ok((expression, parser.places)),
@@ -60,6 +62,8 @@ struct Parser {
     tokens: Vec<(Token, usize)>,
     next: usize,
     depth: usize,
+    /// The number of operators of the comparison so far.
+    operators: usize,
     places: Vec<Places>,
 }
 
@@ -177,6 +181,7 @@ impl Parser {
 
     fn comparison(&mut self) -> Result<Expression, ConstraintError> {
         let offset = self.offset();
+        self.operators = 0;
         let left = self.side(Expected::Condition)?;
         let relation = self.offset();
         let denied = self.takes(&Token::Keyword("not"));
@@ -258,7 +263,7 @@ impl Parser {
     fn sum(&mut self, expected: Expected) -> Result<Term, ConstraintError> {
         let mut sum = self.product(expected)?;
         while let Token::Operator(sign @ (Function::Add | Function::Subtract)) = *self.peek() {
-            self.take();
+            self.operator()?;
             sum = Term::Applied(sign, vec![sum, self.product(Expected::Number)?]);
         }
         Ok(sum)
@@ -267,10 +272,20 @@ impl Parser {
     fn product(&mut self, expected: Expected) -> Result<Term, ConstraintError> {
         let mut product = self.factor(expected)?;
         while let Token::Operator(sign @ (Function::Multiply | Function::Divide | Function::Remainder)) = *self.peek() {
-            self.take();
+            self.operator()?;
             product = Term::Applied(sign, vec![product, self.factor(Expected::Number)?]);
         }
         Ok(product)
+    }
+
+    /// Takes an operator between two operands.
+    fn operator(&mut self) -> Result<(), ConstraintError> {
+        self.operators += 1;
+        if self.operators > MOST_OPERATORS {
+            return self.fail(ConstraintFlaw::TooLong { most: MOST_OPERATORS });
+        }
+        self.take();
+        Ok(())
     }
 
     fn factor(&mut self, expected: Expected) -> Result<Term, ConstraintError> {

@@ -173,6 +173,14 @@ impl Term {
         numbers.and_then(|numbers| function.value(&numbers)).map_or(self, Self::Number)
     }
 
+    /// Returns the number of operators and functions of the term.
+    pub fn operators(&self) -> usize {
+        match self {
+            Self::Number(_) | Self::Parameter(_) => 0,
+            Self::Applied(_, operands) => 1 + operands.iter().map(Self::operators).sum::<usize>(),
+        }
+    }
+
     /// Calls `see` with the name of each parameter of the term.
     pub(super) fn each_parameter<'a>(&'a self, see: &mut dyn FnMut(&'a str)) {
         match self {

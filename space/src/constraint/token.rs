@@ -42,8 +42,17 @@ impl fmt::Display for Token {
 }
 
 /// Signs of other languages, with the signs of this language for them. Longer signs come first.
-const FOREIGN: [(&str, &str); 14] = [
+const FOREIGN: [(&str, &str); 23] = [
     ("<=>", "`==` or `implies`"),
+    ("**", "`pow(a, b)`"),
+    ("^", "`pow(a, b)`"),
+    ("\u{2212}", "`-`"),
+    ("\u{d7}", "`*`"),
+    ("\u{b7}", "`*`"),
+    ("\u{f7}", "`/`"),
+    ("\u{2264}", "`<=`"),
+    ("\u{2265}", "`>=`"),
+    ("\u{2260}", "`!=`"),
     ("&&", "`and`"),
     ("||", "`or`"),
     ("=>", "`>=` or `implies`"),

@@ -6,10 +6,14 @@ use super::local::{Local, declare};
 use super::scope::Node;
 use crate::xml::{Document, Element, Flaw, NoEffect, ReadError};
 use paracosm_space::nearest;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// The greatest number of references that lead to entries of catalogs. An entry may refer to others several times, so few files can
+/// have very many references.
+const MOST_REFERENCES: usize = 100_000;
 
 /// The catalog files of a scenario.
 #[derive(Debug, Default)]
@@ -25,6 +29,10 @@ pub(super) struct Catalogs<'a> {
     all: BTreeMap<&'a str, Element<'a, 'a>>,
     absent: Option<&'a (PathBuf, u32, PathBuf)>,
     found: RefCell<Found>,
+    /// The entries that are being read, each within the one before, by their names and lines.
+    open: RefCell<Vec<(String, u32)>>,
+    /// The number of references that have been followed.
+    references: Cell<usize>,
 }
 
 /// The facts about the parts of a scenario that come up while the parts are read.
@@ -96,7 +104,8 @@ impl CatalogFiles {
             Ok((name.as_str(), document.root(tree, "OpenSCENARIO")?.child("Catalog")?))
         };
         let all = self.all.iter().zip(trees).map(catalog).collect::<Result<_, ReadError>>()?;
-        Ok(Catalogs { all, absent: self.absent.as_ref(), found: RefCell::default() })
+        let (found, open, references) = Default::default();
+        Ok(Catalogs { all, absent: self.absent.as_ref(), found, open, references })
     }
 }
 
@@ -120,9 +129,21 @@ impl Catalogs<'_> {
         let entry = entries().find(|entry| entry.text("name") == Some(entry_name.as_ref())).ok_or_else(|| {
             node.dangling("entryName", "entry of the catalog", entries().filter_map(|entry| entry.text("name")))
         })?;
+        let key = (entry_name.clone().into_owned(), entry.line());
+        if self.open.borrow().contains(&key) {
+            return Err(node.unexpected("entryName", &entry_name, "an entry that does not refer to itself"));
+        }
+        self.references.set(self.references.get() + 1);
+        if self.references.get() > MOST_REFERENCES {
+            let expected = format!("at most {MOST_REFERENCES} references to entries of catalogs");
+            return Err(node.unexpected("entryName", &entry_name, expected));
+        }
         self.check(entry)?;
         let assignments: Vec<_> = node.first("ParameterAssignments").into_iter().flat_map(Node::elements).collect();
-        self.declaring(Node { element: entry, scope: node.scope }, &assignments, read)
+        self.open.borrow_mut().push(key);
+        let read = self.declaring(Node { element: entry, scope: node.scope }, &assignments, read);
+        self.open.borrow_mut().pop();
+        read
     }
 
     /// Reads an element that sees the parameters of a scope, and the parameters that the element declares.

@@ -9,10 +9,11 @@ use super::kind::Kind;
 use super::parameters::Parameters;
 use super::rule::Rule;
 use super::scope::Scope;
-use crate::xml::{Expression as Computed, ExpressionFlaw, Flaw, ReadError};
+use crate::xml::{Expression as Computed, ExpressionFlaw, Flaw, MOST_OPERATORS, ReadError};
 use paracosm_engine::Constraint;
 use paracosm_space::Value;
 use paracosm_space::constraint::{Expression, Function, Operand, Relation, Term};
+use std::cell::Cell;
 
 /// What the demands of a declared parameter say.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +43,8 @@ struct Writer<'a> {
     /// The declared parameters, first those of the whole scenario.
     scope: &'a Scope,
     fixed: Vec<(String, Value)>,
+    /// The number of expressions that are being written, each within the one before.
+    depth: Cell<usize>,
 }
 
 /// Writes the demands on a parameter of a scope as a constraint of the space; `None` if they hold in every test.
@@ -58,10 +61,12 @@ pub(super) fn constraint(
         return Ok(None);
     }
     let cases = parameters.cases(scope.sources(at, demand.limits()));
-    let said = Writer { parameters, scope, fixed: Vec::new() }.cases(at, demand, &cases).map_err(|flaw| {
-        let (element, attribute) = ("ParameterDeclaration".to_owned(), "name".to_owned());
-        demand.error(Flaw::Expression { element, attribute, text: demand.name.clone(), flaw })
-    })?;
+    let said = Writer { parameters, scope, fixed: Vec::new(), depth: Cell::new(0) }.cases(at, demand, &cases).map_err(
+        |flaw| {
+            let (element, attribute) = ("ParameterDeclaration".to_owned(), "name".to_owned());
+            demand.error(Flaw::Expression { element, attribute, text: demand.name.clone(), flaw })
+        },
+    )?;
     match said {
         Said::Always => Ok(None),
         Said::If(expression) => Ok(Some(Constraint { expression, place: Some(demand.place()) })),
@@ -128,11 +133,20 @@ impl Writer<'_> {
             None => self.value(self.scope.find(among, name)?),
             Some(None) => Err(ExpressionFlaw::Unexpected { found: text.to_owned(), expected: "`}` at the end" }),
             Some(Some(inside)) => {
+                let depth = self.depth.get();
+                if depth > MOST_OPERATORS {
+                    return Err(ExpressionFlaw::TooLong);
+                }
+                self.depth.set(depth + 1);
                 let term = |name: &str| self.value(self.scope.find(among, name)?)?.term();
-                Ok(match Computed::parse(inside)?.term(&term)? {
-                    Term::Number(number) => Symbol::Value(Value::Number(number)),
-                    term => Symbol::Term(term),
-                })
+                let written = Computed::parse(inside)?.term(&term)?;
+                self.depth.set(depth);
+                match written {
+                    Term::Number(number) => Ok(Symbol::Value(Value::Number(number))),
+                    // Each parameter may name an earlier one several times.
+                    term if term.operators() > MOST_OPERATORS => Err(ExpressionFlaw::TooLong),
+                    term => Ok(Symbol::Term(term)),
+                }
             }
         }
     }

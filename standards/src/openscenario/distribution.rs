@@ -21,6 +21,7 @@ pub(super) struct Distribution(pub Vec<Opened>);
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Opened {
     names: Vec<String>,
+    kinds: Vec<Kind>,
     values: Choices,
 }
 
@@ -53,17 +54,23 @@ impl Distribution {
         let mut all = Vec::new();
         for node in root.child("Deterministic")?.elements() {
             let kind = node.choice("a kind of distribution such as DistributionSet")?;
-            let (names, values) = match kind.name() {
+            let (names, kinds, values) = match kind.name() {
                 "DistributionSet" => {
                     let (name, of) = name(node)?;
-                    let value = |element: Node<'_>| Ok(vec![of.required(element, "value")?.into_owned()]);
-                    let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
-                    (vec![name], Choices::Tuples(levels))
+                    let mut levels: Vec<Vec<String>> = Vec::new();
+                    for element in kind.all("Element") {
+                        let text = of.required(element, "value")?;
+                        if levels.iter().flatten().any(|known| of.value(known) == of.value(&text)) {
+                            return Err(element.unexpected("value", &text, "a value that the set does not have yet"));
+                        }
+                        levels.push(vec![text.into_owned()]);
+                    }
+                    (vec![name], vec![of], Choices::Tuples(levels))
                 }
                 "DistributionRange" => {
                     let (name, of) = name(node)?;
                     let values = range(kind, &name, of)?;
-                    (vec![name], values)
+                    (vec![name], vec![of], values)
                 }
                 "ValueSetDistribution" => tuples(kind, declared)?,
                 _ => return Err(kind.refused("use a DistributionSet, a DistributionRange or a ValueSetDistribution")),
@@ -72,7 +79,7 @@ impl Distribution {
             if let Some(name) = names.iter().find(twice) {
                 return Err(twice_distributed(node, name));
             }
-            all.push(Opened { names, values });
+            all.push(Opened { names, kinds, values });
         }
         Ok(Self(all))
     }
@@ -102,16 +109,16 @@ impl Opened {
                 (Domain::Choice(levels), space::Distribution::Weights(weights))
             }
         };
-        let opened = Self { names: vec![name], values: Choices::Chance(domain, chances) };
+        let opened = Self { names: vec![name], kinds: vec![of], values: Choices::Chance(domain, chances) };
         let parameter = opened.declared(|_| None).parameter;
         Space::new(vec![parameter]).map_err(|flaw| kind.error(Flaw::Parameter(flaw)))?;
         Ok(opened)
     }
 
-    /// Returns the name of the parameter if the distribution opens a single one.
-    pub fn single(&self) -> Option<&str> {
-        match self.names.as_slice() {
-            [name] => Some(name),
+    /// Returns the type of the parameter if the distribution opens a single one.
+    pub fn single(&self) -> Option<Kind> {
+        match self.kinds.as_slice() {
+            [kind] => Some(*kind),
             _ => None,
         }
     }
@@ -121,10 +128,18 @@ impl Opened {
         self.names.join(JOINT)
     }
 
+    /// Returns the values of these parameters as one value of a test.
+    fn value(&self, level: &[String]) -> Value {
+        match (self.kinds.as_slice(), level) {
+            ([kind], [text]) => kind.value(text),
+            (_, texts) => Value::from(texts.join(JOINT).as_str()),
+        }
+    }
+
     /// Returns the parameter that stands for these parameters in a test. `nominal` gives the value of a declaration.
     pub fn declared(&self, nominal: impl Fn(&str) -> Option<Value>) -> Declared {
         let (domain, opens) = match &self.values {
-            Choices::Tuples(levels) => (Domain::Choice(levels.iter().map(|level| joint(level)).collect()), None),
+            Choices::Tuples(levels) => (Domain::Choice(levels.iter().map(|level| self.value(level)).collect()), None),
             Choices::Range { lo, hi, levels } => {
                 (Domain::Interval { lo: *lo, hi: *hi }, Some(Domain::Choice(levels.clone())))
             }
@@ -152,9 +167,10 @@ impl Opened {
         match &self.values {
             Choices::Tuples(levels) => {
                 let distance = |level: &&Vec<String>| -> f64 {
-                    level.iter().zip(declared).map(|(value, declared)| apart(&Value::parse(value), declared)).sum()
+                    let values = level.iter().zip(&self.kinds).map(|(text, kind)| kind.value(text));
+                    values.zip(declared).map(|(value, declared)| apart(&value, declared)).sum()
                 };
-                levels.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|level| joint(level))
+                levels.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|level| self.value(level))
             }
             Choices::Range { levels, .. } | Choices::Chance(Domain::Choice(levels), _) => nearest(levels),
             Choices::Chance(Domain::Interval { lo, hi }, _) => {
@@ -166,7 +182,9 @@ impl Opened {
     /// Returns the tuples of values of parameters that change together; `None` for a single parameter.
     pub fn tuples(&self) -> Option<Vec<Value>> {
         match &self.values {
-            Choices::Tuples(levels) if self.names.len() > 1 => Some(levels.iter().map(|level| joint(level)).collect()),
+            Choices::Tuples(levels) if self.names.len() > 1 => {
+                Some(levels.iter().map(|level| self.value(level)).collect())
+            }
             _ => None,
         }
     }
@@ -174,7 +192,7 @@ impl Opened {
     /// Returns the values of the single parameters, by their names, that the value of a test stands for.
     pub fn parts(&self, value: &Value) -> Vec<(&str, String)> {
         let level = match &self.values {
-            Choices::Tuples(levels) => levels.iter().find(|level| joint(level) == *value).cloned(),
+            Choices::Tuples(levels) => levels.iter().find(|level| self.value(level) == *value).cloned(),
             Choices::Range { .. } | Choices::Chance(..) => None,
         };
         let level = level.unwrap_or_else(|| vec![value.to_string()]);
@@ -187,11 +205,6 @@ fn name(node: Node<'_>, attribute: &'static str, declared: &[(String, Kind)]) ->
     let name = node.element.required(attribute)?;
     let known = declared.iter().find(|(known, _)| known == name).cloned();
     known.ok_or_else(|| node.dangling(attribute, "parameter", declared.iter().map(|(known, _)| known.as_str())))
-}
-
-/// Returns the values of parameters that change together as one value.
-fn joint(parts: &[String]) -> Value {
-    Value::parse(&parts.join(JOINT))
 }
 
 /// Makes the error that a parameter has a second distribution.
@@ -213,6 +226,13 @@ fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
         of.required(node, attribute)?;
     }
     let (lo, hi, step) = (limits.number("lowerLimit")?, limits.number("upperLimit")?, node.number("stepWidth")?);
+    if lo > hi {
+        return Err(limits.unexpected(
+            "upperLimit",
+            &limits.required("upperLimit")?,
+            format!("a number of at least {lo}"),
+        ));
+    }
     let count = (hi - lo) / step + TOLERANCE;
     if !(step > 0.0 && (0.0..MOST_LEVELS).contains(&count)) {
         let expected = format!("a step above 0 that divides {lo} to {hi} into at most {MOST_LEVELS} parts");
@@ -224,8 +244,8 @@ fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
     Ok(if lo < hi { Choices::Range { lo, hi, levels } } else { single() })
 }
 
-fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, Choices), ReadError> {
-    let mut names: Vec<String> = Vec::new();
+fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, Vec<Kind>, Choices), ReadError> {
+    let (mut names, mut kinds): (Vec<String>, Vec<Kind>) = Default::default();
     let mut levels = Vec::new();
     for set in kind.all("ParameterValueSet") {
         let mut level = Vec::new();
@@ -233,6 +253,7 @@ fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, C
             let (name, of) = name(assignment, "parameterRef", declared)?;
             if levels.is_empty() {
                 names.push(name);
+                kinds.push(of);
             } else if names.get(index).is_none_or(|known| *known != name) {
                 return Err(assignment.dangling("parameterRef", "parameter", names.iter().map(String::as_str)));
             }
@@ -244,5 +265,5 @@ fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, C
         }
         levels.push(level);
     }
-    Ok((names, Choices::Tuples(levels)))
+    Ok((names, kinds, Choices::Tuples(levels)))
 }

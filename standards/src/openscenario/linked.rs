@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 pub(super) fn file(node: Node<'_>, attribute: &'static str, folder: &Path) -> Result<PathBuf, ReadError> {
     let text = node.required(attribute)?;
     let path = within(node, attribute, folder)?;
-    if path.exists() {
+    if path.is_file() {
         return Ok(path);
     }
     let entries = std::fs::read_dir(path.parent().unwrap_or(folder)).into_iter().flatten().flatten();

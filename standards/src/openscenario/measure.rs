@@ -111,6 +111,13 @@ pub(super) struct Metric {
     pub system: System,
 }
 
+impl Metric {
+    /// Returns `true` if the distance depends on the places of entities on lanes.
+    pub fn is_along_lanes(self) -> bool {
+        self.kind != MetricKind::Straight && self.system != System::Entity
+    }
+}
+
 /// The kind of a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum MetricKind {

@@ -105,14 +105,10 @@ impl Parameters {
         let nominal = |name: &str| {
             self.find(name).map(|index| &self.declarations[index]).map(|of| of.demand.kind.value(&of.text))
         };
-        let whole = |opened: &Opened| {
-            opened
-                .single()
-                .and_then(|name| self.find(name))
-                .is_some_and(|at| self.declarations[at].demand.kind.is_whole())
-        };
-        let opened = self.distribution.0.iter();
-        let opened = opened.map(move |opened| Declared { whole: whole(opened), ..opened.declared(nominal) });
+        let opened = self.distribution.0.iter().map(move |opened| {
+            let whole = opened.single().is_some_and(Kind::is_whole);
+            Declared { whole, ..opened.declared(nominal) }
+        });
         let closed = self.declarations.iter().filter(|declaration| self.is_closed(declaration)).map(|declaration| {
             let kind = declaration.demand.kind;
             let value = kind.value(&declaration.text);

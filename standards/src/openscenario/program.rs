@@ -108,7 +108,10 @@ impl Xosc {
                 let scenario = Document::open(&file)?;
                 let distribution = {
                     let tree = scenario.tree()?;
-                    let declared = declared_kinds(Node { element: scenario.root(&tree, ROOT)?, scope: &none })?;
+                    let root = Node { element: scenario.root(&tree, ROOT)?, scope: &none };
+                    // A distribution may name the file of another distribution, or its own file, by mistake.
+                    root.child("Storyboard")?;
+                    let declared = declared_kinds(root)?;
                     Distribution::read(node, &declared)?
                 };
                 Ok((scenario, folder_of(&file), distribution, notes))

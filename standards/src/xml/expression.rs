@@ -7,6 +7,9 @@ use thiserror::Error;
 
 /// The greatest depth of nested expressions.
 const DEEPEST: usize = 64;
+/// The greatest number of operators between two operands in an expression. Each of them makes the tree of the expression one level
+/// deeper.
+pub(crate) const MOST_OPERATORS: usize = 500;
 
 /// The reason why an expression has no value.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -59,6 +62,11 @@ pub enum ExpressionFlaw {
     /// The expression is nested too deeply.
     #[error("it is nested deeper than {DEEPEST} levels")]
     TooDeep,
+    /// The expression has too many operators.
+    #[error(
+        "it has more than {MOST_OPERATORS} operators, counted with the expressions of the parameters that it names"
+    )]
+    TooLong,
 }
 
 /// A function or an operator of an expression.
@@ -132,7 +140,7 @@ impl std::fmt::Display for Value {
 impl Expression {
     /// Reads the part of an attribute between `${` and `}`.
     pub fn parse(text: &str) -> Result<Self, ExpressionFlaw> {
-        let mut parser = Parser { rest: text.trim_start(), depth: 0 };
+        let mut parser = Parser { rest: text.trim_start(), depth: 0, operators: 0 };
         let expression = parser.disjunction()?;
         if parser.rest.is_empty() { Ok(expression) } else { Err(parser.unexpected("an operator or the end")) }
     }
@@ -184,6 +192,7 @@ impl Operation {
 struct Parser<'a> {
     rest: &'a str,
     depth: usize,
+    operators: usize,
 }
 
 impl Parser<'_> {
@@ -219,6 +228,10 @@ impl Parser<'_> {
     ) -> Result<Expression, ExpressionFlaw> {
         let mut left = operand(self)?;
         while let Some((_, operator)) = operators.iter().find(|(token, _)| self.takes(token)) {
+            self.operators += 1;
+            if self.operators > MOST_OPERATORS {
+                return Err(ExpressionFlaw::TooLong);
+            }
             let operands = vec![left, operand(self)?];
             left = Expression::Call(Operation { operator: *operator, operands });
         }
@@ -372,5 +385,7 @@ mod tests {
         assert_eq!(value("pow(10, 400)"), Err(ExpressionFlaw::NotFinite));
         assert_eq!(value(&"(".repeat(100_000)), Err(ExpressionFlaw::TooDeep));
         assert_eq!(value(&"-".repeat(100_000)), Err(ExpressionFlaw::TooDeep));
+        assert_eq!(value(&format!("1{}", " + 1".repeat(MOST_OPERATORS))), Ok(Value::Number(501.0)));
+        assert_eq!(value(&format!("1{}", " + 1".repeat(1_000_000))), Err(ExpressionFlaw::TooLong));
     }
 }

@@ -13,7 +13,7 @@ pub(crate) use document::Document;
 pub(crate) use element::Element;
 pub use error::{Flaw, Malformed, ReadError};
 pub use expression::ExpressionFlaw;
-pub(crate) use expression::{Expression, Value};
+pub(crate) use expression::{Expression, MOST_OPERATORS, Value};
 pub use schema::{NoEffect, Support, Supported};
 pub(crate) use schema::{Row, Schema, no_effect, read, refused};
 pub(crate) use writer::Writer;

@@ -120,6 +120,77 @@ fn a_distribution_has_values_of_the_type_of_its_parameter() {
 }
 
 #[test]
+fn a_set_has_each_value_once_and_a_range_goes_up() {
+    for (found, by, says) in [
+        (
+            "<Element value=\"20\"/><Element value=\"50\"/>",
+            "<Element value=\"20\"/><Element value=\"20.0\"/>",
+            "variation.xosc:11: `value=\"20.0\"` of <Element> is not allowed, expected a value that the set does not have yet",
+        ),
+        (
+            "lowerLimit=\"20\" upperLimit=\"60\"",
+            "lowerLimit=\"60\" upperLimit=\"20\"",
+            "variation.xosc:8: `upperLimit=\"20\"` of <Range> is not allowed, expected a number of at least 60",
+        ),
+        (
+            "filepath=\"bad.xosc\"",
+            "filepath=\"catalogs\"",
+            "variation.xosc:5: `filepath=\"catalogs\"` of <ScenarioFile> is not allowed, expected a file that exists",
+        ),
+        (
+            "filepath=\"bad.xosc\"",
+            "filepath=\"variation.xosc\"",
+            "variation.xosc:2: <OpenSCENARIO> contains no <Storyboard>",
+        ),
+    ] {
+        refuses(&[], &[], &[(found, by)], says);
+    }
+}
+
+#[test]
+fn an_entry_of_a_catalog_that_refers_to_itself_is_refused() {
+    let place = |kind: &str, name: &str, at: &str| {
+        format!(
+            "<{kind}Position{at}><{kind}Ref><CatalogReference catalogName=\"entities\" entryName=\"{name}\"/></{kind}Ref>"
+        )
+    };
+    let on_route = |name: &str| {
+        let from = "<InRoutePosition><FromRoadCoordinates pathS=\"1\" t=\"0\"/></InRoutePosition></RoutePosition>";
+        format!("{}{from}", place("Route", name, ""))
+    };
+    let on_trajectory = |name: &str| format!("{}</TrajectoryPosition>", place("Trajectory", name, " s=\"1\" t=\"0\""));
+    let lane = "<LanePosition roadId=\"1\" laneId=\"-1\" s=\"10\"/>";
+    let catalog = "<VehicleCatalog><Directory path=\"catalogs\"/></VehicleCatalog>";
+    let all = [catalog, &catalog.replace("Vehicle", "Route"), &catalog.replace("Vehicle", "Trajectory")].concat();
+    let route = |name: &str, next: &str| {
+        let waypoint =
+            |position: &str| format!("<Waypoint routeStrategy=\"shortest\"><Position>{position}</Position></Waypoint>");
+        format!("<Route name=\"{name}\" closed=\"false\">{}{}</Route>", waypoint(&on_route(next)), waypoint(lane))
+    };
+    let vertex = |position: &str| format!("<Vertex><Position>{position}</Position></Vertex>");
+    let trajectory = format!(
+        "<Trajectory name=\"self\" closed=\"false\"><Shape><Polyline>{}{}</Polyline></Shape></Trajectory>",
+        vertex(&on_trajectory("self")),
+        vertex(lane)
+    );
+    let entries = [
+        route("one", "two"),
+        "\n".to_owned(),
+        route("two", "one"),
+        "\n".to_owned(),
+        trajectory,
+        "</Catalog>".to_owned(),
+    ]
+    .concat();
+    for (position, name) in [(on_route("one"), "one"), (on_trajectory("self"), "self")] {
+        let says = format!(
+            "`entryName=\"{name}\"` of <CatalogReference> is not allowed, expected an entry that does not refer to itself"
+        );
+        refuses(&[(catalog, &all), (lane, &position)], &[("</Catalog>", &entries)], &[], &says);
+    }
+}
+
+#[test]
 fn a_whole_number_has_no_distribution_over_an_interval_and_no_set_with_fractions() {
     for (name, found, by, says) in [
         (
@@ -237,4 +308,31 @@ fn constraints_of_catalogs_and_stories_are_constraints_between_the_parameters_be
     );
     let message = checked(&program, &[("gap", 30.0)]).1.unwrap_err();
     assert!(message.contains("the constraint `speed != gap` does not hold for speed = 30, gap = 30"), "{message}");
+}
+
+#[test]
+fn constraints_on_parameters_that_name_each_other_very_often_are_refused() {
+    let last =
+        "<ConstraintGroup><ValueConstraint rule=\"lessThan\" value=\"1\"/></ConstraintGroup></ParameterDeclaration>";
+    let declared = |count: usize, value: &dyn Fn(usize) -> String| {
+        let mut text =
+            "<ParameterDeclarations><ParameterDeclaration name=\"p0\" parameterType=\"double\" value=\"0\"/>"
+                .to_owned();
+        for i in 1..=count {
+            let end = if i < count { "/>".to_owned() } else { format!(">{last}") };
+            text += &format!(
+                "<ParameterDeclaration name=\"p{i}\" parameterType=\"double\" value=\"{}\"{end}",
+                value(i - 1)
+            );
+        }
+        text
+    };
+    let twice = |count| declared(count, &|i| format!("${{$p{i} + $p{i}}}"));
+    let next = |count| declared(count, &|i| format!("${{$p{i} + 0}}"));
+    assert!(program(&[("<ParameterDeclarations>", &twice(8))], &[], &[]).is_ok());
+    assert!(program(&[("<ParameterDeclarations>", &next(400))], &[], &[]).is_ok());
+    for text in [twice(60), next(3000)] {
+        refuses(&[("<ParameterDeclarations>", &text)], &[], &[], "bad.xosc:4: ");
+        refuses(&[("<ParameterDeclarations>", &text)], &[], &[], "it has more than 500 operators");
+    }
 }

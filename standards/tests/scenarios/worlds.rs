@@ -1,5 +1,6 @@
 //! Small scenarios of our own: how entities move, who drives the ego vehicle, and which tests a distribution makes.
 
+use super::bad::changed_in;
 use paracosm_engine::driver::find;
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{Control, Declared, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate};
@@ -84,6 +85,21 @@ fn a_driver_gets_the_car_when_the_scenario_activates_its_controller() {
     assert!(last < 15.0, "the driver did not brake: {last} m/s");
     // The reference point is the middle of the rear axle, 1.4 m behind the middle of the car.
     assert!((at(&trace, "car.x", 10.0) - at(&trace, "Ego.x", 10.0) - 1.4).abs() < 1e-6);
+}
+
+#[test]
+fn conditions_along_lanes_see_the_car_of_a_driver_where_it_is() {
+    let trigger = "<StopTrigger><ConditionGroup><Condition name=\"near\" delay=\"0\" conditionEdge=\"none\"><ByEntityCondition>\
+        <TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef entityRef=\"Ego\"/></TriggeringEntities><EntityCondition>\
+        <RelativeDistanceCondition entityRef=\"Leader\" relativeDistanceType=\"longitudinal\" coordinateSystem=\"road\" \
+        value=\"30\" freespace=\"false\" rule=\"lessThan\"/></EntityCondition></ByEntityCondition></Condition></ConditionGroup>";
+    let (_folder, path) =
+        changed_in("slow-leader.xosc", "<StopTrigger><ConditionGroup>", &format!("{trigger}<ConditionGroup>"));
+    let program = Xosc::read(&path).unwrap().program();
+    let trace = driven_by("cruise", &program).trace.unwrap();
+    let last = |signal: &str| trace.signal(signal).unwrap().next_back().unwrap();
+    let distance = last("Leader.x") - last("Ego.x");
+    assert!((distance - 30.0).abs() < 0.5, "{distance} m");
 }
 
 #[test]

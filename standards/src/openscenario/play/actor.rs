@@ -3,10 +3,11 @@
 use crate::opendrive::Map;
 use crate::openscenario::entity::Entity;
 use crate::openscenario::place::Place;
-use crate::openscenario::project::project;
+use crate::openscenario::project::{project, project_near};
 use crate::openscenario::route::Legs;
 use nalgebra::Vector2;
 use paracosm_engine::{LedMotion, Pose};
+use std::cell::Cell;
 
 /// The speed in m/s below which an entity stands.
 const STANDING: f64 = 0.01;
@@ -18,7 +19,9 @@ const STOPS_AFTER: f64 = 2.5;
 #[derive(Debug, Clone)]
 pub(in crate::openscenario) struct Actor {
     pub entity: Entity,
-    pub place: Whereabouts,
+    place: Cell<Whereabouts>,
+    /// The metres that the entity has moved since its place was found; `None` if it is still there.
+    moved: Cell<Option<f64>>,
     /// The position of the reference point, and the heading.
     pub pose: Pose,
     /// The speed in m/s in the direction of the heading; negative if the entity moves backwards.
@@ -81,7 +84,8 @@ impl Actor {
         let pose = Pose { position: Vector2::zeros(), heading: 0.0 };
         Self {
             entity,
-            place: Whereabouts::Free(pose),
+            place: Cell::new(Whereabouts::Free(pose)),
+            moved: Cell::new(None),
             pose,
             speed: 0.0,
             present: true,
@@ -100,7 +104,7 @@ impl Actor {
 
     /// Puts the entity at a place.
     pub fn put(&mut self, place: Whereabouts, map: &Map) {
-        self.place = place;
+        self.set_place(place);
         self.stuck = 0.0;
         self.pose = match place {
             Whereabouts::OnLane(place) => place.pose(map),
@@ -108,12 +112,40 @@ impl Actor {
         };
     }
 
+    /// Sets the place of the entity, which does not move.
+    pub fn set_place(&mut self, place: Whereabouts) {
+        self.place.set(place);
+        self.moved.set(None);
+    }
+
+    /// Returns the place of the entity. If a driver moves the entity, its place is found when it is asked for.
+    pub fn place(&self, map: &Map) -> Whereabouts {
+        if let Some(moved) = self.moved.take() {
+            self.place.set(self.found(moved, map).map_or(Whereabouts::Free(self.pose), Whereabouts::OnLane));
+        }
+        self.place.get()
+    }
+
     /// Returns the place on a lane; `None` beside all roads.
-    pub fn on_lane(&self) -> Option<&Place> {
-        match &self.place {
+    pub fn on_lane(&self, map: &Map) -> Option<Place> {
+        match self.place(map) {
             Whereabouts::OnLane(place) => Some(place),
             Whereabouts::Free(_) => None,
         }
+    }
+
+    /// Returns the place under the entity, which has moved since its place was found; `None` beside all roads. Where roads overlap,
+    /// this is the road that follows on the way of the entity.
+    fn found(&self, moved: f64, map: &Map) -> Option<Place> {
+        let near = match self.place.get() {
+            Whereabouts::OnLane(before) => {
+                let mut ahead = before;
+                ahead.follow(moved, self.route.as_ref(), map);
+                project_near(&self.pose, &ahead, map).or_else(|| project_near(&self.pose, &before, map))
+            }
+            Whereabouts::Free(_) => None,
+        };
+        near.or_else(|| project(&self.pose, map))
     }
 
     /// Returns the position of the middle of the entity's box, and the entity's heading.
@@ -134,7 +166,8 @@ impl Actor {
             self.put(landed.map_or(Whereabouts::Free(pose), Whereabouts::OnLane), map);
         } else {
             let metres = if stays { 0.0 } else { along(self.speed * dt, aside) };
-            let arrived = match &mut self.place {
+            let mut place = self.place(map);
+            let arrived = match &mut place {
                 Whereabouts::OnLane(place) => {
                     if let Some(offset) = offset {
                         place.offset = offset;
@@ -150,34 +183,36 @@ impl Actor {
                     false
                 }
             };
+            self.set_place(place);
             self.stuck = if arrived || self.stuck > 0.0 && metres == 0.0 { self.stuck + dt } else { 0.0 };
             if self.stuck > STOPS_AFTER * dt {
                 self.speed = 0.0;
             }
         }
-        if let Some(seconds) = &mut self.offroad {
-            let is_off = match &self.place {
-                Whereabouts::OnLane(place) => place.is_offroad(map),
-                Whereabouts::Free(pose) => project(pose, map).is_none_or(|place| place.is_offroad(map)),
-            };
-            *seconds = if is_off { *seconds + dt } else { 0.0 };
-        }
-        self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
-        self.finish(dt, before, from);
+        self.finish(dt, before, from, map);
     }
 
     /// Takes over the motion of a car that a driver drives.
-    pub fn follow(&mut self, motion: LedMotion, dt: f64) {
+    pub fn follow(&mut self, motion: LedMotion, dt: f64, map: &Map) {
         let (from, before) = (self.pose, self.speed);
         let heading = motion.pose.heading;
         let forward = Pose { position: Vector2::zeros(), heading };
         let position = motion.pose.position - forward.turn_to_plane(self.entity.middle);
         self.pose = Pose { position, heading };
         self.speed = motion.speed;
-        self.finish(dt, before, from);
+        self.moved.set(Some(self.moved.get().unwrap_or(0.0) + motion.speed * dt));
+        self.finish(dt, before, from, map);
     }
 
-    fn finish(&mut self, dt: f64, before: f64, from: Pose) {
+    fn finish(&mut self, dt: f64, before: f64, from: Pose, map: &Map) {
+        if let Some(seconds) = self.offroad {
+            let is_off = match self.place(map) {
+                Whereabouts::OnLane(place) => place.is_offroad(map),
+                Whereabouts::Free(pose) => project(&pose, map).is_none_or(|place| place.is_offroad(map)),
+            };
+            self.offroad = Some(if is_off { seconds + dt } else { 0.0 });
+        }
+        self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
         self.acceleration = (self.speed - before) / dt;
         self.velocity = (self.pose.position - from.position) / dt;
         self.travelled += (self.pose.position - from.position).norm();

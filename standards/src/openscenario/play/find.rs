@@ -49,7 +49,7 @@ const BEYOND: f64 = 1e-6;
 pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<Whereabouts, Lost> {
     let on_road = |entity: usize| {
         let off = || Lost::OffRoad { entity: actors[entity].entity.name.clone() };
-        actors[entity].on_lane().copied().ok_or_else(off)
+        actors[entity].on_lane(map).ok_or_else(off)
     };
     match position {
         Position::World { x, y, heading } => {
@@ -67,7 +67,7 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             let mut place = on_road(*entity)?;
             place.offset = 0.0;
             let against = place.is_against();
-            let below = actors[*entity].on_lane().map_or(place.lane, |place| place.lane_below(map));
+            let below = actors[*entity].on_lane(map).map_or(place.lane, |place| place.lane_below(map));
             place.lane = neighbour(below, *lanes);
             if *along_lane {
                 place.advance(*ds, map);
@@ -113,7 +113,7 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
                     let (road, s) = legs.at(*s);
                     Ok(Whereabouts::OnLane(beside(road, s, *t, *turn, map)))
                 }
-                RoutePlace::Entity(entity) => Ok(actors[*entity].place),
+                RoutePlace::Entity(entity) => Ok(actors[*entity].place(map)),
             }
         }
     }

@@ -21,6 +21,15 @@ struct Mark {
     velocity: Vector2<f64>,
 }
 
+impl Mark {
+    /// Makes the mark of an entity that need not be on a lane.
+    fn of(actor: &Actor) -> Self {
+        let Actor { pose, entity, velocity, .. } = actor;
+        let at = Whereabouts::Free(*pose);
+        Self { at, pose: *pose, middle: entity.middle, half: entity.half, velocity: *velocity }
+    }
+}
+
 impl Cast {
     /// Returns the value of a measure. A distance that does not exist is infinite. `is_in` tells whether an element with a name and of
     /// a kind is in a state.
@@ -47,14 +56,14 @@ impl Cast {
             }
             Measure::Standing { entity } => actor(*entity).standing,
             Measure::Travelled { entity } => actor(*entity).travelled,
-            Measure::Distance { entity, to, how } => self.distance(actor(*entity), &self.mark(to), *how).abs(),
+            Measure::Distance { entity, to, how } => self.distance(actor(*entity), &self.mark(to, *how), *how).abs(),
             Measure::Headway { entity, to, how } => {
                 let from = actor(*entity);
-                let distance = self.distance(from, &self.mark(&Goal::Entity(*to)), *how);
+                let distance = self.distance(from, &self.mark(&Goal::Entity(*to), *how), *how);
                 if distance < 0.0 || from.speed <= 0.0 { f64::INFINITY } else { distance / from.speed }
             }
             Measure::TimeToCollision { entity, to, how } => {
-                let (from, mark) = (actor(*entity), self.mark(to));
+                let (from, mark) = (actor(*entity), self.mark(to, *how));
                 let closing = mark.as_ref().map_or(0.0, |mark| self.closing(from, mark, *how));
                 let distance = self.distance(from, &mark, *how).abs();
                 if closing <= 0.0 { f64::INFINITY } else { distance / closing }
@@ -69,7 +78,9 @@ impl Cast {
                 let actor = actor(*entity);
                 let from = match from {
                     Bearing::World => 0.0,
-                    Bearing::Lane => actor.on_lane().map_or(0.0, |place| place.pose(&self.map).heading - place.turn),
+                    Bearing::Lane => {
+                        actor.on_lane(&self.map).map_or(0.0, |place| place.pose(&self.map).heading - place.turn)
+                    }
                     Bearing::Entity(other) => self.actors[*other].pose.heading,
                 };
                 wrapped(actor.pose.heading - from - wanted).abs()
@@ -80,7 +91,7 @@ impl Cast {
     /// Returns `true` if there is an area of the lanes around an entity, and if no other entity is in it.
     fn is_clear(&self, area: &Clearance) -> bool {
         let from = &self.actors[area.entity];
-        let Some(here) = from.on_lane() else { return true };
+        let Some(here) = from.on_lane(&self.map) else { return true };
         let lane = here.lane_below(&self.map);
         let how = Metric { kind: MetricKind::Longitudinal, freespace: area.freespace, system: System::Road };
         // There is no lane 0 to drive on.
@@ -95,7 +106,8 @@ impl Cast {
         let mut lanes = here.driven_lanes(&self.map);
         let exists = lanes.any(|other| covers(other, here.leads_along(other, &self.map)));
         let is_in = |index: usize| {
-            let Some(there) = self.actors[index].on_lane().filter(|_| self.actors[index].present) else { return false };
+            let actor = &self.actors[index];
+            let Some(there) = actor.on_lane(&self.map).filter(|_| actor.present) else { return false };
             let other = there.lane_below(&self.map);
             covers(other, there.leads_along(other, &self.map))
                 && (-area.reach[1]..=area.reach[0]).contains(&self.distance_to(from, index, how))
@@ -104,12 +116,14 @@ impl Cast {
         exists && !(0..self.actors.len()).filter(counts).any(is_in)
     }
 
-    fn mark(&self, goal: &Goal) -> Option<Mark> {
+    /// Returns the target of a distance; `None` if the target has no place.
+    fn mark(&self, goal: &Goal, how: Metric) -> Option<Mark> {
         match goal {
             Goal::Entity(other) if !self.actors[*other].present => None,
             Goal::Entity(other) => {
-                let Actor { place, pose, entity, velocity, .. } = &self.actors[*other];
-                Some(Mark { at: *place, pose: *pose, middle: entity.middle, half: entity.half, velocity: *velocity })
+                let actor = &self.actors[*other];
+                let at = if how.is_along_lanes() { actor.place(&self.map) } else { Whereabouts::Free(actor.pose) };
+                Some(Mark { at, ..Mark::of(actor) })
             }
             Goal::Place(position) => {
                 let at = find(position, &self.actors, &self.map).ok()?;
@@ -124,7 +138,7 @@ impl Cast {
 
     /// Returns the distance from an entity to a mark in metres; negative if the mark is behind, or to the right.
     pub(super) fn distance_to(&self, from: &Actor, other: usize, how: Metric) -> f64 {
-        self.distance(from, &self.mark(&Goal::Entity(other)), how)
+        self.distance(from, &self.mark(&Goal::Entity(other), how), how)
     }
 
     /// Returns the speed in m/s at which the distance from an entity to a mark becomes shorter.
@@ -132,9 +146,10 @@ impl Cast {
         let away = mark.pose.position - from.pose.position;
         let velocity = from.velocity;
         let along = |axis: Vector2<f64>| -(mark.velocity - velocity).dot(&axis) * away.dot(&axis).signum();
-        match (how.kind, how.system, from.on_lane(), &mark.at) {
+        let here = Some(from).filter(|_| how.is_along_lanes()).and_then(|from| from.on_lane(&self.map));
+        match (how.kind, here, &mark.at) {
             (MetricKind::Straight, ..) => along(away.normalize()),
-            (MetricKind::Longitudinal, System::Lane | System::Road, Some(here), Whereabouts::OnLane(there)) => {
+            (MetricKind::Longitudinal, Some(here), Whereabouts::OnLane(there)) => {
                 let speed = |place: &Place, velocity: Vector2<f64>| {
                     let heading = place.heading(&self.map);
                     velocity.dot(&Pose { position: Vector2::zeros(), heading }.forward())
@@ -142,7 +157,7 @@ impl Cast {
                 let theirs = speed(there, mark.velocity);
                 let theirs = if there.is_against() == here.is_against() { theirs } else { -theirs };
                 let metres = here.distance_to(there, &self.map).unwrap_or(0.0);
-                (speed(here, velocity) - theirs) * metres.signum()
+                (speed(&here, velocity) - theirs) * metres.signum()
             }
             (MetricKind::Longitudinal, ..) => along(from.pose.forward()),
             (MetricKind::Lateral, ..) => along(from.pose.left()),
@@ -154,16 +169,18 @@ impl Cast {
         let local = from.pose.to_local(mark.pose.position);
         let boxes = || gaps(from, mark);
         // Beside all roads there are no lanes: the entity's own axes replace them.
-        let is_on_roads = from.on_lane().is_some() && matches!(mark.at, Whereabouts::OnLane(_));
-        match (how.kind, if is_on_roads { how.system } else { System::Entity }) {
+        let places = match (how.is_along_lanes(), &mark.at) {
+            (true, Whereabouts::OnLane(there)) => from.on_lane(&self.map).map(|here| (here, there)),
+            _ => None,
+        };
+        match (how.kind, places) {
             (MetricKind::Straight, _) if how.freespace => boxes().map(|gap| gap.max(0.0)).norm(),
             (MetricKind::Straight, _) => local.norm(),
-            (MetricKind::Longitudinal, System::Entity) if how.freespace => signed(boxes().x, local.x),
-            (MetricKind::Lateral, System::Entity) if how.freespace => signed(boxes().y, local.y),
-            (MetricKind::Longitudinal, System::Entity) => local.x,
-            (MetricKind::Lateral, System::Entity) => local.y,
-            (kind, System::Lane | System::Road) => {
-                let (Some(here), Whereabouts::OnLane(there)) = (from.on_lane(), &mark.at) else { return f64::INFINITY };
+            (MetricKind::Longitudinal, None) if how.freespace => signed(boxes().x, local.x),
+            (MetricKind::Lateral, None) if how.freespace => signed(boxes().y, local.y),
+            (MetricKind::Longitudinal, None) => local.x,
+            (MetricKind::Lateral, None) => local.y,
+            (kind, Some((here, there))) => {
                 if kind == MetricKind::Lateral {
                     return there.t(&self.map) - here.t(&self.map);
                 }
@@ -211,14 +228,7 @@ fn gaps(from: &Actor, mark: &Mark) -> Vector2<f64> {
 /// Returns `true` if the boxes of two entities overlap, by the theorem of separating axes.
 fn touching(a: &Actor, b: &Actor) -> bool {
     let overlaps = |one: &Actor, other: &Actor| {
-        let pose = other.pose;
-        let mark = Mark {
-            at: other.place,
-            pose,
-            middle: other.entity.middle,
-            half: other.entity.half,
-            velocity: Vector2::zeros(),
-        };
+        let mark = Mark::of(other);
         gaps(one, &mark).max() <= 0.0
     };
     a.present && b.present && overlaps(a, b) && overlaps(b, a)

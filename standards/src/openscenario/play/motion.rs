@@ -88,7 +88,7 @@ impl Motion {
             }
             Self::LaneChange(transition) => {
                 let actor = &mut cast.actors[entity];
-                let Some(place) = actor.on_lane() else { return true };
+                let Some(place) = actor.on_lane(&cast.map) else { return true };
                 let metres = actor.speed * dt;
                 transition.advance(dt, metres.abs());
                 let aside = transition.value() - place.offset;
@@ -99,7 +99,7 @@ impl Motion {
             }
             Self::LaneOffset { transition, continuous } => {
                 let actor = &mut cast.actors[entity];
-                let Some(place) = actor.on_lane() else { return true };
+                let Some(place) = actor.on_lane(&cast.map) else { return true };
                 let rate = if place.is_against() { -transition.rate() } else { transition.rate() };
                 actor.step.angle = if actor.speed == 0.0 { 0.0 } else { libm::atan2(rate, actor.speed.abs()) };
                 actor.step.offset = Some(transition.value());
@@ -124,7 +124,10 @@ impl Motion {
             }
             Self::Beside { beside, metres, speed } => {
                 let other = &cast.actors[beside.entity];
-                let (Some(here), Some(there)) = (cast.actors[entity].on_lane(), other.on_lane()) else { return true };
+                let (Some(here), Some(there)) = (cast.actors[entity].on_lane(&cast.map), other.on_lane(&cast.map))
+                else {
+                    return true;
+                };
                 // All distances and speeds are to the left of the road.
                 let wanted = there.t(&cast.map) + if there.is_against() { -*metres } else { *metres };
                 let missing = wanted - here.t(&cast.map);

@@ -186,7 +186,7 @@ impl Stage {
     /// Takes over the motion of the ego vehicle during the last tick if a driver drives it. The car moves after the storyboard.
     pub fn catch_up(&mut self) {
         if let (Some(dt), Some(motion)) = (self.behind.take(), self.cast.lead.driven()) {
-            self.cast.actors[self.cast.ego].follow(motion, dt);
+            self.cast.actors[self.cast.ego].follow(motion, dt, &self.cast.map);
         }
     }
 

@@ -83,7 +83,7 @@ impl Cast {
                 };
                 check_lane(place.road, lane, place.s, &self.map)?;
                 place.enter(lane, &self.map);
-                self.actors[entity].place = Whereabouts::OnLane(place);
+                self.actors[entity].set_place(Whereabouts::OnLane(place));
                 let target = if place.is_against() { -*offset } else { *offset };
                 Some(Motion::LaneChange(dynamics.from(place.offset, target)))
             }
@@ -92,7 +92,7 @@ impl Cast {
                 let target = match target {
                     Lateral::Absolute(value) => *value,
                     Lateral::Relative { entity: of, value } => {
-                        self.actors[*of].on_lane().map_or(0.0, |other| other.offset) + value
+                        self.actors[*of].on_lane(&self.map).map_or(0.0, |other| other.offset) + value
                     }
                 };
                 let target = if place.is_against() { -target } else { target };
@@ -183,7 +183,7 @@ impl Cast {
     /// Returns the place of an entity on its lane.
     fn on_lane(&self, entity: usize) -> Result<Place, Lost> {
         let actor = &self.actors[entity];
-        actor.on_lane().copied().ok_or_else(|| Lost::OffRoad { entity: actor.entity.name.clone() })
+        actor.on_lane(&self.map).ok_or_else(|| Lost::OffRoad { entity: actor.entity.name.clone() })
     }
 
     /// Returns the metres that an entity has to move forward to have its distance from another entity. `ahead` is `true` if the

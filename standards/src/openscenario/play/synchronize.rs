@@ -80,7 +80,7 @@ fn distance(entity: usize, target: &Position, cast: &Cast) -> Option<f64> {
     if let (Position::Along { s, .. }, Some(done)) = (target, actor.on_track) {
         return Some(s - done);
     }
-    match (find(target, &cast.actors, &cast.map).ok()?, actor.on_lane()) {
+    match (find(target, &cast.actors, &cast.map).ok()?, actor.on_lane(&cast.map)) {
         (Whereabouts::OnLane(there), Some(here)) => here.distance_along(&there, actor.route.as_ref(), &cast.map),
         (Whereabouts::OnLane(there), None) => Some((there.pose(&cast.map).position - actor.pose.position).norm()),
         (Whereabouts::Free(pose), _) => Some((pose.position - actor.pose.position).norm()),
