@@ -136,7 +136,7 @@ pub fn kwise_dispersion(
         // Counting is faster than looking at one combination after the other.
         return Ok(KwiseDispersion::of_coverage(counted));
     }
-    let found = worst_of(projections(dims, rules, k)?, valid, tests, deadline);
+    let found = worst_of(projections(dims, rules, k)?, valid.map(|valid| (valid, Effort::Quick)), tests, deadline);
     // `None` if the deadline passed before any projection was searched: then 0 is the only known lower bound.
     let mut worst = match found.worst {
         Some(worst) => worst,
@@ -160,9 +160,10 @@ pub fn row_dispersion(dims: usize, valid: Option<&Validity>, tests: &[Point], de
         return Bracket::exact(1.0);
     }
     let rows: BTreeSet<&[usize]> = tests.iter().map(|test| &test.discrete[..]).collect();
+    let effort = Effort::for_parts(rows.len() as u64);
     let row =
         |row: &[usize]| Projection { fixed: row.iter().copied().enumerate().collect(), axes: (0..dims).collect() };
-    let found = worst_of(rows.into_iter().map(row), valid, tests, deadline);
+    let found = worst_of(rows.into_iter().map(row), valid.map(|valid| (valid, effort)), tests, deadline);
     let lower = found.worst.map_or(0.0, |worst| worst.volume.lower);
     Bracket { lower, upper: found.upper.max(lower) }
 }
@@ -177,7 +178,7 @@ struct Worst {
 
 fn worst_of(
     mut projections: impl Iterator<Item = Projection>,
-    valid: Option<&Validity>,
+    valid: Option<(&Validity, Effort)>,
     tests: &[Point],
     deadline: Deadline,
 ) -> Worst {
@@ -208,7 +209,7 @@ fn worst_of(
 /// Returns the largest hole of a projection; `None` if the search proves that the hole is no larger than `above`.
 fn hole(
     projection: Projection,
-    valid: Option<&Validity>,
+    valid: Option<(&Validity, Effort)>,
     tests: &[Point],
     above: f64,
     deadline: Deadline,
@@ -222,7 +223,7 @@ fn hole(
         let volume = if selected.next().is_some() { 0.0 } else { 1.0 };
         (volume > above).then_some((Bracket::exact(volume), None))
     } else {
-        let valid = valid.map(|valid| valid.part(&projection, Effort::Quick));
+        let valid = valid.map(|(valid, effort)| valid.part(&projection, effort));
         // Without a valid test there is no hole.
         if valid.as_ref().is_some_and(|valid| valid.share().upper == 0.0) {
             return None;

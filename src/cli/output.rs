@@ -77,6 +77,8 @@ impl Table {
 
     /// Adds the rows of a coverage report.
     pub fn coverage(&mut self, coverage: &Coverage) {
+        let is_part = coverage.continuous.as_ref().is_some_and(|continuous| continuous.valid_share.is_some());
+        let bracket = |found: &Bracket| if is_part { bracket_of_part(found) } else { bracket(found) };
         if let Some(continuous) = &coverage.continuous {
             self.continuous(continuous);
         }
@@ -111,7 +113,7 @@ impl Table {
 
     fn continuous(&mut self, measured: &Continuous) {
         if let Some(share) = &measured.valid_share {
-            self.row("valid share", &format!("{} of the box of the continuous parameters", bracket(share)));
+            self.row("valid share", &format!("{} of the box of the continuous parameters", short_bracket(share)));
         }
         for (measure, result) in &measured.measured {
             let label = measure.descriptor().label;
@@ -121,7 +123,8 @@ impl Table {
                 }
                 Measured::Bracket(found) => self.row(label, &bracket(found)),
                 Measured::Hole(hole) => {
-                    self.row(label, &bracket(&hole.volume));
+                    let is_part = measured.valid_share.is_some();
+                    self.row(label, &if is_part { bracket_of_part(&hole.volume) } else { bracket(&hole.volume) });
                     let sides: Vec<String> = hole.largest_empty_box.iter().map(side).collect();
                     self.row("  largest empty box", &sides.join(", "));
                 }
@@ -137,9 +140,9 @@ impl Table {
         }
         let measures = measured.measured.iter().map(|(measure, _)| measure);
         let of_the_box = measures.filter(|measure| !measure.is_of_the_valid_part());
-        let whole: Vec<&str> = of_the_box.map(|measure| measure.descriptor().label).collect();
+        let whole: Vec<&str> = of_the_box.map(|measure| measure.name()).collect();
         if measured.valid_share.is_some() && !whole.is_empty() {
-            self.row("  of the whole box", &format!("{}: they ignore the constraints", whole.join(", ")));
+            self.row("  of the whole box", &whole.join(", "));
         }
     }
 
@@ -183,6 +186,12 @@ pub(super) fn bracket(bracket: &Bracket) -> String {
     } else {
         format!("between {} and {} ({CUT_SHORT})", digits(bracket.lower), digits(bracket.upper))
     }
+}
+
+/// Prints the bracket of a measure that counts the valid part of a space.
+fn bracket_of_part(found: &Bracket) -> String {
+    let reason = if found.is_exact() { "" } else { " (open: edges of the valid part, or the time limit)" };
+    format!("{}{reason}", short_bracket(found))
 }
 
 /// Prints a bracket in little room.

@@ -17,6 +17,9 @@ const MOST_ROWS: usize = 64;
 /// The greatest number of continuous parameters outside of a projection whose corners are all tried.
 const MOST_BESIDE: usize = 4;
 
+/// The greatest number of parts that get the full effort.
+const FEW_PARTS: u64 = 16;
+
 /// The effort that goes into a valid part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
@@ -24,6 +27,13 @@ pub enum Effort {
     Full,
     /// The effort for one of many parts: hundreds of cells.
     Quick,
+}
+
+impl Effort {
+    /// Returns the effort for each of so many parts.
+    pub fn for_parts(parts: u64) -> Self {
+        if parts <= FEW_PARTS { Self::Full } else { Self::Quick }
+    }
 }
 
 /// The constraints of a space that depend on continuous parameters. It keeps the parts that it made, because rows and
@@ -61,9 +71,9 @@ impl<'a> Validity<'a> {
     }
 
     /// Returns the valid part of the continuous parameters for a row of discrete values.
-    pub fn of_row(&self, row: &[usize]) -> Arc<ValidPart> {
+    pub fn of_row(&self, row: &[usize], effort: Effort) -> Arc<ValidPart> {
         let fixed = row.iter().copied().enumerate().collect();
-        self.part(&Projection { fixed, axes: (0..self.space.dims()).collect() }, Effort::Quick)
+        self.part(&Projection { fixed, axes: (0..self.space.dims()).collect() }, effort)
     }
 
     /// Returns the valid part of a projection.
@@ -108,7 +118,7 @@ impl<'a> Validity<'a> {
         };
         let axes = (0..projection.axes.len()).filter(|&at| self.axes.contains(&projection.axes[at])).collect();
         let limits = match effort {
-            Effort::Full => Limits { cuts: 4096, questions: 1 << 16 },
+            Effort::Full => Limits { cuts: 8192, questions: 1 << 17 },
             Effort::Quick => Limits { cuts: 512, questions: 1 << 12 },
         };
         ValidPart::bisect(projection.axes.len(), axes, limits, answer)

@@ -26,7 +26,7 @@ use crate::seeded::mix;
 use crate::sequence::{PerRow, Sequence};
 use crate::strategy::MethodKind;
 use crate::{Generator, GeneratorError, Request, Strategy, family::Family, greedy::GreedyRows};
-use paracosm_coverage::valid::Validity;
+use paracosm_coverage::valid::{Effort, Validity};
 use paracosm_space::Point;
 use row::{Added, Limits, Row, Set};
 use std::cmp::Reverse;
@@ -85,9 +85,10 @@ impl Spread {
         let limits = Limits::new(request.space, family.len(), epsilon, request.deadline);
         let rules = request.space.rules()?;
         let validity = Validity::of(request.space, &rules);
+        let effort = Effort::for_parts(family.len());
         let row = |number| {
             let (discrete, existing) = (family.row(number), existing.remove(&number).unwrap_or_default());
-            let valid = validity.as_ref().map(|validity| validity.of_row(&discrete));
+            let valid = validity.as_ref().map(|validity| validity.of_row(&discrete, effort));
             Row::new(dims, discrete, valid, existing, &limits)
         };
         let rows = (0..family.len()).map(row).collect();
