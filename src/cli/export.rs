@@ -74,11 +74,13 @@ impl Options {
         let about = format!("{}, test {}", study.title(), self.index);
         let roads =
             opendrive::write(&recording.network, &about).map_err(|flaw| Error::from(ExportFlaw::Roads(flaw)))?;
+        // The file of the roads has its objects and signals, too.
+        let map = opendrive::Map::parse(&self.out.join(ROADS), roads.clone())?;
         let ego = match self.ego_as {
             Ego::Trajectory => EgoAs::Trajectory,
             Ego::Controller => EgoAs::Controller,
         };
-        let export = Export { about: &about, date: DATE, roads: ROADS, motion: &recording.motion, ego };
+        let export = Export { about: &about, date: DATE, roads: ROADS, map: &map, motion: &recording.motion, ego };
         create_folder(&self.out)?;
         for (name, text) in [(SCENARIO, export.text()), (ROADS, roads)] {
             write_whole_here(&self.out.join(name), text.as_bytes())?;

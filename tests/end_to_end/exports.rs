@@ -11,33 +11,36 @@ use std::process::{Command, Stdio};
 /// The greatest distance in metres of a body of the exported scenario from the body in the test.
 const CLOSE: f64 = 0.005;
 
-/// The scenarios whose tests are exported, each with further options.
-const SCENARIOS: [(&str, &[&str]); 7] = [
-    ("pedestrian-crossing", &[]),
-    ("highway-traffic", &[]),
-    ("grid-traffic", &["--driver", "planner"]),
-    ("roundabout-entry", &["--driver", "planner"]),
-    ("map-traffic", &["--driver", "planner"]),
-    ("slow-leader.xosc", &["--open", "gap=20..60"]),
+/// The scenarios whose tests are exported, each with the name of its folders and with further options.
+const SCENARIOS: [(&str, &str, &[&str]); 8] = [
+    ("crossing", "pedestrian-crossing", &[]),
+    ("highway", "highway-traffic", &[]),
+    ("grid", "grid-traffic", &["--driver", "planner"]),
+    ("roundabout", "roundabout-entry", &["--driver", "planner"]),
+    ("map", "map-traffic", &["--driver", "planner"]),
+    // The file of the roads has trees, posts, a house and a parked car.
+    ("objects", "map-traffic", &["--driver", "planner", "--set", "roads=FOLDER/objects.xodr", "--open", "cars=0..1"]),
+    ("leader", "FOLDER/slow-leader.xosc", &["--open", "gap=20..60"]),
     // An entity is added, and another one is deleted.
-    ("actions.xosc", &["--open", "count=2..3", "--driver", "default"]),
+    ("actions", "FOLDER/actions.xosc", &["--open", "count=2..3", "--driver", "default"]),
 ];
 
 /// Returns a folder with campaigns of two tests, in which test 1 of each is exported to the folder `NAME-case`.
 fn exported() -> tempfile::TempDir {
-    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests/scenarios/files");
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests");
     let dir = tempfile::tempdir().expect("a folder");
     fs::create_dir(dir.path().join("catalogs")).expect("it is writable");
     for name in ["straight.xodr", "slow-leader.xosc", "actions.xosc", "catalogs/entities.xosc"] {
-        fs::copy(from.join(name), dir.path().join(name)).expect("it is there");
+        fs::copy(from.join("scenarios/files").join(name), dir.path().join(name)).expect("it is there");
     }
-    for (scenario, options) in SCENARIOS {
-        let (log, case) = (format!("{scenario}-log"), format!("{scenario}-case"));
-        // A log names the file of its scenario as the command did.
-        let file = dir.path().join(scenario).to_string_lossy().into_owned();
-        let name = if scenario.ends_with(".xosc") { &file } else { scenario };
-        let arguments = [&[name, "--budget", "2", "--out", &log], options].concat();
-        succeeds(fuzz(dir.path(), &arguments));
+    fs::copy(from.join("roads/files/objects.xodr"), dir.path().join("objects.xodr")).expect("it is there");
+    // A log names files as the command did.
+    let here = dir.path().to_string_lossy();
+    for (name, scenario, options) in SCENARIOS {
+        let (log, case) = (format!("{name}-log"), format!("{name}-case"));
+        let given = [&[scenario, "--budget", "2", "--out", &log], options].concat();
+        let given: Vec<String> = given.iter().map(|argument| argument.replace("FOLDER", &here)).collect();
+        succeeds(fuzz(dir.path(), &given.iter().map(String::as_str).collect::<Vec<_>>()));
         succeeds(fuzz(dir.path(), &["export", &log, "1", "--out", &case]));
     }
     dir
@@ -83,12 +86,12 @@ fn distance(test: &Motion, export: &Motion) -> f64 {
 #[test]
 fn exported_tests_are_read_back_with_the_same_motion() {
     let dir = exported();
-    for (scenario, _) in SCENARIOS {
-        let log = dir.path().join(format!("{scenario}-log"));
-        let case = dir.path().join(format!("{scenario}-case/scenario.xosc"));
+    for (name, ..) in SCENARIOS {
+        let log = dir.path().join(format!("{name}-log"));
+        let case = dir.path().join(format!("{name}-case/scenario.xosc"));
         let far = distance(&recorded(&log, 1), &played(&case));
-        assert!(far <= CLOSE, "{scenario}: {far} m");
-        eprintln!("{scenario}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
+        assert!(far <= CLOSE, "{name}: {far} m");
+        eprintln!("{name}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
     }
 }
 
@@ -137,16 +140,16 @@ fn exports_pass_the_quality_checkers_of_asam() {
     let Some(python) = judge() else { return };
     let dir = exported();
     let scenarios = ["qc_openscenario", "xoscBundle"];
-    for (scenario, _) in SCENARIOS {
-        let case = dir.path().join(format!("{scenario}-case"));
+    for (name, ..) in SCENARIOS {
+        let case = dir.path().join(format!("{name}-case"));
         let checked = report(&python, &case.join("scenario.xosc"), scenarios);
-        assert!(checked.matches("status=\"completed\"").count() >= 5, "{scenario}: {checked}");
-        assert!(!checked.contains("<Issue"), "{scenario}: {checked}");
+        assert!(checked.matches("status=\"completed\"").count() >= 5, "{name}: {checked}");
+        assert!(!checked.contains("<Issue"), "{name}: {checked}");
         let checked = report(&python, &case.join("roads.xodr"), ["qc_opendrive", "xodrBundle"]);
-        assert!(!checked.contains("<Issue"), "{scenario}: {checked}");
+        assert!(!checked.contains("<Issue"), "{name}: {checked}");
     }
     // The checker finds what is wrong.
-    let file = dir.path().join("pedestrian-crossing-case/wrong.xosc");
+    let file = dir.path().join("crossing-case/wrong.xosc");
     let text = fs::read_to_string(file.with_file_name("scenario.xosc")).expect("it was written");
     fs::write(&file, text.replacen("<EntityRef entityRef=\"", "<EntityRef entityRef=\"No", 1)).expect("it is writable");
     assert!(report(&python, &file, scenarios).contains("<Issue"));

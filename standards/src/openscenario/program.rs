@@ -12,7 +12,7 @@ use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
-use crate::opendrive::Map;
+use crate::opendrive::{Map, Thing};
 use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
@@ -49,11 +49,12 @@ pub struct Xosc {
     roads: Mutex<BTreeMap<String, Roads>>,
 }
 
-/// A map and its road network.
+/// A map, its road network, and the bodies of its objects and signals.
 #[derive(Clone)]
 struct Roads {
     map: Arc<Map>,
     network: Arc<RoadNetwork>,
+    things: Arc<[Thing]>,
     /// The remarks on the file of the map.
     notes: Arc<[String]>,
 }
@@ -178,6 +179,10 @@ impl Xosc {
         for index in 0..count {
             self.show(s, &stage, index, index != ego);
         }
+        // After the entities, whose signals have the names of the file.
+        for thing in roads.things.iter() {
+            s.place(*thing);
+        }
         s.duration(longest);
         s.end(&end);
         if has_stop {
@@ -233,7 +238,7 @@ impl Xosc {
         let map = Map::read(&file)?;
         let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
         let notes = map.notes.iter().map(|note| note.in_file(&file)).collect();
-        let roads = Roads { map: Arc::new(map), network, notes };
+        let roads = Roads { things: Thing::all(&map, &network), map: Arc::new(map), network, notes };
         known.insert(named.into_owned(), roads.clone());
         Ok(roads)
     }

@@ -9,4 +9,5 @@ mod others;
 mod page;
 mod parameters;
 mod semantics;
+mod things;
 mod worlds;
