@@ -10,6 +10,7 @@ mod demand;
 mod distribution;
 mod elements;
 mod entity;
+mod environment;
 mod export;
 mod kind;
 mod linked;
@@ -30,8 +31,10 @@ mod rule;
 mod scope;
 mod state;
 mod story;
+mod sun;
 mod transition;
 mod variable;
+mod weather;
 
 pub use elements::elements;
 pub use export::{EgoAs, Export};

@@ -12,6 +12,7 @@ use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
+use super::weather;
 use crate::opendrive::{Map, Thing};
 use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
@@ -168,6 +169,7 @@ impl Xosc {
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
         let longest = longest(&board);
+        let weather_changes = board.weather_changes();
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
             Ok(stage) => Rc::new(RefCell::new(stage)),
             Err(misplaced) => return s.refuse(&format!("{}:{misplaced}", self.document.file().display())),
@@ -175,6 +177,7 @@ impl Xosc {
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
         let end = direct(s, &stage, &conditions);
+        weather::place(s, &stage, weather_changes);
         let count = stage.borrow().cast.actors.len();
         for index in 0..count {
             self.show(s, &stage, index, index != ego);

@@ -10,4 +10,5 @@ mod page;
 mod parameters;
 mod semantics;
 mod things;
+mod weather;
 mod worlds;
