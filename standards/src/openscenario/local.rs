@@ -35,11 +35,9 @@ pub(super) fn declare(
         let value = value.unwrap_or_default().into_owned();
         scope.define(&demand.name, text, seen, &value);
         names.push(demand.name.clone());
-        if demand.depends_on_values() {
-            if !scope.sources(scope.len() - 1, demand.limits()).is_empty() {
-                locals.push(Local { scope: scope.clone(), demand });
-                continue;
-            }
+        if demand.depends_on_values() && !scope.sources(scope.len() - 1, demand.limits()).is_empty() {
+            locals.push(Local { scope: scope.clone(), demand });
+            continue;
         }
         if let Some(breach) = demand.breach(&value, scope) {
             return Err(breach.error(Node { element: place, scope: &*scope }, &value));
