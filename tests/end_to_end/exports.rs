@@ -1,7 +1,9 @@
 //! `export`: tests as files of OpenSCENARIO and OpenDRIVE, which are read back and judged by the checkers of ASAM.
 
 use crate::common::{fuzz, refused, stderr, succeeds};
-use paracosm::engine::{Control, Motion, Run, Setup, Step};
+use paracosm::engine::driver::find;
+use paracosm::engine::vehicle::VehicleModel;
+use paracosm::engine::{Control, Motion, Run, Setup, Step, simulate};
 use paracosm::standards::openscenario::Xosc;
 use paracosm::{Log, campaign::Worker};
 use std::fs;
@@ -42,6 +44,11 @@ fn exported() -> tempfile::TempDir {
         let given: Vec<String> = given.iter().map(|argument| argument.replace("FOLDER", &here)).collect();
         succeeds(fuzz(dir.path(), &given.iter().map(String::as_str).collect::<Vec<_>>()));
         succeeds(fuzz(dir.path(), &["export", &log, "1", "--out", &case]));
+        if scenario.ends_with(".xosc") {
+            let storyboard = format!("{name}-storyboard");
+            let output = fuzz(dir.path(), &["export", &log, "1", "--out", &storyboard, "--ego-as", "controller"]);
+            assert!(stderr(&succeeds(output)).contains("`Ego` is left to the other simulator"));
+        }
     }
     dir
 }
@@ -96,11 +103,37 @@ fn exported_tests_are_read_back_with_the_same_motion() {
 }
 
 #[test]
+fn the_storyboard_of_a_file_is_exported_with_the_values_of_the_test_and_gives_the_same_trace() {
+    let dir = exported();
+    for (name, driver) in [("leader", "aeb"), ("actions", "default")] {
+        let log = Log::read(&dir.path().join(format!("{name}-log")), &paracosm::catalogue()).expect("a log");
+        let folder = dir.path().join(format!("{name}-storyboard"));
+        let mut files: Vec<_> =
+            fs::read_dir(&folder).expect("it is there").map(|file| file.expect("one").file_name()).collect();
+        files.sort();
+        assert_eq!(files, ["roads.xodr", "scenario.xosc"]);
+        // Nothing else is needed.
+        let moved = tempfile::tempdir().expect("a folder");
+        for file in files {
+            fs::copy(folder.join(&file), moved.path().join(&file)).expect("it is there");
+        }
+        let program =
+            Xosc::read(&moved.path().join("scenario.xosc")).unwrap_or_else(|error| panic!("{error}")).program();
+        let descriptor = find(driver).expect("a driver");
+        let mut driver = (descriptor.make)(&descriptor.settings(&[]).expect("no settings"));
+        let nominal = program.declare().expect("it is sound").nominal();
+        let trace = simulate(&program, &nominal, VehicleModel::default(), driver.as_mut()).trace.expect("a trace");
+        assert_eq!(Some(trace.hash()), log.trials()[1].trace_hash, "{name}");
+    }
+}
+
+#[test]
 fn an_export_replaces_nothing_and_leaves_the_ego_vehicle_to_a_controller() {
     let dir = tempfile::tempdir().expect("a folder");
     succeeds(fuzz(dir.path(), &["pedestrian-crossing", "--budget", "2", "--out", "log"]));
     let output = succeeds(fuzz(dir.path(), &["export", "log", "0", "--out", "case", "--ego-as", "controller"]));
-    assert!(stderr(&output).contains("except the ego vehicle"), "{}", stderr(&output));
+    let says = stderr(&output);
+    assert!(says.contains("except the ego vehicle") && says.contains("the scenario is a program"), "{says}");
     let text = fs::read_to_string(dir.path().join("case/scenario.xosc")).expect("it was written");
     assert_eq!(text.matches("<FollowTrajectoryAction>").count(), 1, "{text}");
     refused(&fuzz(dir.path(), &["export", "log", "0", "--out", "case"]), &["scenario.xosc exists"]);
@@ -140,8 +173,9 @@ fn exports_pass_the_quality_checkers_of_asam() {
     let Some(python) = judge() else { return };
     let dir = exported();
     let scenarios = ["qc_openscenario", "xoscBundle"];
-    for (name, ..) in SCENARIOS {
-        let case = dir.path().join(format!("{name}-case"));
+    let trajectories = SCENARIOS.map(|(name, ..)| format!("{name}-case"));
+    for name in trajectories.into_iter().chain(["leader-storyboard", "actions-storyboard"].map(str::to_owned)) {
+        let case = dir.path().join(&name);
         let checked = report(&python, &case.join("scenario.xosc"), scenarios);
         assert!(checked.matches("status=\"completed\"").count() >= 5, "{name}: {checked}");
         assert!(!checked.contains("<Issue"), "{name}: {checked}");

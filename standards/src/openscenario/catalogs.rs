@@ -103,7 +103,14 @@ impl CatalogFiles {
     }
 }
 
-impl Catalogs<'_> {
+impl<'a> Catalogs<'a> {
+    /// Returns the entry that an element `CatalogReference` names, which is one of the given kinds; `None` if there is none.
+    pub fn entry(&self, reference: Node<'_>, kinds: &[&str]) -> Result<Option<Element<'a, 'a>>, ReadError> {
+        let [catalog, name] = [reference.required("catalogName")?, reference.required("entryName")?];
+        let mut entries = self.all.get(catalog.as_ref()).into_iter().flat_map(|catalog| catalog.elements());
+        Ok(entries.find(|entry| kinds.contains(&entry.name()) && entry.text("name") == Some(name.as_ref())))
+    }
+
     /// Reads an element that is given directly or by a `CatalogReference`. The element sees its own parameters, with
     /// the values that the reference assigns.
     pub fn resolved<T>(

@@ -4,6 +4,7 @@ mod action;
 mod catalogs;
 mod clock;
 mod clothoid;
+mod concrete;
 mod condition;
 mod constraints;
 mod demand;
@@ -36,6 +37,7 @@ mod transition;
 mod variable;
 mod weather;
 
+pub use concrete::Concrete;
 pub use elements::elements;
 pub use export::{EgoAs, Export};
 pub use parameters::EGO;

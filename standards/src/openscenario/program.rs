@@ -35,15 +35,15 @@ const LATEST: f64 = 3600.0;
 /// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
 const ONWARD: f64 = 5000.0;
 /// The outermost element of a file.
-const ROOT: &str = "OpenSCENARIO";
+pub(super) const ROOT: &str = "OpenSCENARIO";
 
 /// A scenario of a file, with its catalogs, its roads, and the distribution of its parameters.
 pub struct Xosc {
     name: String,
     folder: PathBuf,
-    document: Document,
-    catalogs: CatalogFiles,
-    parameters: Parameters,
+    pub(super) document: Document,
+    pub(super) catalogs: CatalogFiles,
+    pub(super) parameters: Parameters,
     /// The remarks on the file and on the file of the distribution.
     notes: Vec<String>,
     /// The roads that were read, by the names of their files in the scenario.
@@ -52,8 +52,8 @@ pub struct Xosc {
 
 /// A map, its road network, and the bodies of its objects and signals.
 #[derive(Clone)]
-struct Roads {
-    map: Arc<Map>,
+pub(super) struct Roads {
+    pub map: Arc<Map>,
     network: Arc<RoadNetwork>,
     things: Arc<[Thing]>,
     /// The remarks on the file of the map.
@@ -159,7 +159,7 @@ impl Xosc {
         for constraint in constraints {
             s.constrain(constraint);
         }
-        let usual = board.entities[ego(&board)].name.clone();
+        let usual = board.entities[board.usual_ego()].name.clone();
         let names = board.entities.iter().map(|entity| entity.name.as_str().into()).collect();
         let mut parameter = Parameter::new(EGO, Domain::Choice(names));
         parameter.default = Some(usual.as_str().into());
@@ -231,7 +231,7 @@ impl Xosc {
     }
 
     /// Returns the roads of the file that an element names, which is read once.
-    fn roads_in(&self, logic: Node<'_>) -> Result<Roads, ReadError> {
+    pub(super) fn roads_in(&self, logic: Node<'_>) -> Result<Roads, ReadError> {
         let named = logic.required("filepath")?;
         let mut known = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(roads) = known.get(named.as_ref()) {
@@ -292,13 +292,6 @@ fn direct(s: &mut Scenario, stage: &Rc<RefCell<Stage>>, conditions: &[Condition]
     let truths = vec![false; inputs.len()];
     draft.geometric(Director { stage: stage.clone(), conditions: inputs, truths, measures, stopped });
     end
-}
-
-/// Returns the index of the entity that the system under test drives: `Ego`, or the first entity with a controller, or the
-/// first entity.
-fn ego(board: &Storyboard) -> usize {
-    let named = board.entities.iter().position(|entity| entity.name == "Ego");
-    named.or_else(|| board.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
 }
 
 /// Returns the ego vehicle, with the way along its lane and straight on.

@@ -52,6 +52,7 @@ impl Stage {
         let asked =
             Self::conditions(&board).flat_map(|condition| &condition.check.measures).filter_map(Measure::offroad);
         let asked: Vec<usize> = asked.collect();
+        let is_controlled = board.controls(ego);
         let Storyboard { entities, variables, surroundings, init, items, stop } = board;
         let mut inputs = 0..;
         let mut watch = |trigger: &Option<Trigger>| trigger.as_ref().map(|trigger| Watch::new(trigger, &mut inputs));
@@ -111,12 +112,8 @@ impl Stage {
         }
         let (state, transition) = (State::Running, None);
         stage.items.push(Playing { item, last: 0, state, transition, runs: 0, start: None, stop: None, motions });
-        let activates = |playing: &Playing| match &playing.item.kind {
-            Kind::Action(actors, Action::Activate { .. }) => actors.contains(&ego),
-            _ => false,
-        };
         // If nothing activates the controller of the ego vehicle, the controller is active from the beginning.
-        if !stage.items.iter().any(activates) {
+        if !is_controlled {
             stage.cast.lead.hand_over();
         }
         stage.cast.lead.to(stage.cast.actors[ego].motion());
