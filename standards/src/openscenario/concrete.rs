@@ -9,8 +9,10 @@ use super::parameters::EGO;
 use super::program::{ROOT, Xosc};
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
+use super::unique::Renamed;
 use crate::xml::{Edits, Element, ReadError, escaped};
 use paracosm_space::Values;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A scenario of a file with the values of one test.
@@ -38,6 +40,17 @@ const REFERRING: [(&str, &[&str]); 9] = [
     ("TrajectoryRef", &["Trajectory"]),
     ("EnvironmentAction", &["Environment"]),
 ];
+/// The elements of a storyboard, and their kinds in conditions.
+const KINDS: [(&str, &str); 6] = [
+    ("Story", "story"),
+    ("Act", "act"),
+    ("ManeuverGroup", "maneuverGroup"),
+    ("Maneuver", "maneuver"),
+    ("Event", "event"),
+    ("Action", "action"),
+];
+/// The greatest number of entries of catalogs within each other. In the standard, an entry refers to an entry without references.
+const DEEPEST: usize = 8;
 /// A controller about which the scenario says nothing: that of the other simulator.
 const CONTROLLER: &str =
     "<ObjectController><Controller name=\"system under test\"><Properties/></Controller></ObjectController>";
@@ -59,7 +72,9 @@ impl Xosc {
         let map = self.roads_in(root.child("RoadNetwork")?.child("LogicFile")?)?.map;
         let board = Storyboard::read(root, &catalogs)?;
         let ego = test.get(EGO).map_or_else(|| board.entities[board.usual_ego()].name.clone(), ToString::to_string);
-        let mut writing = Writing { catalogs: &catalogs, roads, ego: &ego, notes: Vec::new() };
+        let renamed = Renamed::of(&board);
+        let notes = renamed.notes().collect();
+        let mut writing = Writing { catalogs: &catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
         let mut edits = writing.edits(root.element, &scope, &[])?;
         if !board.activates(&ego) {
             let is_first_version = root.child("FileHeader")?.element.text("revMinor") == Some("0");
@@ -84,6 +99,9 @@ struct Writing<'w> {
     roads: &'w str,
     /// The name of the ego vehicle.
     ego: &'w str,
+    renamed: &'w Renamed,
+    /// The number of entries of catalogs around the present element.
+    depth: usize,
     notes: Vec<String>,
 }
 
@@ -122,6 +140,7 @@ impl Writing<'_> {
             if is_ego && element.first("ObjectController").is_none() {
                 edits.append(element, CONTROLLER);
             }
+            self.rename(node, &mut edits, element)?;
             for child in element.elements().filter(|child| child.name() != "ParameterDeclarations") {
                 match self.instead(element, Node { element: child, scope: &scope })? {
                     Some(text) => edits.replace(child, text),
@@ -130,6 +149,22 @@ impl Writing<'_> {
             }
         }
         Ok(edits)
+    }
+
+    /// Writes the new name of an element of the storyboard, or of the element to which a condition refers.
+    fn rename<'a>(&self, node: Node<'_>, edits: &mut Edits<'a>, element: Element<'a, 'a>) -> Result<(), ReadError> {
+        let (kind, attribute) = match KINDS.iter().find(|(name, _)| *name == node.name()) {
+            Some((_, kind)) => (Cow::Borrowed(*kind), "name"),
+            None if node.name() == "StoryboardElementStateCondition" => {
+                (node.required("storyboardElementType")?, "storyboardElementRef")
+            }
+            None => return Ok(()),
+        };
+        let name = node.text(attribute)?.unwrap_or_default();
+        if let Some(new) = self.renamed.name(&kind, &name) {
+            edits.set(element, attribute, new);
+        }
+        Ok(())
     }
 
     /// Returns the text that replaces an element; `None` if the element stays.
@@ -145,12 +180,16 @@ impl Writing<'_> {
             "CatalogReference" => {
                 let kinds =
                     REFERRING.iter().find(|(name, _)| *name == parent.name()).map_or(&[][..], |(_, kinds)| *kinds);
-                let Some(entry) = self.catalogs.entry(child, kinds)? else {
+                let entry = if self.depth < DEEPEST { self.catalogs.entry(child, kinds)? } else { None };
+                let Some(entry) = entry else {
                     self.notes.push(note("no catalog has the entry of this `CatalogReference`, which stays as it is"));
                     return Ok(None);
                 };
                 let given: Vec<_> = child.first("ParameterAssignments").into_iter().flat_map(Node::elements).collect();
-                Some(self.edits(entry, child.scope, &given)?.finish())
+                self.depth += 1;
+                let text = self.edits(entry, child.scope, &given)?.finish();
+                self.depth -= 1;
+                Some(text)
             }
             _ => None,
         })

@@ -34,6 +34,7 @@ mod state;
 mod story;
 mod sun;
 mod transition;
+mod unique;
 mod variable;
 mod weather;
 

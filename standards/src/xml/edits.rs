@@ -16,7 +16,7 @@ impl<'a> Edits<'a> {
         Self { root, all: Vec::new() }
     }
 
-    /// Gives an attribute of an element a value.
+    /// Gives an attribute of an element a value. The last value holds.
     pub fn set(&mut self, element: Element<'a, 'a>, attribute: &str, value: &str) {
         let value = escaped(value).replace('\'', "&apos;");
         match element.value_range(attribute) {
@@ -67,9 +67,13 @@ impl<'a> Edits<'a> {
         self.all.sort_by_key(|(range, _)| (range.start, range.end));
         let text = self.root.file_text();
         let mut changed = String::new();
-        for (range, new) in self.all {
+        for (index, (range, new)) in self.all.iter().enumerate() {
+            let is_last = self.all.get(index + 1).is_none_or(|(next, _)| next != range || range.is_empty());
+            if !is_last {
+                continue;
+            }
             changed.push_str(&text[at..range.start]);
-            changed.push_str(&new);
+            changed.push_str(new);
             at = range.end;
         }
         changed.push_str(&text[at..end]);
@@ -90,6 +94,7 @@ mod tests {
         let within = |name| root.first(name).expect("it is there");
         let mut edits = Edits::new(root);
         edits.set(root, "y", "<\"&'");
+        edits.set(root, "x", "7");
         edits.set(root, "x", "0");
         edits.set(within("c"), "new", "5");
         edits.append(within("b"), "<in/>");

@@ -108,6 +108,39 @@ fn comments_stay_and_what_is_left_out_is_noted() {
 }
 
 #[test]
+fn an_element_to_which_a_condition_refers_has_a_name_of_its_own() {
+    let (folder, path) = changed_in("slow-leader.xosc", "\"slowing down\"", "\"slow-down\"");
+    let catalog = folder.path().join("catalogs/entities.xosc");
+    let text = fs::read_to_string(&catalog).unwrap().replacen("\"slowing down\"", "\"slow-down\"", 1);
+    fs::write(&catalog, text).unwrap();
+    let concrete = same_when_written(&path, &test(&path, &[]));
+    for part in ["<Maneuver name=\"slow-down\">", "<Event name=\"slow-down (event)\"", "Ref=\"slow-down (event)\""] {
+        assert!(concrete.scenario.contains(part), "{part} is missing in {}", concrete.scenario);
+    }
+    assert!(concrete.notes[0].contains("the event `slow-down` is called `slow-down (event)`"), "{:?}", concrete.notes);
+}
+
+#[test]
+fn an_entry_that_refers_to_itself_ends() {
+    let (folder, path) = changed_in(
+        "slow-leader.xosc",
+        "entryName=\"car\"/></ScenarioObject>",
+        "entryName=\"car\"/><ObjectController><CatalogReference catalogName=\"entities\" entryName=\"driver\"/>\
+         </ObjectController></ScenarioObject>",
+    );
+    let catalog = folder.path().join("catalogs/entities.xosc");
+    let again = "<Properties/><ObjectController><CatalogReference catalogName=\"entities\" entryName=\"driver\"/></ObjectController>";
+    let text = fs::read_to_string(&catalog).unwrap().replacen(
+        "<Properties/></Controller>",
+        &format!("{again}</Controller>"),
+        1,
+    );
+    fs::write(&catalog, text).unwrap();
+    let concrete = read(&path).concrete(&test(&path, &[]), "roads.xodr").unwrap();
+    assert!(concrete.notes[0].contains("no catalog has the entry"), "{:?}", concrete.notes);
+}
+
+#[test]
 fn scenarios_of_others_are_written_and_read_with_the_same_traces() {
     let Some(folder) = files_of_others() else { return };
     let mut count = 0;
