@@ -39,6 +39,11 @@ impl Default for Weather {
 }
 
 impl Weather {
+    /// Returns the rain, from 0 to 1, of a rate in mm/h; 1 above 50 mm/h.
+    pub fn rain_of_rate(rate: f64) -> f64 {
+        (rate / CLOUDBURST).min(1.0)
+    }
+
     /// Returns the rate of the rain in mm/h.
     pub fn rain_rate(&self) -> f64 {
         CLOUDBURST * self.rain

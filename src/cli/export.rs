@@ -3,12 +3,13 @@
 use super::output::plural;
 use super::replay::logged;
 use super::{Failure, Status, Verbosity, print, trust};
+use crate::space::Values;
 use crate::standards::opendrive;
-use crate::standards::openscenario::{EgoAs, Export};
+use crate::standards::openscenario::{Concrete, EgoAs, Export, Xosc};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::files::{create_folder, is_new, write_whole_here};
-use paracosm_campaign::{Error, Log, Reason, Worker};
-use std::path::PathBuf;
+use paracosm_campaign::{Error, Log, Reason, Study, Trial, Worker};
+use std::path::{Path, PathBuf};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -17,10 +18,12 @@ Examples:
 
 The folder of --out gets scenario.xosc (ASAM OpenSCENARIO XML 1.2) and roads.xodr (ASAM OpenDRIVE). Every road user follows the
 trajectory that the test had. With --ego-as controller, the ego vehicle begins at its place and with its speed, and the other
-simulator drives it from there on.";
+simulator drives it from there on. If the scenario is a file, scenario.xosc is then its own storyboard with the values of the test.";
 
 /// The name of the file of the scenario.
 const SCENARIO: &str = "scenario.xosc";
+/// The ending of files of scenarios.
+const XOSC: &str = "xosc";
 /// The name of the file of the roads.
 const ROADS: &str = "roads.xodr";
 /// The date in the headers. It is always the same, so that the same test gives the same file.
@@ -69,29 +72,64 @@ impl Options {
         for name in [SCENARIO, ROADS] {
             is_new(&self.out.join(name), "an export")?;
         }
-        let mut worker = Worker::new(study)?;
-        let recording = worker.record(logged)?;
+        let (files, notes) = match file_of(study)? {
+            Some(file) if self.ego_as == Ego::Controller => storyboard(&file, &study.complete(&logged.test))?,
+            _ => self.trajectories(&log, logged)?,
+        };
+        create_folder(&self.out)?;
+        for (name, text) in [SCENARIO, ROADS].iter().zip(files) {
+            write_whole_here(&self.out.join(name), text.as_bytes())?;
+        }
+        notes.iter().for_each(|note| verbosity.note(note));
+        print(&format!("{}\n{}\n", self.out.join(SCENARIO).display(), self.out.join(ROADS).display()))?;
+        Ok(Status::Nothing)
+    }
+
+    /// Returns the texts of the scenario and of its roads if everything follows the trajectories of the test, with notes.
+    fn trajectories(&self, log: &Log, logged: &Trial) -> Result<Written, Failure> {
+        let study = log.study();
+        let recording = Worker::new(study)?.record(logged)?;
         let about = format!("{}, test {}", study.title(), self.index);
         let roads =
             opendrive::write(&recording.network, &about).map_err(|flaw| Error::from(ExportFlaw::Roads(flaw)))?;
+        // The file of the roads has its objects and signals, too.
+        let map = opendrive::Map::parse(&self.out.join(ROADS), roads.clone())?;
         let ego = match self.ego_as {
             Ego::Trajectory => EgoAs::Trajectory,
             Ego::Controller => EgoAs::Controller,
         };
-        let export = Export { about: &about, date: DATE, roads: ROADS, motion: &recording.motion, ego };
-        create_folder(&self.out)?;
-        for (name, text) in [(SCENARIO, export.text()), (ROADS, roads)] {
-            write_whole_here(&self.out.join(name), text.as_bytes())?;
-        }
+        let export = Export { about: &about, date: DATE, roads: ROADS, map: &map, motion: &recording.motion, ego };
+        let mut notes = Vec::new();
         let missing: Vec<&str> = export.never_there().collect();
         if !missing.is_empty() {
             let (count, names) = (plural(missing.len(), "road user is"), missing.join(", "));
-            verbosity.note(format_args!("{count} never in the world during the test, and left out: {names}"));
+            notes.push(format!("{count} never in the world during the test, and left out: {names}"));
         }
         if ego == EgoAs::Controller {
-            verbosity.note("all road users except the ego vehicle follow the trajectories of the test");
+            notes.push(
+                "all road users except the ego vehicle follow the trajectories of the test, because the scenario is a \
+                 program and no storyboard"
+                    .to_owned(),
+            );
         }
-        print(&format!("{}\n{}\n", self.out.join(SCENARIO).display(), self.out.join(ROADS).display()))?;
-        Ok(Status::Nothing)
+        Ok(([export.text(), roads], notes))
     }
+}
+
+/// The texts of the scenario and of its roads, and notes on them.
+type Written = ([String; 2], Vec<String>);
+
+/// Returns the file of the scenario of a study if the scenario is a file.
+fn file_of(study: &Study) -> Result<Option<PathBuf>, Error> {
+    let file = PathBuf::from(study.program()?.name());
+    Ok(file.extension().is_some_and(|ending| ending == XOSC).then_some(file))
+}
+
+/// Returns the texts of the scenario of a file and of its roads with the values of a test, with notes.
+fn storyboard(file: &Path, test: &Values) -> Result<Written, Failure> {
+    let Concrete { scenario, roads, ego, notes: remarks } = Xosc::read(file)?.concrete(test, ROADS)?;
+    let says =
+        format!("the controller of `{ego}` is left to the other simulator, and all others do what the storyboard says");
+    let notes = [says].into_iter().chain(remarks).collect();
+    Ok(([scenario, roads.to_string()], notes))
 }

@@ -10,13 +10,12 @@
 //! The speed limits of the map hold for the traffic. Where the map says nothing, the limit is 50 km/h. The ego vehicle is to keep
 //! the lowest limit of its way, times `pace`.
 
-use crate::opendrive::{Map, Road, write};
+use crate::opendrive::{Map, Road, Thing, write};
 use crate::xml::ReadError;
-use paracosm_engine::object::Body;
 use paracosm_engine::road::{LaneId, LaneKind, Path, RoadError, RoadNetwork, RoutePosition, grid_city};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{
-    AutonomousVehicle, Environment, EnvironmentCars, Fixture, Monitor, Pose, Program, Roadside, Scenario, Weather,
+    AutonomousVehicle, Environment, EnvironmentCars, Monitor, Pose, Program, Roadside, Scenario, Weather,
 };
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
@@ -50,10 +49,6 @@ const GENTLE: f64 = 1.5;
 
 /// The distance in metres that a car keeps from a body on the lanes at the start.
 const CLEAR: f64 = 15.0;
-/// The distance in metres between two points of a body that are compared with the lanes, and the metres by which a body may reach
-/// over the edge of a lane.
-const STEP: f64 = 1.0;
-const EDGE: f64 = 0.3;
 /// The distance in metres over which a car looks ahead at the start.
 const FORESEEN: f64 = 300.0;
 
@@ -74,15 +69,6 @@ struct Roads {
     things: Arc<[Thing]>,
     /// The remarks on the file.
     notes: Arc<[String]>,
-}
-
-/// The body of an object or a signal.
-#[derive(Debug, Clone, Copy)]
-struct Thing {
-    body: Body,
-    at: Pose,
-    /// True if the body is on a lane.
-    is_in_the_way: bool,
 }
 
 /// The reason why the roads of a test cannot be used.
@@ -135,9 +121,8 @@ fn build(known: &Known, s: &mut Scenario) {
     s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
     let car = s.place(AutonomousVehicle::along(way.path).starting(way.start).speed(speed));
     s.place(EnvironmentCars::on(&streets, others).seed(seed as u64));
-    for Thing { body, at, is_in_the_way } in things.iter() {
-        let fixture = Fixture::new(&body.class.to_string(), *body, *at).joined();
-        s.place(if *is_in_the_way { fixture } else { fixture.as_scenery() });
+    for thing in things.iter() {
+        s.place(*thing);
     }
     s.place(Roadside::new(fullness));
 
@@ -159,29 +144,10 @@ fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
     let mut map = if roads == TOWN { town() } else { Map::read(file) }?;
     add_limits(&mut map);
     let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error: error.into() })?;
-    let things = map.objects().flat_map(|object| object.parts.iter().map(move |part| (object, *part)));
-    let things = things.filter_map(|(object, (body, at))| {
-        let is_in_the_way = is_on_lane(&network, &body, &at);
-        // A signal over a lane hangs, and a car drives below it.
-        (!object.is_signal || !is_in_the_way).then_some(Thing { body, at, is_in_the_way })
-    });
     let notes = map.notes.iter().map(|note| note.in_file(file)).collect();
-    let read = Roads { things: things.collect(), network: network.clone(), notes };
+    let read = Roads { things: Thing::all(&map, &network), network: network.clone(), notes };
     known.insert(roads.to_owned(), read.clone());
     Ok(read)
-}
-
-/// Returns `true` if a body is on a lane.
-fn is_on_lane(network: &RoadNetwork, body: &Body, at: &Pose) -> bool {
-    let half = body.outline.half_extent();
-    let (ahead, aside) = if half.x >= half.y { (at.forward(), half.y) } else { (at.left(), half.x) };
-    let along = half.max() - aside;
-    let steps = (2.0 * along / STEP).ceil();
-    (0..=steps as usize).any(|i| {
-        let share = if steps > 0.0 { 2.0 * i as f64 / steps - 1.0 } else { 0.0 };
-        let place = network.project(at.position + ahead * (along * share));
-        place.distance < 0.5 * network.lane(place.lane).width_at(place.s) + aside - EDGE
-    })
 }
 
 /// Returns the map of the town: nine junctions and the streets between them, as a file of OpenDRIVE has them.

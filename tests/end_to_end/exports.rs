@@ -1,7 +1,9 @@
 //! `export`: tests as files of OpenSCENARIO and OpenDRIVE, which are read back and judged by the checkers of ASAM.
 
 use crate::common::{fuzz, refused, stderr, succeeds};
-use paracosm::engine::{Control, Motion, Run, Setup, Step};
+use paracosm::engine::driver::find;
+use paracosm::engine::vehicle::VehicleModel;
+use paracosm::engine::{Control, Motion, Run, Setup, Step, simulate};
 use paracosm::standards::openscenario::Xosc;
 use paracosm::{Log, campaign::Worker};
 use std::fs;
@@ -11,34 +13,42 @@ use std::process::{Command, Stdio};
 /// The greatest distance in metres of a body of the exported scenario from the body in the test.
 const CLOSE: f64 = 0.005;
 
-/// The scenarios whose tests are exported, each with further options.
-const SCENARIOS: [(&str, &[&str]); 7] = [
-    ("pedestrian-crossing", &[]),
-    ("highway-traffic", &[]),
-    ("grid-traffic", &["--driver", "planner"]),
-    ("roundabout-entry", &["--driver", "planner"]),
-    ("map-traffic", &["--driver", "planner"]),
-    ("slow-leader.xosc", &["--open", "gap=20..60"]),
+/// The scenarios whose tests are exported, each with the name of its folders and with further options.
+const SCENARIOS: [(&str, &str, &[&str]); 8] = [
+    ("crossing", "pedestrian-crossing", &[]),
+    ("highway", "highway-traffic", &[]),
+    ("grid", "grid-traffic", &["--driver", "planner"]),
+    ("roundabout", "roundabout-entry", &["--driver", "planner"]),
+    ("map", "map-traffic", &["--driver", "planner"]),
+    // The file of the roads has trees, posts, a house and a parked car.
+    ("objects", "map-traffic", &["--driver", "planner", "--set", "roads=FOLDER/objects.xodr", "--open", "cars=0..1"]),
+    ("leader", "FOLDER/slow-leader.xosc", &["--open", "gap=20..60"]),
     // An entity is added, and another one is deleted.
-    ("actions.xosc", &["--open", "count=2..3", "--driver", "default"]),
+    ("actions", "FOLDER/actions.xosc", &["--open", "count=2..3", "--driver", "default"]),
 ];
 
 /// Returns a folder with campaigns of two tests, in which test 1 of each is exported to the folder `NAME-case`.
 fn exported() -> tempfile::TempDir {
-    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests/scenarios/files");
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests");
     let dir = tempfile::tempdir().expect("a folder");
     fs::create_dir(dir.path().join("catalogs")).expect("it is writable");
     for name in ["straight.xodr", "slow-leader.xosc", "actions.xosc", "catalogs/entities.xosc"] {
-        fs::copy(from.join(name), dir.path().join(name)).expect("it is there");
+        fs::copy(from.join("scenarios/files").join(name), dir.path().join(name)).expect("it is there");
     }
-    for (scenario, options) in SCENARIOS {
-        let (log, case) = (format!("{scenario}-log"), format!("{scenario}-case"));
-        // A log names the file of its scenario as the command did.
-        let file = dir.path().join(scenario).to_string_lossy().into_owned();
-        let name = if scenario.ends_with(".xosc") { &file } else { scenario };
-        let arguments = [&[name, "--budget", "2", "--out", &log], options].concat();
-        succeeds(fuzz(dir.path(), &arguments));
+    fs::copy(from.join("roads/files/objects.xodr"), dir.path().join("objects.xodr")).expect("it is there");
+    // A log names files as the command did.
+    let here = dir.path().to_string_lossy();
+    for (name, scenario, options) in SCENARIOS {
+        let (log, case) = (format!("{name}-log"), format!("{name}-case"));
+        let given = [&[scenario, "--budget", "2", "--out", &log], options].concat();
+        let given: Vec<String> = given.iter().map(|argument| argument.replace("FOLDER", &here)).collect();
+        succeeds(fuzz(dir.path(), &given.iter().map(String::as_str).collect::<Vec<_>>()));
         succeeds(fuzz(dir.path(), &["export", &log, "1", "--out", &case]));
+        if scenario.ends_with(".xosc") {
+            let storyboard = format!("{name}-storyboard");
+            let output = fuzz(dir.path(), &["export", &log, "1", "--out", &storyboard, "--ego-as", "controller"]);
+            assert!(stderr(&succeeds(output)).contains("`Ego` is left to the other simulator"));
+        }
     }
     dir
 }
@@ -83,12 +93,37 @@ fn distance(test: &Motion, export: &Motion) -> f64 {
 #[test]
 fn exported_tests_are_read_back_with_the_same_motion() {
     let dir = exported();
-    for (scenario, _) in SCENARIOS {
-        let log = dir.path().join(format!("{scenario}-log"));
-        let case = dir.path().join(format!("{scenario}-case/scenario.xosc"));
+    for (name, ..) in SCENARIOS {
+        let log = dir.path().join(format!("{name}-log"));
+        let case = dir.path().join(format!("{name}-case/scenario.xosc"));
         let far = distance(&recorded(&log, 1), &played(&case));
-        assert!(far <= CLOSE, "{scenario}: {far} m");
-        eprintln!("{scenario}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
+        assert!(far <= CLOSE, "{name}: {far} m");
+        eprintln!("{name}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
+    }
+}
+
+#[test]
+fn the_storyboard_of_a_file_is_exported_with_the_values_of_the_test_and_gives_the_same_trace() {
+    let dir = exported();
+    for (name, driver) in [("leader", "aeb"), ("actions", "default")] {
+        let log = Log::read(&dir.path().join(format!("{name}-log")), &paracosm::catalogue()).expect("a log");
+        let folder = dir.path().join(format!("{name}-storyboard"));
+        let mut files: Vec<_> =
+            fs::read_dir(&folder).expect("it is there").map(|file| file.expect("one").file_name()).collect();
+        files.sort();
+        assert_eq!(files, ["roads.xodr", "scenario.xosc"]);
+        // Nothing else is needed.
+        let moved = tempfile::tempdir().expect("a folder");
+        for file in files {
+            fs::copy(folder.join(&file), moved.path().join(&file)).expect("it is there");
+        }
+        let program =
+            Xosc::read(&moved.path().join("scenario.xosc")).unwrap_or_else(|error| panic!("{error}")).program();
+        let descriptor = find(driver).expect("a driver");
+        let mut driver = (descriptor.make)(&descriptor.settings(&[]).expect("no settings"));
+        let nominal = program.declare().expect("it is sound").nominal();
+        let trace = simulate(&program, &nominal, VehicleModel::default(), driver.as_mut()).trace.expect("a trace");
+        assert_eq!(Some(trace.hash()), log.trials()[1].trace_hash, "{name}");
     }
 }
 
@@ -97,7 +132,8 @@ fn an_export_replaces_nothing_and_leaves_the_ego_vehicle_to_a_controller() {
     let dir = tempfile::tempdir().expect("a folder");
     succeeds(fuzz(dir.path(), &["pedestrian-crossing", "--budget", "2", "--out", "log"]));
     let output = succeeds(fuzz(dir.path(), &["export", "log", "0", "--out", "case", "--ego-as", "controller"]));
-    assert!(stderr(&output).contains("except the ego vehicle"), "{}", stderr(&output));
+    let says = stderr(&output);
+    assert!(says.contains("except the ego vehicle") && says.contains("the scenario is a program"), "{says}");
     let text = fs::read_to_string(dir.path().join("case/scenario.xosc")).expect("it was written");
     assert_eq!(text.matches("<FollowTrajectoryAction>").count(), 1, "{text}");
     refused(&fuzz(dir.path(), &["export", "log", "0", "--out", "case"]), &["scenario.xosc exists"]);
@@ -137,16 +173,17 @@ fn exports_pass_the_quality_checkers_of_asam() {
     let Some(python) = judge() else { return };
     let dir = exported();
     let scenarios = ["qc_openscenario", "xoscBundle"];
-    for (scenario, _) in SCENARIOS {
-        let case = dir.path().join(format!("{scenario}-case"));
+    let trajectories = SCENARIOS.map(|(name, ..)| format!("{name}-case"));
+    for name in trajectories.into_iter().chain(["leader-storyboard", "actions-storyboard"].map(str::to_owned)) {
+        let case = dir.path().join(&name);
         let checked = report(&python, &case.join("scenario.xosc"), scenarios);
-        assert!(checked.matches("status=\"completed\"").count() >= 5, "{scenario}: {checked}");
-        assert!(!checked.contains("<Issue"), "{scenario}: {checked}");
+        assert!(checked.matches("status=\"completed\"").count() >= 5, "{name}: {checked}");
+        assert!(!checked.contains("<Issue"), "{name}: {checked}");
         let checked = report(&python, &case.join("roads.xodr"), ["qc_opendrive", "xodrBundle"]);
-        assert!(!checked.contains("<Issue"), "{scenario}: {checked}");
+        assert!(!checked.contains("<Issue"), "{name}: {checked}");
     }
     // The checker finds what is wrong.
-    let file = dir.path().join("pedestrian-crossing-case/wrong.xosc");
+    let file = dir.path().join("crossing-case/wrong.xosc");
     let text = fs::read_to_string(file.with_file_name("scenario.xosc")).expect("it was written");
     fs::write(&file, text.replacen("<EntityRef entityRef=\"", "<EntityRef entityRef=\"No", 1)).expect("it is writable");
     assert!(report(&python, &file, scenarios).contains("<Issue"));

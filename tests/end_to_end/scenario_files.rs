@@ -168,6 +168,40 @@ fn a_scenario_of_a_file_is_described_with_its_graph_of_streams() {
 }
 
 #[test]
+fn a_scenario_file_without_open_parameters_is_described_with_its_closed_ones() {
+    let dir = folder();
+    let table = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc", "--format", "table"])));
+    for part in ["\nparameters\n", "nominally 50, unless opened", "no-collision", "Leader.speed"] {
+        assert!(table.contains(part), "`{part}` is missing in: {table}");
+    }
+    let described = |options: &[&str]| {
+        let output = fuzz(dir.path(), &[&["describe", "slow-leader.xosc", "--format", "json"], options].concat());
+        serde_json::from_str::<serde_json::Value>(&stdout(&succeeds(output))).expect("it is JSON")
+    };
+    let json = described(&["--set", "gap=70", "--driver", "planner"]);
+    let parameters = json["parameters"].as_array().expect("a list");
+    let of = |name: &str| parameters.iter().find(|one| one["parameter"]["name"] == name).expect("it is listed");
+    assert!(parameters.iter().all(|one| one["open"] == false), "{json}");
+    assert_eq!((&of("speed")["nominal"], &of("gap")["nominal"]), (&30.into(), &50.into()));
+    assert_eq!((&of("speed")["set"], &of("gap")["set"]), (&serde_json::Value::Null, &70.into()));
+    assert!(described(&["--open", "gap"])["parameters"].to_string().contains("\"open\":true"));
+    let dot = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc", "--dot"])));
+    assert!(dot.contains("storyboard"), "{dot}");
+    let drawn = succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc", "--draw", "world.svg"]));
+    assert!(dir.path().join("world.svg").exists(), "{}", stderr(&drawn));
+    // A campaign needs something to vary.
+    refused(
+        &fuzz(dir.path(), &["slow-leader.xosc", "--budget", "3", "--out", "c"]),
+        &["has no open parameter", "open some of", "speed, gap, ego", "--open NAME=LO..HI"],
+    );
+    refused(
+        &fuzz(dir.path(), &["slow-leader.xosc", "--set", "gap=70", "--out", "c"]),
+        &["with `gap` fixed no parameter"],
+    );
+    assert!(!dir.path().join("c").exists());
+}
+
+#[test]
 fn the_parts_of_files_without_effect_are_noted_once_before_the_tests() {
     let dir = folder();
     let notes = [

@@ -48,6 +48,7 @@ pub struct StudyBuilder {
     driver_timeout: Option<f64>,
     references: Vec<String>,
     continuous: bool,
+    describes: bool,
     opened: Vec<Opened>,
     fixed: Vec<(String, Value)>,
     distributions: Vec<(String, Distribution)>,
@@ -106,6 +107,7 @@ impl StudyBuilder {
             driver_timeout: None,
             references: Vec::new(),
             continuous: false,
+            describes: false,
             opened: Vec::new(),
             fixed: Vec::new(),
             distributions: Vec::new(),
@@ -159,6 +161,12 @@ impl StudyBuilder {
     /// `unpreventable` and is no failure.
     pub fn reference(mut self, name: &str) -> Self {
         self.references.push(name.to_owned());
+        self
+    }
+
+    /// Lets the study have no open parameter. Such a study describes a scenario. It has no strategy that proposes tests.
+    pub fn describing(mut self) -> Self {
+        self.describes = true;
         self
     }
 
@@ -383,8 +391,9 @@ impl StudyBuilder {
             }
             study.distribute(name, distribution)?;
         }
-        if let (true, Some((name, _))) = (study.space.parameters().is_empty(), self.fixed.last()) {
-            return Err(ParameterMisuse::LastOpen { name: name.clone() }.into());
+        let describes = self.describes && study.space.parameters().is_empty();
+        if !describes {
+            self.has_tests(&study)?;
         }
         self.models.iter().try_for_each(|(actor, file)| study.show(actor, file))?;
         self.odd.iter().try_for_each(|path| study.odd_of_space(path))?;
@@ -406,9 +415,26 @@ impl StudyBuilder {
             }
             study = study.with_references(references)?;
         }
-        // The strategy checks that it can do what is asked of it.
-        study.generator(&[])?;
+        if !describes {
+            // The strategy checks that it can do what is asked of it.
+            study.generator(&[])?;
+        }
         Ok(study)
+    }
+
+    /// Checks that a parameter is open, so that tests differ.
+    fn has_tests(&self, study: &Study) -> Result<(), ParameterMisuse> {
+        match (&study.subject, self.fixed.last()) {
+            _ if !study.space.parameters().is_empty() => Ok(()),
+            (_, Some((name, _))) => Err(ParameterMisuse::LastOpen { name: name.clone() }),
+            (Subject::Scenario(simulation), None) => {
+                let scenario = simulation.scenario.clone();
+                let all = study.fixed().iter().map(|(name, _)| name.to_owned()).collect();
+                Err(ParameterMisuse::NoneOpen { scenario, all })
+            }
+            // The strategy refuses the space.
+            (Subject::System(_), None) => Ok(()),
+        }
     }
 
     fn open_and_fix(&self, study: &mut Study) -> Result<(), Error> {

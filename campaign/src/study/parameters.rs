@@ -89,6 +89,14 @@ pub enum ParameterMisuse {
         /// The text of the constraint.
         constraint: String,
     },
+    /// The scenario leaves no parameter open.
+    #[error("scenario `{scenario}` has no open parameter, so all its tests are the same; open some of {}, for example with --open NAME=LO..HI", all.join(", "))]
+    NoneOpen {
+        /// The name of the scenario.
+        scenario: String,
+        /// The names of all parameters of the scenario.
+        all: Vec<String>,
+    },
     /// The parameter cannot be fixed, because no other parameter is open.
     #[error("with `{name}` fixed no parameter is left open, so there is nothing to test")]
     LastOpen {

@@ -160,7 +160,7 @@ impl Scene {
             let is_joined = matches!(&object.behaviour, Behaviour::Geometric(of) if of.is_joined());
             joined[object.own.0..object.own.1].fill(is_joined);
         }
-        let (a, b) = overlapping(&self.bodies, &joined)?;
+        let (a, b) = overlapping(&self.bodies, self.told, &joined)?;
         Some(Invalid::Overlap { first: self.name(a).to_owned(), second: self.name(b).to_owned() })
     }
 

@@ -42,9 +42,28 @@ impl Air {
     }
 }
 
+impl Weather {
+    /// Returns the fog, from 0 to 1, in which the visibility is this number of metres; 1 below 10 m, which is the visibility in
+    /// the thickest fog.
+    pub fn fog_of_visibility(metres: f64) -> f64 {
+        let thickness = THICKEST / metres;
+        if thickness < 1.0 { libm::log1p(thickness * (THINNEST - 1.0)) / libm::log(THINNEST) } else { 1.0 }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn fog_has_the_visibility_from_which_it_was_computed() {
+        for metres in [10.0, 50.0, 326.0, 5000.0, 1e6] {
+            let fog = Weather::fog_of_visibility(metres);
+            let found = KOSCHMIEDER / Air::of(&Weather { fog, ..Weather::default() }).extinction;
+            assert!((found / metres - 1.0).abs() < 1e-9, "{found} m instead of {metres} m");
+        }
+        assert_eq!([0.0, 3.0, f64::INFINITY].map(Weather::fog_of_visibility), [1.0, 1.0, 0.0]);
+    }
 
     #[test]
     fn fog_takes_the_sight_from_all_to_ten_metres_and_rain_some_of_it() {

@@ -172,9 +172,11 @@ impl World {
 }
 
 /// Returns the smallest indices of two bodies that cover the same ground at the start, if there are any. Two bodies that are
-/// both `joined` may do so.
-pub(crate) fn overlapping(bodies: &[BodyState], joined: &[bool]) -> Option<(usize, usize)> {
-    let pairs = (0..bodies.len()).flat_map(|i| (i + 1..bodies.len()).map(move |j| (i, j)));
+/// both `joined` may do so. The bodies after the first `told` bodies are scenery, which is only in the way of the first body,
+/// the car.
+pub(crate) fn overlapping(bodies: &[BodyState], told: usize, joined: &[bool]) -> Option<(usize, usize)> {
+    let others = move |i: usize| i + 1..if i == 0 { bodies.len() } else { told };
+    let pairs = (0..told).flat_map(|i| others(i).map(move |j| (i, j)));
     pairs.into_iter().find(|&(i, j)| {
         if joined[i] && joined[j] {
             return false;

@@ -138,11 +138,15 @@ fn bodies_that_cover_the_same_ground_are_found() {
     let others = [(20.0, 0.0), (20.4, 0.3), (40.0, 0.0)];
     let mut bodies = vec![car(pose(0.0, 0.0))];
     bodies.extend(others.map(|(x, y)| BodyState::at_rest(Body::adult(), pose(x, y))));
-    assert_eq!(overlapping(&bodies, &[false; 4]), Some((1, 2)));
-    assert_eq!(overlapping(&bodies, &[false, false, true, true]), Some((1, 2)));
-    assert_eq!(overlapping(&bodies, &[false, true, true, false]), None);
+    assert_eq!(overlapping(&bodies, 4, &[false; 4]), Some((1, 2)));
+    assert_eq!(overlapping(&bodies, 4, &[false, false, true, true]), Some((1, 2)));
+    assert_eq!(overlapping(&bodies, 4, &[false, true, true, false]), None);
+    // A body of the scenery is in the way of the car alone.
+    assert_eq!(overlapping(&bodies, 2, &[false; 4]), None);
+    bodies[2].pose = pose(1.0, 0.3);
+    assert_eq!(overlapping(&bodies, 2, &[false; 4]), Some((0, 2)));
     bodies[2].pose = pose(20.6, 0.3);
-    assert_eq!(overlapping(&bodies, &[false; 4]), None);
+    assert_eq!(overlapping(&bodies, 4, &[false; 4]), None);
 }
 
 #[test]

@@ -38,6 +38,7 @@ mod read;
 mod road;
 mod speed;
 mod table;
+mod thing;
 mod write;
 
 pub use cubics::{Cubic, Cubics};
@@ -49,4 +50,5 @@ pub use object::Object;
 pub use plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 pub use road::{Direction, End, Extent, Lane, LaneChange, LaneType, Link, MarkType, Road, RoadMark, Section, Traffic};
 pub use table::{Border, borders};
+pub(crate) use thing::Thing;
 pub use write::{LaneByLane, write};

@@ -172,6 +172,12 @@ impl Action {
         }
     }
 
+    /// Returns `true` if the action hands an entity over to its controller.
+    pub fn hands_over(&self) -> bool {
+        let is_on = |part: &Option<bool>| *part != Some(false);
+        matches!(self, Self::Activate { lateral, longitudinal } if is_on(lateral) && is_on(longitudinal))
+    }
+
     fn synchronize(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let master = names.entity(node, "masterEntityRef")?;
         let last =

@@ -42,14 +42,17 @@ pub(super) struct Found {
     pub locals: Vec<Local>,
     /// The parts of entries of catalogs that have no effect, by the file and the line of the entry.
     pub without_effect: BTreeMap<(PathBuf, u32), Vec<NoEffect>>,
+    /// The attributes whose values have no effect, or another one, each with its file.
+    pub remarks: Vec<(PathBuf, NoEffect)>,
 }
 
 impl Found {
     /// Describes the parts of entries that have no effect: each name once for each file.
     pub fn notes(&self) -> Vec<String> {
         let mut all: BTreeMap<(&Path, &str), NoEffect> = BTreeMap::new();
-        for ((file, _), part) in self.without_effect.iter().flat_map(|(at, parts)| parts.iter().map(move |of| (at, of)))
-        {
+        let of_entries =
+            self.without_effect.iter().flat_map(|((file, _), parts)| parts.iter().map(move |of| (file, of)));
+        for (file, part) in of_entries.chain(self.remarks.iter().map(|(file, part)| (file, part))) {
             let known = all.entry((file, &part.name)).or_insert_with(|| NoEffect { count: 0, ..part.clone() });
             known.count += part.count;
         }
@@ -109,7 +112,14 @@ impl CatalogFiles {
     }
 }
 
-impl Catalogs<'_> {
+impl<'a> Catalogs<'a> {
+    /// Returns the entry that an element `CatalogReference` names, which is one of the given kinds; `None` if there is none.
+    pub fn entry(&self, reference: Node<'_>, kinds: &[&str]) -> Result<Option<Element<'a, 'a>>, ReadError> {
+        let [catalog, name] = [reference.required("catalogName")?, reference.required("entryName")?];
+        let mut entries = self.all.get(catalog.as_ref()).into_iter().flat_map(|catalog| catalog.elements());
+        Ok(entries.find(|entry| kinds.contains(&entry.name()) && entry.text("name") == Some(name.as_ref())))
+    }
+
     /// Reads an element that is given directly or by a `CatalogReference`. The element sees its own parameters, with
     /// the values that the reference assigns.
     pub fn resolved<T>(
@@ -169,6 +179,13 @@ impl Catalogs<'_> {
             }
             _ => node.dangling("catalogName", "catalog", self.all.keys().copied()),
         }
+    }
+
+    /// Remarks that an attribute of an element has no effect with its value, or another one.
+    pub fn remark(&self, node: Node<'_>, attribute: &str, reason: &'static str) {
+        let (name, line) = (format!("{}.{attribute}", node.name()), node.element.line());
+        let remark = NoEffect { name, reason, count: 1, line };
+        self.found.borrow_mut().remarks.push((node.element.file().to_owned(), remark));
     }
 
     /// Checks an entry, once.

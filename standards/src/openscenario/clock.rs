@@ -1,31 +1,46 @@
 //! The time of day in a scenario.
 
-use super::names::Names;
 use super::scope::Node;
 use crate::xml::ReadError;
 
 /// A time of day that begins at a moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Clock {
     /// The seconds since the beginning of the year 1970 in Greenwich.
     pub seconds: f64,
+    /// The seconds by which clocks at the place of the scenario are ahead of clocks in Greenwich.
+    zone: f64,
     /// `true` if the time goes on during the run, `false` if it stands.
     pub runs: bool,
 }
 
 impl Clock {
-    /// Reads the time of day in an element `EnvironmentAction`; `None` if it has none. The rest of an environment has no effect.
-    pub fn read(action: Node<'_>, names: Names<'_>) -> Result<Option<Self>, ReadError> {
-        let given = action.choice("Environment or CatalogReference")?;
-        names.catalogs.resolved(given, &["Environment"], |environment| {
-            let Some(time) = environment.first("TimeOfDay") else { return Ok(None) };
-            Ok(Some(Self { seconds: seconds(time)?, runs: time.truth_or("animation", false)? }))
-        })
+    /// Reads an element `TimeOfDay`.
+    pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
+        let (seconds, zone) = time(node)?;
+        Ok(Self { seconds, zone, runs: node.truth_or("animation", false)? })
+    }
+
+    /// Returns the seconds since the beginning of the year 1970 at the place of the scenario.
+    pub fn local(&self) -> f64 {
+        self.seconds + self.zone
+    }
+
+    /// Returns a clock that stands at a time.
+    #[cfg(test)]
+    pub fn at(text: &str) -> Self {
+        let (seconds, zone) = parsed(text).expect("it is a time");
+        Self { seconds, zone, runs: false }
     }
 }
 
 /// Returns the seconds since the beginning of the year 1970 that an attribute `dateTime` gives.
 pub(super) fn seconds(node: Node<'_>) -> Result<f64, ReadError> {
+    time(node).map(|(seconds, _)| seconds)
+}
+
+/// Returns the time of an attribute `dateTime`, and its zone.
+fn time(node: Node<'_>) -> Result<(f64, f64), ReadError> {
     let text = node.required("dateTime")?;
     let wrong = || node.element.unexpected_value("dateTime", &text, "a time such as 2026-01-31T12:00:00", []);
     parsed(&text).ok_or_else(wrong)
@@ -36,8 +51,9 @@ pub(super) fn is_time(text: &str) -> bool {
     parsed(text).is_some()
 }
 
-/// Reads a time in the format of XML Schema: `2026-01-31T12:00:00.5+01:00`. The zone may be absent.
-fn parsed(text: &str) -> Option<f64> {
+/// Reads a time in the format of XML Schema: `2026-01-31T12:00:00.5+01:00`. The zone may be absent. Returns the seconds since the
+/// beginning of the year 1970 in Greenwich, and the seconds by which the zone is ahead.
+fn parsed(text: &str) -> Option<(f64, f64)> {
     let (date, time) = text.split_once('T')?;
     let part = |text: &str, least: i64, most: i64| {
         text.parse::<i64>().ok().filter(|number| (least..=most).contains(number) && !text.starts_with('+'))
@@ -56,7 +72,7 @@ fn parsed(text: &str) -> Option<f64> {
     let [hours, minutes, rest] = <[&str; 3]>::try_from(time.split(':').collect::<Vec<_>>()).ok()?;
     let rest = rest.parse::<f64>().ok().filter(|seconds| (0.0..=60.0).contains(seconds))?;
     let minutes = 60 * part(hours, 0, 24)? + part(minutes, 0, 59)? - zone;
-    Some(days(year, month, day) as f64 * 86_400.0 + minutes as f64 * 60.0 + rest)
+    Some((days(year, month, day) as f64 * 86_400.0 + minutes as f64 * 60.0 + rest, zone as f64 * 60.0))
 }
 
 /// Returns the days since the beginning of the year 1970 in the Gregorian calendar. Years begin in March, so that the leap day is the
@@ -78,7 +94,7 @@ mod tests {
             ("2026-11-26T07:30:00.5+01:00", 1_795_674_600.5),
             ("2024-02-29T23:59:59-05:30", 1_709_270_999.0),
         ] {
-            assert_eq!(parsed(text), Some(seconds), "{text}");
+            assert_eq!(parsed(text).map(|(seconds, _)| seconds), Some(seconds), "{text}");
         }
         for text in ["2026-11-26", "2026-13-01T00:00:00", "T", "2026-01-01T12:00", "2026-01-01T12:00:00+1"] {
             assert_eq!(parsed(text), None, "{text}");

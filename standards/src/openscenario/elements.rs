@@ -6,7 +6,10 @@ use std::sync::LazyLock;
 const OTHERS: &str = "it is data for other programs";
 const AXLES: &str = "the box of an entity says where the entity is, and the model of the vehicle how it steers";
 const LOOKS: &str = "the looks of entities follow from their classes";
-const WEATHER: &str = "the weather of the file does not change the world yet";
+const AIR: &str = "the air has no temperature, no pressure and no wind";
+const CLOUDS: &str = "the sky is clear; the light follows from the Sun";
+const FOG: &str = "the fog is everywhere";
+const WETNESS: &str = "the frictionScaleFactor says how slippery the road is";
 const DRIVER: &str = "the system under test is the controller";
 const SIGNALS: &str = "there are no traffic signals yet";
 const SWARMS: &str = "there are no swarms of vehicles yet; name the entities one by one";
@@ -21,7 +24,7 @@ const PLACES: &str = "use a WorldPosition";
 pub(super) const ROWS: &[Row] = &[
     read("OpenSCENARIO", "FileHeader", "author date description revMajor revMinor"),
     no_effect("FileHeader", "License", OTHERS),
-    no_effect("FileHeader|MiscObject|Pedestrian|Vehicle", "Properties", OTHERS),
+    no_effect("FileHeader|MiscObject|Pedestrian|RoadCondition|Vehicle", "Properties", OTHERS),
     read(
         "Environment|Maneuver|MiscObject|OpenSCENARIO|Pedestrian|Route|Story|Trajectory|Vehicle",
         "ParameterDeclarations",
@@ -114,7 +117,15 @@ pub(super) const ROWS: &[Row] = &[
     read("GlobalAction", "EnvironmentAction", ""),
     read("Catalog|EnvironmentAction", "Environment", "name"),
     read("Environment", "TimeOfDay", "animation dateTime"),
-    no_effect("Environment", "Weather|RoadCondition", WEATHER),
+    read("Environment", "Weather", ""),
+    no_effect("Weather", "@cloudState|@fractionalCloudCover|DomeImage", CLOUDS),
+    no_effect("Weather", "@atmosphericPressure|@temperature|Wind", AIR),
+    read("Weather", "Sun", "azimuth elevation illuminance intensity"),
+    read("Weather", "Fog", "visualRange"),
+    no_effect("Fog", "BoundingBox", FOG),
+    read("Weather", "Precipitation", "intensity precipitationIntensity precipitationType"),
+    read("Environment", "RoadCondition", "frictionScaleFactor"),
+    no_effect("RoadCondition", "@wetness", WETNESS),
     read("GlobalAction", "EntityAction", "entityRef"),
     read("EntityAction", "AddEntityAction|DeleteEntityAction", ""),
     refused("GlobalAction", "InfrastructureAction", SIGNALS),

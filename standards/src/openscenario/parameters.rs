@@ -83,11 +83,17 @@ impl Parameters {
         for constraint in &self.constraints {
             s.constrain(constraint.clone());
         }
+        self.values(root, &given)
+    }
+
+    /// Returns the values that a test gives the declared parameters. A parameter whose value is an expression follows from the
+    /// others.
+    pub fn values(&self, root: Node<'_>, given: &Values) -> Result<Scope, ReadError> {
         let mut scope = Scope::default();
         for (element, declaration) in declarations(root.element).zip(&self.declarations) {
             let node = Node { element, scope: &scope };
             let demand = &declaration.demand;
-            let value = match self.given(declaration, &given) {
+            let value = match self.given(declaration, given) {
                 Some(value) => value,
                 None => node.text("value")?.unwrap_or_default().into_owned(),
             };

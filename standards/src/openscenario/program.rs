@@ -12,7 +12,8 @@ use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
-use crate::opendrive::Map;
+use super::weather;
+use crate::opendrive::{Map, Thing};
 use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
@@ -34,26 +35,27 @@ const LATEST: f64 = 3600.0;
 /// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
 const ONWARD: f64 = 5000.0;
 /// The outermost element of a file.
-const ROOT: &str = "OpenSCENARIO";
+pub(super) const ROOT: &str = "OpenSCENARIO";
 
 /// A scenario of a file, with its catalogs, its roads, and the distribution of its parameters.
 pub struct Xosc {
     name: String,
     folder: PathBuf,
-    document: Document,
-    catalogs: CatalogFiles,
-    parameters: Parameters,
+    pub(super) document: Document,
+    pub(super) catalogs: CatalogFiles,
+    pub(super) parameters: Parameters,
     /// The remarks on the file and on the file of the distribution.
     notes: Vec<String>,
     /// The roads that were read, by the names of their files in the scenario.
     roads: Mutex<BTreeMap<String, Roads>>,
 }
 
-/// A map and its road network.
+/// A map, its road network, and the bodies of its objects and signals.
 #[derive(Clone)]
-struct Roads {
-    map: Arc<Map>,
+pub(super) struct Roads {
+    pub map: Arc<Map>,
     network: Arc<RoadNetwork>,
+    things: Arc<[Thing]>,
     /// The remarks on the file of the map.
     notes: Arc<[String]>,
 }
@@ -160,7 +162,7 @@ impl Xosc {
         for constraint in constraints {
             s.constrain(constraint);
         }
-        let usual = board.entities[ego(&board)].name.clone();
+        let usual = board.entities[board.usual_ego()].name.clone();
         let names = board.entities.iter().map(|entity| entity.name.as_str().into()).collect();
         let mut parameter = Parameter::new(EGO, Domain::Choice(names));
         parameter.default = Some(usual.as_str().into());
@@ -170,6 +172,7 @@ impl Xosc {
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
         let longest = longest(&board);
+        let weather_changes = board.weather_changes();
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
             Ok(stage) => Rc::new(RefCell::new(stage)),
             Err(misplaced) => return s.refuse(&format!("{}:{misplaced}", self.document.file().display())),
@@ -177,9 +180,14 @@ impl Xosc {
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
         let end = direct(s, &stage, &conditions);
+        weather::place(s, &stage, weather_changes);
         let count = stage.borrow().cast.actors.len();
         for index in 0..count {
             self.show(s, &stage, index, index != ego);
+        }
+        // After the entities, whose signals have the names of the file.
+        for thing in roads.things.iter() {
+            s.place(*thing);
         }
         s.duration(longest);
         s.end(&end);
@@ -226,7 +234,7 @@ impl Xosc {
     }
 
     /// Returns the roads of the file that an element names, which is read once.
-    fn roads_in(&self, logic: Node<'_>) -> Result<Roads, ReadError> {
+    pub(super) fn roads_in(&self, logic: Node<'_>) -> Result<Roads, ReadError> {
         let named = logic.required("filepath")?;
         let mut known = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(roads) = known.get(named.as_ref()) {
@@ -236,7 +244,7 @@ impl Xosc {
         let map = Map::read(&file)?;
         let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
         let notes = map.notes.iter().map(|note| note.in_file(&file)).collect();
-        let roads = Roads { map: Arc::new(map), network, notes };
+        let roads = Roads { things: Thing::all(&map, &network), map: Arc::new(map), network, notes };
         known.insert(named.into_owned(), roads.clone());
         Ok(roads)
     }
@@ -287,13 +295,6 @@ fn direct(s: &mut Scenario, stage: &Rc<RefCell<Stage>>, conditions: &[Condition]
     let truths = vec![false; inputs.len()];
     draft.geometric(Director { stage: stage.clone(), conditions: inputs, truths, measures, stopped });
     end
-}
-
-/// Returns the index of the entity that the system under test drives: `Ego`, or the first entity with a controller, or the
-/// first entity.
-fn ego(board: &Storyboard) -> usize {
-    let named = board.entities.iter().position(|entity| entity.name == "Ego");
-    named.or_else(|| board.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
 }
 
 /// Returns the ego vehicle, with the way along its lane and straight on.

@@ -2,9 +2,9 @@
 
 use super::action::Action;
 use super::catalogs::Catalogs;
-use super::clock::Clock;
 use super::condition::{Trigger, trigger};
 use super::entity::Entity;
+use super::environment::{Environment, Surroundings};
 use super::names::Names;
 use super::position::Position;
 use super::scope::Node;
@@ -16,8 +16,8 @@ use crate::xml::ReadError;
 pub(super) struct Storyboard {
     pub entities: Vec<Entity>,
     pub variables: Vec<Variable>,
-    /// The time of day at the beginning.
-    pub clock: Clock,
+    /// The environment at the beginning.
+    pub surroundings: Surroundings,
     /// The initial actions, each with its entity and its line in the file.
     pub init: Vec<(usize, Action, u32)>,
     /// All elements of all stories. An element comes before the elements within it.
@@ -53,8 +53,8 @@ pub(super) enum Kind {
     Action(Vec<usize>, Action),
     /// A change of the variable with this index.
     Change(usize, Change),
-    /// A new time of day.
-    Clock(Clock),
+    /// A change of the environment.
+    Environment(Environment),
 }
 
 /// The effect of an event on the other running events of its maneuver.
@@ -84,7 +84,7 @@ impl Kind {
             Self::Group => "maneuverGroup",
             Self::Maneuver => "maneuver",
             Self::Event(_) => "event",
-            Self::Action(..) | Self::Change(..) | Self::Clock(_) => "action",
+            Self::Action(..) | Self::Change(..) | Self::Environment(_) => "action",
         }
     }
 }
@@ -114,7 +114,7 @@ impl Storyboard {
         };
         let board = root.child("Storyboard")?;
         let mut init = Vec::new();
-        let mut clock = Clock { seconds: 0.0, runs: false };
+        let mut surroundings = Surroundings::default();
         let actions = board.child("Init")?.child("Actions")?;
         for actor in actions.elements() {
             match actor.name() {
@@ -126,7 +126,7 @@ impl Storyboard {
                     }
                 }
                 "GlobalAction" => match global(actor, names)? {
-                    Kind::Clock(now) => clock = now,
+                    Kind::Environment(change) => surroundings.change(&change, 0.0),
                     Kind::Change(variable, change) => change.apply(&mut variables[variable].value),
                     Kind::Action(group, action) => {
                         init.extend(group.iter().map(|entity| (*entity, action.clone(), actor.element.line())));
@@ -142,7 +142,37 @@ impl Storyboard {
         }
         let items = reader.items;
         let stop = board.first("StopTrigger").map(|stop| trigger(stop, names)).transpose()?;
-        Ok(Self { clock, init, items, stop: stop.filter(|stop| !stop.is_empty()), entities, variables })
+        Ok(Self { surroundings, init, items, stop: stop.filter(|stop| !stop.is_empty()), entities, variables })
+    }
+}
+
+impl Storyboard {
+    /// Returns the index of the entity that the system under test drives if nobody chooses another: `Ego`, or the first entity
+    /// with a controller, or the first entity.
+    pub fn usual_ego(&self) -> usize {
+        let named = self.entities.iter().position(|entity| entity.name == "Ego");
+        named.or_else(|| self.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
+    }
+
+    /// Returns `true` if an action of a story activates the controller of an entity, or says that it is not active.
+    pub fn controls(&self, entity: usize) -> bool {
+        self.items.iter().any(|item| match &item.kind {
+            Kind::Action(actors, Action::Activate { .. }) => actors.contains(&entity),
+            _ => false,
+        })
+    }
+
+    /// Returns `true` if an action activates the controller of an entity.
+    pub fn activates(&self, entity: &str) -> bool {
+        let at_first =
+            |(of, action, _): &(usize, Action, u32)| self.entities[*of].name == entity && action.hands_over();
+        let index = self.entities.iter().position(|known| known.name == entity);
+        index.is_some_and(|index| self.controls(index)) || self.init.iter().any(at_first)
+    }
+
+    /// Returns `true` if the weather can change during a run.
+    pub fn weather_changes(&self) -> bool {
+        self.surroundings.moves() || self.items.iter().any(|item| matches!(item.kind, Kind::Environment(_)))
     }
 }
 
@@ -150,9 +180,7 @@ impl Storyboard {
 fn global(node: Node<'_>, names: Names<'_>) -> Result<Kind, ReadError> {
     let kind = node.choice("a kind of action such as VariableAction")?;
     match kind.name() {
-        "EnvironmentAction" => {
-            Ok(Clock::read(kind, names)?.map_or(Kind::Action(Vec::new(), Action::Nothing), Kind::Clock))
-        }
+        "EnvironmentAction" => Environment::read(kind, names).map(Kind::Environment),
         "VariableAction" | "ParameterAction" => {
             Change::read(kind, names).map(|(variable, change)| Kind::Change(variable, change))
         }

@@ -4,6 +4,7 @@ use super::error::{Flaw, ReadError};
 use super::source::Source;
 use paracosm_space::nearest;
 use roxmltree::Node;
+use std::ops::Range;
 use std::path::Path;
 
 /// An element with its place in a file.
@@ -11,6 +12,13 @@ use std::path::Path;
 pub(crate) struct Element<'a, 'i> {
     source: &'a Source,
     node: Node<'a, 'i>,
+}
+
+/// Elements are the same if they stand at the same place of the same file.
+impl PartialEq for Element<'_, '_> {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.source, other.source) && self.range() == other.range()
+    }
 }
 
 impl<'a, 'i> Element<'a, 'i> {
@@ -31,6 +39,26 @@ impl<'a, 'i> Element<'a, 'i> {
     /// Returns the path of the file that has the element.
     pub fn file(&self) -> &'a Path {
         self.source.file()
+    }
+
+    /// Returns the text of the file.
+    pub(super) fn file_text(&self) -> &'a str {
+        self.source.text()
+    }
+
+    /// Returns the text of the element.
+    pub(super) fn source(&self) -> &'a str {
+        &self.file_text()[self.range()]
+    }
+
+    /// Returns the place of the element in the text of the file.
+    pub(super) fn range(&self) -> Range<usize> {
+        self.node.range()
+    }
+
+    /// Returns the place of the value of an attribute in the text of the file; `None` without the attribute.
+    pub(super) fn value_range(&self, attribute: &str) -> Option<Range<usize>> {
+        self.node.attribute_node(attribute).map(|attribute| attribute.range_value())
     }
 
     /// Makes an error at the place of the element.

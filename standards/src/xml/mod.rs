@@ -2,6 +2,7 @@
 //! table of a standard, so that nothing is ignored silently.
 
 mod document;
+mod edits;
 mod element;
 mod error;
 mod expression;
@@ -10,10 +11,11 @@ mod source;
 mod writer;
 
 pub(crate) use document::Document;
+pub(crate) use edits::Edits;
 pub(crate) use element::Element;
 pub use error::{Flaw, Malformed, ReadError};
 pub use expression::ExpressionFlaw;
 pub(crate) use expression::{Expression, MOST_OPERATORS, Value};
 pub use schema::{NoEffect, Support, Supported};
 pub(crate) use schema::{Row, Schema, no_effect, read, refused};
-pub(crate) use writer::Writer;
+pub(crate) use writer::{Writer, escaped};

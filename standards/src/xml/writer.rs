@@ -47,15 +47,7 @@ impl Writer {
         for (name, value) in attributes {
             let value = value.to_string();
             write!(self.text, " {name}=\"").expect("a text takes any text");
-            for character in value.chars() {
-                match character {
-                    '&' => self.text.push_str("&amp;"),
-                    '<' => self.text.push_str("&lt;"),
-                    '"' => self.text.push_str("&quot;"),
-                    character if character.is_control() => self.text.push(' '),
-                    character => self.text.push(character),
-                }
-            }
+            self.text.push_str(&escaped(&value));
             self.text.push('"');
         }
     }
@@ -63,4 +55,19 @@ impl Writer {
     fn indent(&mut self) {
         self.text.extend(std::iter::repeat_n("  ", self.depth));
     }
+}
+
+/// Returns a text as it stands in an attribute with double quotes. Control characters become spaces.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '"' => escaped.push_str("&quot;"),
+            character if character.is_control() => escaped.push(' '),
+            character => escaped.push(character),
+        }
+    }
+    escaped
 }

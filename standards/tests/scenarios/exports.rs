@@ -4,6 +4,7 @@ use super::worlds::file;
 use nalgebra::Vector2;
 use paracosm_engine::object::Body;
 use paracosm_engine::{Control, Motion, Pose, Run, Setup, Step, Track};
+use paracosm_standards::opendrive::Map;
 use paracosm_standards::openscenario::{EgoAs, Export, Xosc};
 use std::fs;
 
@@ -19,8 +20,8 @@ fn track(name: &str, body: Body, at: impl Fn(f64) -> Option<[f64; 3]>) -> Track 
 
 /// Writes motions as a scenario, reads the scenario and plays it.
 fn played(motion: &Motion) -> Motion {
-    let export =
-        Export { about: "a test", date: "2026-01-01T00:00:00", roads: "straight.xodr", motion, ego: EgoAs::Trajectory };
+    let (map, date) = (&Map::read(&file("straight.xodr")).unwrap(), "2026-01-01T00:00:00");
+    let export = Export { about: "a test", date, roads: "straight.xodr", map, motion, ego: EgoAs::Trajectory };
     let folder = tempfile::tempdir().unwrap();
     fs::copy(file("straight.xodr"), folder.path().join("straight.xodr")).unwrap();
     let case = folder.path().join("case.xosc");

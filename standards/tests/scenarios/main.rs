@@ -1,6 +1,7 @@
 //! Scenarios of files: our own small files, and scenarios of others with the trajectories that esmini computed for them.
 
 mod bad;
+mod concrete;
 mod declarations;
 mod exports;
 mod golden;
@@ -9,4 +10,6 @@ mod others;
 mod page;
 mod parameters;
 mod semantics;
+mod things;
+mod weather;
 mod worlds;

@@ -5,7 +5,7 @@ use paracosm_engine::driver::find;
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{Control, Declared, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate};
 use paracosm_oracles::Trace;
-use paracosm_space::{Distribution, Domain, Value};
+use paracosm_space::{Distribution, Domain, Value, Values};
 use paracosm_standards::openscenario::Xosc;
 use std::path::{Path, PathBuf};
 
@@ -20,8 +20,13 @@ fn program(name: &str) -> Program {
 
 /// Runs a scenario with nominal values, in which the scenario leads the ego vehicle throughout.
 pub fn led(program: &Program) -> Result<Outcome, ProgramError> {
+    led_with(program, &program.declare()?.nominal())
+}
+
+/// Runs a scenario with the values of a test, in which the scenario leads the ego vehicle throughout.
+pub fn led_with(program: &Program, test: &Values) -> Result<Outcome, ProgramError> {
     let setup = Setup { takes_over: false, ..Setup::asking_every(0.1) };
-    let mut run = Run::new(program, &program.declare()?.nominal(), setup)?;
+    let mut run = Run::new(program, test, setup)?;
     loop {
         match run.advance() {
             Step::Need(_) => run.supply(Control::default()),
@@ -31,10 +36,13 @@ pub fn led(program: &Program) -> Result<Outcome, ProgramError> {
 }
 
 pub fn driven_by(driver: &str, program: &Program) -> Outcome {
+    driven_with(driver, program, &program.declare().unwrap().nominal())
+}
+
+pub fn driven_with(driver: &str, program: &Program, test: &Values) -> Outcome {
     let descriptor = find(driver).unwrap();
     let mut driver = (descriptor.make)(&descriptor.settings(&[]).unwrap());
-    let nominal = program.declare().unwrap().nominal();
-    simulate(program, &nominal, VehicleModel::SingleTrack, driver.as_mut())
+    simulate(program, test, VehicleModel::SingleTrack, driver.as_mut())
 }
 
 /// Returns the value of a signal at a time in seconds.
@@ -152,9 +160,7 @@ fn another_entity_can_be_the_ego_vehicle() {
     let mut test = program.declare().unwrap().nominal();
     assert_eq!(test.get("ego"), Some(&Value::from("Ego")));
     test.set("ego", Value::from("Leader"));
-    let descriptor = find("aeb").unwrap();
-    let mut driver = (descriptor.make)(&descriptor.settings(&[]).unwrap());
-    let trace = simulate(&program, &test, VehicleModel::SingleTrack, driver.as_mut()).trace.unwrap();
+    let trace = driven_with("aeb", &program, &test).trace.unwrap();
     // The car begins where the leader begins: 1.4 m in front of its rear axle.
     assert!((at(&trace, "car.x", 0.0) - at(&trace, "Leader.x", 0.0) - 1.4).abs() < 1e-6);
 }

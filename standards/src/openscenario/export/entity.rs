@@ -1,5 +1,6 @@
 //! The entities of an exported scenario: their boxes, and the stays of their bodies in the world.
 
+use crate::opendrive::Map;
 use crate::xml::Writer;
 use paracosm_engine::object::Class;
 use paracosm_engine::{Motion, Track};
@@ -47,13 +48,14 @@ enum Kind {
 }
 
 impl<'a> Entity<'a> {
-    /// Returns the entities of all bodies that are in the world during the run. Their names are all different.
-    pub fn all(motion: &'a Motion) -> Vec<Self> {
+    /// Returns the entities of all bodies that are in the world during the run, without those of the map. Their names are all
+    /// different.
+    pub fn all(motion: &'a Motion, map: &Map) -> Vec<Self> {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         let mut entities = Vec::new();
         for (index, track) in motion.tracks.iter().enumerate() {
             let stays = stays(track);
-            if stays.is_empty() {
+            if stays.is_empty() || is_of_map(track, map) {
                 continue;
             }
             let base = if index == 0 { EGO } else { &track.name };
@@ -121,6 +123,12 @@ impl<'a> Entity<'a> {
             xml.empty("Dimensions", &[("width", &width), ("length", &length), ("height", &height)]);
         });
     }
+}
+
+/// Returns `true` if a body is that of an object or of a signal of a map.
+fn is_of_map(track: &Track, map: &Map) -> bool {
+    let mut parts = map.objects().flat_map(|object| &object.parts);
+    parts.any(|(body, at)| *body == track.body && track.poses.iter().all(|pose| *pose == Some(*at)))
 }
 
 /// Returns the ticks of each stay of a body in the world.

@@ -3,6 +3,7 @@
 mod entity;
 
 use super::polyline::simplified;
+use crate::opendrive::Map;
 use crate::xml::Writer;
 use entity::{Entity, stays};
 use paracosm_engine::{Motion, Pose};
@@ -31,6 +32,8 @@ pub struct Export<'a> {
     pub date: &'a str,
     /// The path of the file of the roads, from the folder of the scenario.
     pub roads: &'a str,
+    /// The roads of this file. Bodies of its objects and signals are no entities.
+    pub map: &'a Map,
     /// The recorded run.
     pub motion: &'a Motion,
     /// The motion of the ego vehicle.
@@ -64,7 +67,7 @@ impl<'a> Export<'a> {
     /// Returns the text of the scenario. Each body is in the world while it is there in the recorded run. Bodies that are
     /// [never](Self::never_there) there are left out.
     pub fn text(&self) -> String {
-        let entities = Entity::all(self.motion);
+        let entities = Entity::all(self.motion, self.map);
         let mut xml = Writer::new();
         xml.within("OpenSCENARIO", &[], |xml| {
             let header: &[(&str, &dyn Display)] = &[

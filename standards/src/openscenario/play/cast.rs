@@ -2,7 +2,7 @@
 
 use super::actor::Actor;
 use crate::opendrive::Map;
-use crate::openscenario::clock::Clock;
+use crate::openscenario::environment::Surroundings;
 use crate::openscenario::variable::Variable;
 use paracosm_engine::Lead;
 use std::sync::Arc;
@@ -15,8 +15,8 @@ pub(in crate::openscenario) struct Cast {
     /// The index of the entity that the system under test drives.
     pub(super) ego: usize,
     pub lead: Lead,
-    /// The time of day, with the seconds from the beginning of the run to the moment at which it was set.
-    pub(super) clock: (Clock, f64),
+    /// The time of day and the weather.
+    pub surroundings: Surroundings,
     /// The seconds since the run began.
-    pub(super) time: f64,
+    pub time: f64,
 }

@@ -37,10 +37,7 @@ impl Cast {
         let actor = |index: usize| &self.actors[index];
         match measure {
             Measure::Time => self.time,
-            Measure::TimeOfDay => {
-                let (clock, since) = self.clock;
-                clock.seconds + if clock.runs { self.time - since } else { 0.0 }
-            }
+            Measure::TimeOfDay => self.surroundings.seconds(self.time),
             Measure::Constant(number) => *number,
             Measure::Variable(index) => match &self.variables[*index].value {
                 Value::Number(number) => *number,

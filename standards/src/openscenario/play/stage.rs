@@ -52,7 +52,8 @@ impl Stage {
         let asked =
             Self::conditions(&board).flat_map(|condition| &condition.check.measures).filter_map(Measure::offroad);
         let asked: Vec<usize> = asked.collect();
-        let Storyboard { entities, variables, clock, init, items, stop } = board;
+        let is_controlled = board.controls(ego);
+        let Storyboard { entities, variables, surroundings, init, items, stop } = board;
         let mut inputs = 0..;
         let mut watch = |trigger: &Option<Trigger>| trigger.as_ref().map(|trigger| Watch::new(trigger, &mut inputs));
         let playing = |item: Item| Playing {
@@ -74,7 +75,7 @@ impl Stage {
         }
         let actors = entities.into_iter().map(Actor::new).collect();
         let mut stage = Self {
-            cast: Cast { map, actors, variables, ego, lead, clock: (clock, 0.0), time: 0.0 },
+            cast: Cast { map, actors, variables, ego, lead, surroundings, time: 0.0 },
             items,
             stop: None,
             behind: None,
@@ -111,12 +112,8 @@ impl Stage {
         }
         let (state, transition) = (State::Running, None);
         stage.items.push(Playing { item, last: 0, state, transition, runs: 0, start: None, stop: None, motions });
-        let activates = |playing: &Playing| match &playing.item.kind {
-            Kind::Action(actors, Action::Activate { .. }) => actors.contains(&ego),
-            _ => false,
-        };
         // If nothing activates the controller of the ego vehicle, the controller is active from the beginning.
-        if !stage.items.iter().any(activates) {
+        if !is_controlled {
             stage.cast.lead.hand_over();
         }
         stage.cast.lead.to(stage.cast.actors[ego].motion());
@@ -249,8 +246,8 @@ impl Stage {
         if let Kind::Change(variable, change) = &self.items[index].item.kind {
             change.apply(&mut self.cast.variables[*variable].value);
         }
-        if let Kind::Clock(clock) = &self.items[index].item.kind {
-            self.cast.clock = (*clock, self.cast.time);
+        if let Kind::Environment(change) = &self.items[index].item.kind {
+            self.cast.surroundings.change(change, self.cast.time);
         }
         if let Kind::Action(actors, action) = self.items[index].item.kind.clone() {
             for entity in actors {
@@ -319,7 +316,7 @@ impl Stage {
             return;
         }
         let over = match self.items[index].item.kind {
-            Kind::Action(..) | Kind::Change(..) | Kind::Clock(_) => self.items[index].motions.is_empty(),
+            Kind::Action(..) | Kind::Change(..) | Kind::Environment(_) => self.items[index].motions.is_empty(),
             _ => {
                 let within = &self.items[index + 1..self.items[index].last];
                 let mut inner = within.iter().filter(|inner| inner.item.parent == Some(index));

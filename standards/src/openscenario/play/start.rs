@@ -14,8 +14,8 @@ impl Cast {
     pub(super) fn begin(&mut self, entity: usize, action: &Action) -> Result<Option<Motion>, Lost> {
         Ok(match action {
             Action::Nothing => None,
-            Action::Activate { lateral, longitudinal } => {
-                if entity == self.ego && *lateral != Some(false) && *longitudinal != Some(false) {
+            Action::Activate { .. } => {
+                if entity == self.ego && action.hands_over() {
                     self.lead.hand_over();
                 }
                 None

@@ -1,0 +1,197 @@
+//! A scenario of a file with the values of one test, as one file that other simulators play.
+//!
+//! The text of the scenario stays as it is, with its comments. Parameters get the values of the test, expressions get their
+//! values, and the entries of catalogs stand where the scenario refers to them. So the file needs only its roads.
+
+use super::catalogs::Catalogs;
+use super::local::{declarations, declare};
+use super::parameters::EGO;
+use super::program::{ROOT, Xosc};
+use super::scope::{Node, Scope};
+use super::story::Storyboard;
+use super::unique::Renamed;
+use crate::xml::{Edits, Element, ReadError, escaped};
+use paracosm_space::Values;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// A scenario of a file with the values of one test.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Concrete {
+    /// The text of the scenario.
+    pub scenario: String,
+    /// The text of the file of its roads.
+    pub roads: Arc<str>,
+    /// The name of the entity that the system under test drives. It has a controller, which the scenario activates.
+    pub ego: String,
+    /// The parts of the scenario that are left out, and the references that no catalog resolves.
+    pub notes: Vec<String>,
+}
+
+/// The elements that can refer to an entry of a catalog, with the elements that the entry can be.
+const REFERRING: [(&str, &[&str]); 9] = [
+    ("ScenarioObject", &["Vehicle", "Pedestrian", "MiscObject"]),
+    ("ObjectController", &["Controller"]),
+    ("AssignControllerAction", &["Controller"]),
+    ("ManeuverGroup", &["Maneuver"]),
+    ("AssignRouteAction", &["Route"]),
+    ("RouteRef", &["Route"]),
+    ("FollowTrajectoryAction", &["Trajectory"]),
+    ("TrajectoryRef", &["Trajectory"]),
+    ("EnvironmentAction", &["Environment"]),
+];
+/// The elements of a storyboard, and their kinds in conditions.
+const KINDS: [(&str, &str); 6] = [
+    ("Story", "story"),
+    ("Act", "act"),
+    ("ManeuverGroup", "maneuverGroup"),
+    ("Maneuver", "maneuver"),
+    ("Event", "event"),
+    ("Action", "action"),
+];
+/// The greatest number of entries of catalogs within each other. In the standard, an entry refers to an entry without references.
+const DEEPEST: usize = 8;
+/// A controller about which the scenario says nothing: that of the other simulator.
+const CONTROLLER: &str =
+    "<ObjectController><Controller name=\"system under test\"><Properties/></Controller></ObjectController>";
+const ACTIVATION: &str = "<ActivateControllerAction lateral=\"true\" longitudinal=\"true\"/>";
+
+impl Xosc {
+    /// Returns the scenario with the values of a test. `roads` is the path of the file of the roads from the folder of the
+    /// scenario.
+    ///
+    /// # Errors
+    /// The scenario cannot be read with these values.
+    pub fn concrete(&self, test: &Values, roads: &str) -> Result<Concrete, ReadError> {
+        let tree = self.document.tree()?;
+        let root = self.document.root(&tree, ROOT)?;
+        let trees = self.catalogs.trees()?;
+        let catalogs = self.catalogs.catalogs(&trees)?;
+        let scope = self.parameters.values(Node { element: root, scope: &Scope::default() }, test)?;
+        let root = Node { element: root, scope: &scope };
+        let map = self.roads_in(root.child("RoadNetwork")?.child("LogicFile")?)?.map;
+        let board = Storyboard::read(root, &catalogs)?;
+        let ego = test.get(EGO).map_or_else(|| board.entities[board.usual_ego()].name.clone(), ToString::to_string);
+        let renamed = Renamed::of(&board);
+        let notes = renamed.notes().collect();
+        let mut writing = Writing { catalogs: &catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
+        let mut edits = writing.edits(root.element, &scope, &[])?;
+        if !board.activates(&ego) {
+            let is_first_version = root.child("FileHeader")?.element.text("revMinor") == Some("0");
+            let [begin, end] = if is_first_version { ["", ""] } else { ["<ControllerAction>", "</ControllerAction>"] };
+            let ego = escaped(&ego);
+            edits.append(
+                root.child("Storyboard")?.child("Init")?.child("Actions")?.element,
+                &format!(
+                    "<Private entityRef=\"{ego}\"><PrivateAction>{begin}{ACTIVATION}{end}</PrivateAction></Private>"
+                ),
+            );
+        }
+        let (scenario, notes) = (edits.finish_file(), writing.notes);
+        Ok(Concrete { scenario, roads: map.text.clone(), ego, notes })
+    }
+}
+
+/// The writing of a scenario.
+struct Writing<'w> {
+    catalogs: &'w Catalogs<'w>,
+    /// The path of the file of the roads.
+    roads: &'w str,
+    /// The name of the ego vehicle.
+    ego: &'w str,
+    renamed: &'w Renamed,
+    /// The number of entries of catalogs around the present element.
+    depth: usize,
+    notes: Vec<String>,
+}
+
+impl Writing<'_> {
+    /// Returns the changes of the text of an element: the scenario, or the entry of a catalog with the values that a reference
+    /// assigns.
+    fn edits<'a>(
+        &mut self,
+        root: Element<'a, 'a>,
+        scope: &Scope,
+        assignments: &[Node<'_>],
+    ) -> Result<Edits<'a>, ReadError> {
+        let mut edits = Edits::new(root);
+        // A stack of our own: a file may nest elements deeply.
+        let mut open = vec![(root, Arc::new(scope.clone()))];
+        while let Some((element, mut scope)) = open.pop() {
+            // The parameters of the whole scenario are in the scope already.
+            if declarations(element).next().is_some() && element.name() != ROOT {
+                let given = if element == root { assignments } else { &[] };
+                declare(element, Arc::make_mut(&mut scope), given)?;
+            }
+            for declaration in declarations(element) {
+                let value = declaration.text("name").and_then(|name| scope.get(name));
+                edits.set(declaration, "value", value.unwrap_or_default());
+                open.extend(declaration.elements().map(|group| (group, scope.clone())));
+            }
+            let expressions = element.attributes().filter_map(|name| Some((name, element.text(name)?)));
+            for (name, text) in expressions.filter(|(_, text)| text.starts_with("${")) {
+                // An expression that has no value here stands where nothing reads it, such as in the name of a condition.
+                if let Ok(value) = scope.resolve(text) {
+                    edits.set(element, name, &value);
+                }
+            }
+            let node = Node { element, scope: &scope };
+            let is_ego = element.name() == "ScenarioObject" && node.text("name")?.as_deref() == Some(self.ego);
+            if is_ego && element.first("ObjectController").is_none() {
+                edits.append(element, CONTROLLER);
+            }
+            self.rename(node, &mut edits, element)?;
+            for child in element.elements().filter(|child| child.name() != "ParameterDeclarations") {
+                match self.instead(element, Node { element: child, scope: &scope })? {
+                    Some(text) => edits.replace(child, text),
+                    None => open.push((child, scope.clone())),
+                }
+            }
+        }
+        Ok(edits)
+    }
+
+    /// Writes the new name of an element of the storyboard, or of the element to which a condition refers.
+    fn rename<'a>(&self, node: Node<'_>, edits: &mut Edits<'a>, element: Element<'a, 'a>) -> Result<(), ReadError> {
+        let (kind, attribute) = match KINDS.iter().find(|(name, _)| *name == node.name()) {
+            Some((_, kind)) => (Cow::Borrowed(*kind), "name"),
+            None if node.name() == "StoryboardElementStateCondition" => {
+                (node.required("storyboardElementType")?, "storyboardElementRef")
+            }
+            None => return Ok(()),
+        };
+        let name = node.text(attribute)?.unwrap_or_default();
+        if let Some(new) = self.renamed.name(&kind, &name) {
+            edits.set(element, attribute, new);
+        }
+        Ok(())
+    }
+
+    /// Returns the text that replaces an element; `None` if the element stays.
+    fn instead(&mut self, parent: Element<'_, '_>, child: Node<'_>) -> Result<Option<String>, ReadError> {
+        let note = |says: &str| format!("{}:{}: {says}", child.element.file().display(), child.element.line());
+        Ok(match child.name() {
+            "LogicFile" => Some(format!("<LogicFile filepath=\"{}\"/>", escaped(self.roads))),
+            "SceneGraphFile" => {
+                self.notes.push(note("`SceneGraphFile` is left out, because models of looks are not exported"));
+                Some(String::new())
+            }
+            "CatalogLocations" => Some("<CatalogLocations/>".to_owned()),
+            "CatalogReference" => {
+                let kinds =
+                    REFERRING.iter().find(|(name, _)| *name == parent.name()).map_or(&[][..], |(_, kinds)| *kinds);
+                let entry = if self.depth < DEEPEST { self.catalogs.entry(child, kinds)? } else { None };
+                let Some(entry) = entry else {
+                    self.notes.push(note("no catalog has the entry of this `CatalogReference`, which stays as it is"));
+                    return Ok(None);
+                };
+                let given: Vec<_> = child.first("ParameterAssignments").into_iter().flat_map(Node::elements).collect();
+                self.depth += 1;
+                let text = self.edits(entry, child.scope, &given)?.finish();
+                self.depth -= 1;
+                Some(text)
+            }
+            _ => None,
+        })
+    }
+}
