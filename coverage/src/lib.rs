@@ -33,6 +33,7 @@ pub mod l2;
 pub mod measure;
 mod ordered;
 mod points;
+mod projection;
 pub mod proof;
 #[cfg(test)]
 mod samples;
@@ -45,6 +46,7 @@ mod witness;
 pub use bracket::{Bracket, Deadline};
 pub use measure::{Measure, UnknownMeasure};
 pub use points::{PointSet, PointSetError};
+pub use projection::Projection;
 
 /// All measures, in the order in which they are shown.
 const MEASURES: &[Measure] = &[

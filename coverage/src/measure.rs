@@ -54,6 +54,9 @@ pub enum Compare {
     Never,
 }
 
+/// The type of a function that finds the largest empty box of a set of points.
+pub type FindHole = fn(&PointSet, Option<&ValidPart>, Deadline, &mut dyn FnMut(Bracket)) -> Dispersion;
+
 /// The kind of result of a measure, with the function that computes the result.
 #[derive(Debug, Clone, Copy)]
 pub enum Computation {
@@ -63,7 +66,7 @@ pub enum Computation {
     Bracket(fn(&PointSet, Deadline) -> Bracket),
     /// A function that finds the largest empty box within the valid part, if constraints leave only a part. A callback receives
     /// the bracket of the volume while the bracket narrows.
-    Hole(fn(&PointSet, Option<&ValidPart>, Deadline, &mut dyn FnMut(Bracket)) -> Dispersion),
+    Hole(FindHole),
     /// A function that finds the largest empty ball; `None` if there are no points.
     Ball(fn(&PointSet, Deadline) -> Option<Fill>),
     /// The measure counts the combinations of discrete values that the tests contain.

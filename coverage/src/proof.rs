@@ -18,10 +18,11 @@
 //! sides and its volume is the empty product, 1. Any selected test is then a pivot that leaves no part, so that the
 //! same rules hold.
 
+use crate::Projection;
 use crate::bracket::Watch;
 use crate::dispersion::trail;
 use crate::kwise::KwiseError;
-use crate::kwise_dispersion::{Projection, projections};
+use crate::kwise_dispersion::projections;
 use crate::{Bracket, Deadline};
 use paracosm_space::Point;
 use paracosm_space::rules::Rules;

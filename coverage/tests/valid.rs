@@ -1,8 +1,9 @@
 //! The dispersion within the valid part of a space, against areas of clipped polygons and against all boxes.
 
+use paracosm_coverage::Projection;
 use paracosm_coverage::dispersion::{Dispersion, dispersion, dispersion_within, valid_is_at_most};
 use paracosm_coverage::empty_boxes::EmptyBoxes;
-use paracosm_coverage::kwise_dispersion::{Projection, kwise_dispersion, row_dispersion};
+use paracosm_coverage::kwise_dispersion::{kwise_dispersion, row_dispersion};
 use paracosm_coverage::valid::{Effort, Validity};
 use paracosm_coverage::{Bracket, Deadline, PointSet};
 use paracosm_space::{Domain, Parameter, Point, Space, Value};

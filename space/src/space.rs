@@ -14,20 +14,11 @@ use crate::domain::{at, coordinate};
 use crate::error::MOST_PARAMETERS;
 use crate::names::nearest;
 use crate::rules::{Clause, Conflict, Rules, RulesError};
-use crate::{Coordinate, Domain, Parameter, SpaceError, Value, Values, WordFlaw, word_flaw};
+use crate::{Coordinate, Domain, Parameter, Point, SpaceError, Value, Values, WordFlaw, word_flaw};
 use levels::Levels;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
-
-/// The coordinates of a test, in the order of the space's parameters.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Point {
-    /// The coordinates in `[0,1]` of the continuous parameters, one for each parameter and several for a signal.
-    pub continuous: Vec<f64>,
-    /// The level indices of the discrete parameters, one for each parameter and several for a signal.
-    pub discrete: Vec<usize>,
-}
 
 /// An ordered list of parameters with distinct names, with constraints between the parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -57,9 +57,9 @@ impl ValidPart {
             for (half, decided) in answers.into_iter().enumerate() {
                 let (mut lower, mut upper) = (lower.clone(), upper.clone());
                 if half == 0 {
-                    upper[along] = at
+                    upper[along] = at;
                 } else {
-                    lower[along] = at
+                    lower[along] = at;
                 }
                 part.add(Open { volume: volume / 2.0, index: halves[half], lower, upper }, decided, &mut open);
             }

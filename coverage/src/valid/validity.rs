@@ -6,7 +6,7 @@
 
 use super::ValidPart;
 use super::bisect::Limits;
-use crate::kwise_dispersion::Projection;
+use crate::Projection;
 use paracosm_space::Space;
 use paracosm_space::rules::Rules;
 use std::collections::BTreeMap;
@@ -49,8 +49,8 @@ pub struct Validity<'a> {
     known: Mutex<BTreeMap<Key, Arc<ValidPart>>>,
 }
 
-/// What a valid part depends on: its axes, the levels of the constrained discrete parameters in each of its rows, and the
-/// effort.
+/// The facts on which a valid part depends: its axes, the levels of the constrained discrete parameters in each of its rows,
+/// and the effort.
 type Key = (Vec<usize>, Vec<Vec<usize>>, Effort);
 
 impl<'a> Validity<'a> {

@@ -1,7 +1,8 @@
 //! Errors in constraints, and their messages.
 
 use super::Function;
-use super::expression::{Name, Relation, Written};
+use super::expression::Relation;
+use super::written::{Name, Written};
 use crate::Value;
 use crate::names::did_you_mean;
 use std::fmt;

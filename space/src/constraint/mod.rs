@@ -44,6 +44,7 @@ mod table;
 mod term;
 mod token;
 mod truth;
+mod written;
 
 pub use expression::{Expression, Operand, Relation};
 pub use flaw::{ConstraintError, ConstraintFlaw, Expected};

@@ -1,7 +1,8 @@
 //! Parses a text into an expression, by recursive descent.
 
-use super::expression::{Expression, KEYWORDS, Operand};
+use super::expression::{Expression, Operand};
 use super::token::{Token, tokens};
+use super::written::KEYWORDS;
 use super::{ConstraintError, ConstraintFlaw, Expected, Function, Term};
 use crate::Value;
 use crate::names::nearest;

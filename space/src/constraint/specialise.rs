@@ -4,7 +4,7 @@ use super::truth::{Known, truth};
 use super::{Expression, Operand, Term};
 use crate::{Value, Values};
 
-/// What is left of an expression once some of its parameters are known.
+/// The rest of an expression once some of its parameters are known.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Specialised {
     /// The expression holds whatever values the other parameters have.

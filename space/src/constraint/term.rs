@@ -1,6 +1,6 @@
 //! Terms: numbers that are computed from the parameters of a test, as in `ego_speed - lead_speed`.
 
-use super::expression::Name;
+use super::written::Name;
 use std::fmt;
 
 /// A number that is computed from the values of parameters.

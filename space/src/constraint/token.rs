@@ -1,6 +1,7 @@
 //! Divides the text of a constraint into tokens, each with its place.
 
-use super::expression::{KEYWORDS, Name, Relation, Written, begins_name, continues_name};
+use super::expression::Relation;
+use super::written::{KEYWORDS, Name, Written, begins_name, continues_name};
 use super::{ConstraintError, ConstraintFlaw, Function};
 use crate::Value;
 use std::fmt;

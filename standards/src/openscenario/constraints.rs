@@ -15,7 +15,7 @@ use paracosm_space::Value;
 use paracosm_space::constraint::{Expression, Function, Operand, Relation, Term};
 use std::cell::Cell;
 
-/// What the demands of a declared parameter say.
+/// The statement that the demands of a declared parameter make about a test.
 #[derive(Debug, Clone, PartialEq)]
 enum Said {
     /// The demands hold in every test.
@@ -45,6 +45,16 @@ struct Writer<'a> {
     fixed: Vec<(String, Value)>,
     /// The number of expressions that are being written, each within the one before.
     depth: Cell<usize>,
+}
+
+/// Writes the demands on the parameters of the whole scenario as constraints of the space.
+///
+/// # Errors
+/// A limit names an unknown parameter, or cannot be computed with. No test keeps the demands.
+pub(super) fn of_scenario(parameters: &Parameters) -> Result<Vec<Constraint>, ReadError> {
+    let scope = parameters.texts();
+    let one = |(at, demand)| constraint(parameters, &scope, at, demand).transpose();
+    parameters.demands().enumerate().filter_map(one).collect()
 }
 
 /// Writes the demands on a parameter of a scope as a constraint of the space; `None` if they hold in every test.

@@ -1,13 +1,12 @@
-//! The parameters of a scenario as parameters of tests: their declarations, their values, and their constraints.
+//! The parameters of a scenario as parameters of tests: their declarations and their values.
 
-use super::constraints::constraint;
 use super::demand::{Breach, Demand};
 use super::distribution::{Distribution, Opened};
 use super::kind::Kind;
 use super::local::declarations;
 use super::scope::{Node, Scope, references};
 use crate::xml::ReadError;
-use paracosm_engine::{Constraint, Declared, Scenario};
+use paracosm_engine::{Declared, Scenario};
 use paracosm_space::{Domain, Parameter, Value, Values};
 
 /// The name of the parameter that chooses the entity which the system under test drives.
@@ -22,7 +21,6 @@ const BOUND: f64 = 1e9;
 pub(super) struct Parameters {
     distribution: Distribution,
     declarations: Vec<Declaration>,
-    constraints: Vec<Constraint>,
 }
 
 /// The declaration of a parameter.
@@ -60,18 +58,10 @@ impl Parameters {
             Ok(declared)
         };
         let declarations = declarations(root.element).map(declaration).collect::<Result<Vec<_>, ReadError>>()?;
-        let mut scope = Scope::default();
-        for declaration in &declarations {
-            scope.set(declaration.name(), declaration.text.as_str());
-        }
-        let mut read = Self { distribution, declarations, constraints: Vec::new() };
-        let constraints = read.declarations.iter().enumerate();
-        let constraints = constraints.map(|(at, declared)| constraint(&read, &scope, at, &declared.demand));
-        read.constraints = constraints.filter_map(Result::transpose).collect::<Result<_, ReadError>>()?;
-        Ok(read)
+        Ok(Self { distribution, declarations })
     }
 
-    /// Declares the parameters and their constraints in a world, and returns the values that the test gives them. A
+    /// Declares the parameters in a world, and returns the values that the test gives them. A
     /// parameter whose value is an expression follows from the others.
     pub fn declared(&self, root: Node<'_>, s: &mut Scenario) -> Result<Scope, ReadError> {
         let mut given = Values::default();
@@ -79,9 +69,6 @@ impl Parameters {
             let name = declared.parameter.name.clone();
             let value = s.parameter(declared).value();
             given.set(name, value);
-        }
-        for constraint in &self.constraints {
-            s.constrain(constraint.clone());
         }
         self.values(root, &given)
     }
@@ -130,6 +117,20 @@ impl Parameters {
             Declared { open: false, takes_texts, whole, ..Declared::open(parameter) }
         });
         opened.chain(closed)
+    }
+
+    /// Returns the texts of the values of the declared parameters, with expressions as they are written.
+    pub fn texts(&self) -> Scope {
+        let mut scope = Scope::default();
+        for declaration in &self.declarations {
+            scope.set(declaration.name(), declaration.text.as_str());
+        }
+        scope
+    }
+
+    /// Returns the demands on the values of the declared parameters, in the order of the declarations.
+    pub fn demands(&self) -> impl Iterator<Item = &Demand> {
+        self.declarations.iter().map(|declaration| &declaration.demand)
     }
 
     /// Returns the index of the declaration of a parameter.

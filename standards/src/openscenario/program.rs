@@ -2,7 +2,7 @@
 
 use super::catalogs::{CatalogFiles, Found};
 use super::condition::{Check, Condition};
-use super::constraints::constraint;
+use super::constraints::{constraint, of_scenario};
 use super::distribution::Distribution;
 use super::elements::schema;
 use super::linked;
@@ -44,6 +44,8 @@ pub struct Xosc {
     pub(super) document: Document,
     pub(super) catalogs: CatalogFiles,
     pub(super) parameters: Parameters,
+    /// The constraints that the declarations of the parameters state.
+    constraints: Vec<Constraint>,
     /// The remarks on the file and on the file of the distribution.
     notes: Vec<String>,
     /// The roads that were read, by the names of their files in the scenario.
@@ -142,7 +144,8 @@ impl Xosc {
             let root = Node { element: root, scope: &scope };
             (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters)
         };
-        let read = Self { name, folder, document, catalogs, parameters, notes, roads: Mutex::default() };
+        let constraints = of_scenario(&parameters)?;
+        let read = Self { name, folder, document, catalogs, parameters, constraints, notes, roads: Mutex::default() };
         read.board(&mut declared_values)?;
         Ok(read)
     }
@@ -159,7 +162,7 @@ impl Xosc {
             Err(error) => return s.refuse(&error.to_string()),
         };
         s.note(|| [&self.notes, &found.notes(), &roads.notes[..]].concat());
-        for constraint in constraints {
+        for constraint in self.constraints.iter().cloned().chain(constraints) {
             s.constrain(constraint);
         }
         let usual = board.entities[board.usual_ego()].name.clone();
