@@ -1,4 +1,4 @@
-//! How constraints write the names of parameters and values.
+//! Writes the names of parameters, and values, in the way in which constraints read them.
 
 use crate::Value;
 use std::fmt;
