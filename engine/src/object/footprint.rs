@@ -19,7 +19,8 @@ impl<'a> Footprint<'a> {
     fn corners(&self) -> [Vector2<f64>; 4] {
         let (half, forward) = (self.outline.half_extent(), self.frame.ahead());
         let (ahead, left) = (forward * half.x, Vector2::new(-forward.y, forward.x) * half.y);
-        [ahead + left, ahead - left, -ahead - left, -ahead + left].map(|offset| self.position + offset)
+        let (front, back) = ([ahead + left, ahead - left], [-ahead - left, -ahead + left]);
+        [self.position + front[0], self.position + front[1], self.position + back[0], self.position + back[1]]
     }
 
     /// Returns the distance in metres from the outline to a point; 0 if the point is inside.
@@ -35,11 +36,13 @@ impl<'a> Footprint<'a> {
 
     /// Returns `true` if all of these corners lie beyond one side of the rectangle.
     fn is_apart_from(&self, corners: &[Vector2<f64>; 4]) -> bool {
-        let seen = corners.map(|corner| self.frame.to_local(corner));
         let half = self.outline.half_extent();
-        (0..2).any(|axis| {
-            seen.iter().all(|corner| corner[axis] > half[axis]) || seen.iter().all(|corner| corner[axis] < -half[axis])
-        })
+        let (mut least, mut most) = (Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY));
+        for corner in corners {
+            let seen = self.frame.to_local(*corner);
+            (least, most) = (least.inf(&seen), most.sup(&seen));
+        }
+        (0..2).any(|axis| least[axis] > half[axis] || most[axis] < -half[axis])
     }
 }
 
@@ -56,10 +59,10 @@ pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
                 return 0.0;
             }
             // If two convex polygons are apart, one of their corners is nearest to the other polygon.
-            let nearest = |from: &Footprint<'_>, corners: [Vector2<f64>; 4]| {
-                corners.map(|corner| from.to_point(corner)).into_iter().fold(f64::INFINITY, f64::min)
+            let nearest = |from: &Footprint<'_>, corners: &[Vector2<f64>; 4]| {
+                corners.iter().map(|corner| from.to_point(*corner)).fold(f64::INFINITY, f64::min)
             };
-            nearest(&a, corners[1]).min(nearest(&b, corners[0]))
+            nearest(&a, &corners[1]).min(nearest(&b, &corners[0]))
         }
     }
 }
