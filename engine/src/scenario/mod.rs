@@ -285,8 +285,8 @@ impl Scenario {
     /// # use paracosm_engine::Scenario;
     /// # use paracosm_space::constraint::Expression;
     /// fn world(s: &mut Scenario) {
-    ///     let speed = s.interval("speed", 1.0, 30.0).default(10.0).value();
-    ///     let gap = s.interval("gap", 5.0, 100.0).default(50.0).value();
+    ///     let speed = s.interval("speed", 1.0..=30.0).default(10.0).value();
+    ///     let gap = s.interval("gap", 5.0..=100.0).default(50.0).value();
     ///     s.constrain("gap >= 0.5 * speed".parse::<Expression>().expect("a constraint"));
     /// }
     /// ```
