@@ -61,11 +61,17 @@ fn indices<'a>(root: Element<'a, '_>, name: &'static str) -> Result<BTreeMap<&'a
 
 /// Returns the links at the beginning and at the end of a road.
 pub(super) fn of_road(road: Element<'_, '_>, names: &Names<'_>) -> Result<(Option<Link>, Option<Link>), ReadError> {
-    let end = |name| {
-        let link = road.first("link").and_then(|link| link.first(name));
-        link.map(|element| self::link(element, names)).transpose()
+    let own = names.road(road, "id")?;
+    let link_at = |name, end| {
+        let Some(element) = road.first("link").and_then(|link| link.first(name)) else { return Ok(None) };
+        let link = link(element, names)?;
+        // A ring is a road whose end meets its own beginning.
+        if link == Link::Road(own, end) {
+            return Err(element.unexpected("elementId", "another road, or the other end of the same road"));
+        }
+        Ok(Some(link))
     };
-    Ok((end("predecessor")?, end("successor")?))
+    Ok((link_at("predecessor", End::Start)?, link_at("successor", End::End)?))
 }
 
 fn link(element: Element<'_, '_>, names: &Names<'_>) -> Result<Link, ReadError> {
@@ -171,6 +177,7 @@ impl Tip<'_> {
 #[derive(Default)]
 struct Lost {
     no_lane: Option<(u32, i32, usize)>,
+    no_road: Option<(u32, usize)>,
     apart: Option<(u32, f64, usize)>,
 }
 
@@ -193,7 +200,8 @@ impl Lost {
     fn notes(self) -> Vec<Note> {
         let no_lane = self.no_lane.map(|(line, lane, count)| Note::NoLane { line, lane, count });
         let apart = self.apart.map(|(line, gap, count)| Note::Apart { line, gap, count });
-        no_lane.into_iter().chain(apart).collect()
+        let no_road = self.no_road.map(|(line, count)| Note::NoRoad { line, count });
+        no_lane.into_iter().chain(no_road).chain(apart).collect()
     }
 }
 
@@ -205,10 +213,18 @@ pub(super) fn lost(root: Element<'_, '_>, map: &Map) -> Result<Vec<Note>, ReadEr
         let sections = element.first("lanes").into_iter().flat_map(|lanes| lanes.all("laneSection"));
         for (index, section) in sections.enumerate() {
             for (name, end) in [("predecessor", End::Start), ("successor", End::End)] {
-                let Some((to, next, at)) = map.beyond(road, index, end) else { continue };
+                let beyond = map.beyond(road, index, end);
+                // At a junction, the junction has the links of lanes.
+                if beyond.is_none() && road.link(end).is_some() {
+                    continue;
+                }
                 for of in section.elements().flat_map(|side| side.all("lane")) {
                     let from = [Tip { road, section: index, lane: of.whole("id")?, end }];
                     for link in of.all("link").flat_map(|link| link.all(name)) {
+                        let Some((to, next, at)) = beyond else {
+                            lost.no_road.get_or_insert((link.line(), 0)).1 += 1;
+                            continue;
+                        };
                         let tip = Tip { road: to, section: next, lane: link.whole("id")?, end: at };
                         lost.check(link.line(), &from, &tip);
                     }

@@ -31,6 +31,13 @@ pub enum Note {
         /// The number of links.
         count: usize,
     },
+    /// Lanes have links beyond an end of their road at which the road has no link. Cars do not use the links.
+    NoRoad {
+        /// The line of the first link in the file, from 1.
+        line: u32,
+        /// The number of links.
+        count: usize,
+    },
     /// Links join lanes that cars drive on, but the lanes do not meet. Cars do not use the links.
     Apart {
         /// The line of the first link in the file, from 1.
@@ -89,7 +96,10 @@ impl Note {
     /// Returns the line of the file that the remark is about, from 1; `None` if it is about no single line.
     pub fn line(&self) -> Option<u32> {
         match self {
-            Self::NoEffect(NoEffect { line, .. }) | Self::NoLane { line, .. } | Self::Apart { line, .. } => Some(*line),
+            Self::NoEffect(NoEffect { line, .. })
+            | Self::NoLane { line, .. }
+            | Self::NoRoad { line, .. }
+            | Self::Apart { line, .. } => Some(*line),
             _ => None,
         }
     }
@@ -120,6 +130,12 @@ impl fmt::Display for Note {
             }
             Self::NoLane { lane, count, .. } => {
                 write!(f, "the link leads to lane {lane}, which does not exist there; cars do not use it")?;
+                others(f, *count, "link")
+            }
+            Self::NoRoad { count, .. } => {
+                f.write_str(
+                    "the lane has a link beyond the end of its road, but the road has none there; cars do not use it",
+                )?;
                 others(f, *count, "link")
             }
             Self::Apart { gap, count, .. } => {

@@ -7,12 +7,12 @@ use super::catalogs::Catalogs;
 use super::local::{declarations, declare};
 use super::parameters::EGO;
 use super::program::{ROOT, Xosc};
+use super::reference::{CONDITION, ELEMENT, within};
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
 use super::unique::Renamed;
 use crate::xml::{Edits, Element, ReadError, escaped};
 use paracosm_space::Values;
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A scenario of a file with the values of one test.
@@ -75,7 +75,7 @@ impl Xosc {
         let renamed = Renamed::of(&board);
         let notes = renamed.notes().collect();
         let mut writing = Writing { catalogs: &catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
-        let mut edits = writing.edits(root.element, &scope, &[])?;
+        let mut edits = writing.edits(root.element, &scope, "", &[])?;
         if !board.activates(&ego) {
             let is_first_version = root.child("FileHeader")?.element.text("revMinor") == Some("0");
             let [begin, end] = if is_first_version { ["", ""] } else { ["<ControllerAction>", "</ControllerAction>"] };
@@ -99,7 +99,7 @@ struct Writing<'w> {
     roads: &'w str,
     /// The name of the ego vehicle.
     ego: &'w str,
-    renamed: &'w Renamed,
+    renamed: &'w Renamed<'w>,
     /// The number of entries of catalogs around the present element.
     depth: usize,
     notes: Vec<String>,
@@ -107,17 +107,18 @@ struct Writing<'w> {
 
 impl Writing<'_> {
     /// Returns the changes of the text of an element: the scenario, or the entry of a catalog with the values that a reference
-    /// assigns.
+    /// assigns. `around` has the names of the elements of the storyboard around the element.
     fn edits<'a>(
         &mut self,
         root: Element<'a, 'a>,
         scope: &Scope,
+        around: &str,
         assignments: &[Node<'_>],
     ) -> Result<Edits<'a>, ReadError> {
         let mut edits = Edits::new(root);
         // A stack of our own: a file may nest elements deeply.
-        let mut open = vec![(root, Arc::new(scope.clone()))];
-        while let Some((element, mut scope)) = open.pop() {
+        let mut open = vec![(root, Arc::new(scope.clone()), Arc::<str>::from(around))];
+        while let Some((element, mut scope, around)) = open.pop() {
             // The parameters of the whole scenario are in the scope already.
             if declarations(element).next().is_some() && element.name() != ROOT {
                 let given = if element == root { assignments } else { &[] };
@@ -126,7 +127,7 @@ impl Writing<'_> {
             for declaration in declarations(element) {
                 let value = declaration.text("name").and_then(|name| scope.get(name));
                 edits.set(declaration, "value", value.unwrap_or_default());
-                open.extend(declaration.elements().map(|group| (group, scope.clone())));
+                open.extend(declaration.elements().map(|group| (group, scope.clone(), around.clone())));
             }
             let expressions = element.attributes().filter_map(|name| Some((name, element.text(name)?)));
             for (name, text) in expressions.filter(|(_, text)| text.starts_with("${")) {
@@ -140,35 +141,43 @@ impl Writing<'_> {
             if is_ego && element.first("ObjectController").is_none() {
                 edits.append(element, CONTROLLER);
             }
-            self.rename(node, &mut edits, element)?;
+            let around = self.rename(node, &mut edits, element, around)?;
             for child in element.elements().filter(|child| child.name() != "ParameterDeclarations") {
-                match self.instead(element, Node { element: child, scope: &scope })? {
+                match self.instead(element, Node { element: child, scope: &scope }, &around)? {
                     Some(text) => edits.replace(child, text),
-                    None => open.push((child, scope.clone())),
+                    None => open.push((child, scope.clone(), around.clone())),
                 }
             }
         }
         Ok(edits)
     }
 
-    /// Writes the new name of an element of the storyboard, or of the element to which a condition refers.
-    fn rename<'a>(&self, node: Node<'_>, edits: &mut Edits<'a>, element: Element<'a, 'a>) -> Result<(), ReadError> {
-        let (kind, attribute) = match KINDS.iter().find(|(name, _)| *name == node.name()) {
-            Some((_, kind)) => (Cow::Borrowed(*kind), "name"),
-            None if node.name() == "StoryboardElementStateCondition" => {
-                (node.required("storyboardElementType")?, "storyboardElementRef")
+    /// Writes the new name of an element of the storyboard, or of the element to which a condition refers. Returns the names of the
+    /// elements of the storyboard around the elements within.
+    fn rename<'a>(
+        &self,
+        node: Node<'_>,
+        edits: &mut Edits<'a>,
+        element: Element<'a, 'a>,
+        around: Arc<str>,
+    ) -> Result<Arc<str>, ReadError> {
+        if node.name() == CONDITION {
+            let (kind, path) = (node.required("storyboardElementType")?, node.required(ELEMENT)?);
+            if let Some(name) = self.renamed.reference(&kind, &path, &around).filter(|name| *name != path) {
+                edits.set(element, ELEMENT, name);
             }
-            None => return Ok(()),
-        };
-        let name = node.text(attribute)?.unwrap_or_default();
-        if let Some(new) = self.renamed.name(&kind, &name) {
-            edits.set(element, attribute, new);
         }
-        Ok(())
+        let Some((_, kind)) = KINDS.iter().find(|(name, _)| *name == node.name()) else { return Ok(around) };
+        let name = node.text("name")?.unwrap_or_default();
+        let path = within(&around, &name);
+        if let Some(new) = self.renamed.name(kind, &path) {
+            edits.set(element, "name", new);
+        }
+        Ok(path.into())
     }
 
     /// Returns the text that replaces an element; `None` if the element stays.
-    fn instead(&mut self, parent: Element<'_, '_>, child: Node<'_>) -> Result<Option<String>, ReadError> {
+    fn instead(&mut self, parent: Element<'_, '_>, child: Node<'_>, around: &str) -> Result<Option<String>, ReadError> {
         let note = |says: &str| format!("{}:{}: {says}", child.element.file().display(), child.element.line());
         Ok(match child.name() {
             "LogicFile" => Some(format!("<LogicFile filepath=\"{}\"/>", escaped(self.roads))),
@@ -187,7 +196,7 @@ impl Writing<'_> {
                 };
                 let given: Vec<_> = child.first("ParameterAssignments").into_iter().flat_map(Node::elements).collect();
                 self.depth += 1;
-                let text = self.edits(entry, child.scope, &given)?.finish();
+                let text = self.edits(entry, child.scope, around, &given)?.finish();
                 self.depth -= 1;
                 Some(text)
             }

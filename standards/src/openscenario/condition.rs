@@ -79,8 +79,7 @@ impl Check {
             "StoryboardElementStateCondition" => {
                 let kinds = ["story", "act", "maneuverGroup", "maneuver", "event", "action"].map(|kind| (kind, kind));
                 let measure = Measure::State {
-                    element: node.required("storyboardElementRef")?.into_owned(),
-                    kind: node.one_of("storyboardElementType", &kinds)?,
+                    element: names.references.note(node, node.one_of("storyboardElementType", &kinds)?)?,
                     state: node.one_of("state", &State::NAMES)?,
                 };
                 Ok(Self::single(measure, Rule::GreaterOrEqual, 1.0))

@@ -20,10 +20,9 @@ pub(super) enum Measure {
     Variable(usize),
     /// 1 while a variable has a value, otherwise 0.
     VariableIs(usize, xml::Value),
-    /// 1 while an element of the storyboard with this name is in the state, otherwise 0.
+    /// 1 while the element of the storyboard with this index is in the state, otherwise 0.
     State {
-        element: String,
-        kind: &'static str,
+        element: usize,
         state: State,
     },
     Speed {

@@ -27,6 +27,7 @@ mod position;
 mod profile;
 mod program;
 mod project;
+mod reference;
 mod route;
 mod rule;
 mod scope;

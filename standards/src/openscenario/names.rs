@@ -2,6 +2,7 @@
 
 use super::catalogs::Catalogs;
 use super::entity::ObjectType;
+use super::reference::References;
 use super::scope::Node;
 use crate::xml::ReadError;
 
@@ -18,6 +19,8 @@ pub(super) struct Names<'a> {
     /// The number of variables without the parameters.
     pub declared: usize,
     pub catalogs: &'a Catalogs<'a>,
+    /// The references to elements of the storyboard, which are resolved later.
+    pub references: &'a References,
 }
 
 impl Names<'_> {

@@ -99,7 +99,7 @@ impl Position {
             }
             "LanePosition" => Self::Lane {
                 road: kind.required("roadId")?.into_owned(),
-                lane: kind.whole("laneId")?,
+                lane: kind.lane("laneId")?,
                 s: kind.number("s")?,
                 offset: kind.number_or("offset", 0.0)?,
                 turn: Turn::read(kind)?,
@@ -147,7 +147,7 @@ impl Position {
                 let place = match place.name() {
                     "FromLaneCoordinates" => RoutePlace::Lane {
                         s: place.length("pathS")?,
-                        lane: place.whole("laneId")?,
+                        lane: place.lane("laneId")?,
                         offset: place.number_or("laneOffset", 0.0)?,
                     },
                     "FromRoadCoordinates" => RoutePlace::Road { s: place.length("pathS")?, t: place.number("t")? },

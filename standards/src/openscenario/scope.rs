@@ -224,11 +224,18 @@ impl<'a> Node<'a> {
         self.parsed(attribute, "a whole number", whole)
     }
 
-    /// Returns the whole number in an attribute, which must exist and must not be negative.
-    pub fn count(self, attribute: &'static str) -> Result<u32, ReadError> {
+    /// Returns the whole number in an attribute, which must exist and must be above 0.
+    pub fn positive_count(self, attribute: &'static str) -> Result<u32, ReadError> {
         let number = self.whole(attribute)?;
-        let wrong = |_| self.unexpected(attribute, &number.to_string(), "a whole number that is not negative");
-        u32::try_from(number).map_err(wrong)
+        let wrong = || self.unexpected(attribute, &number.to_string(), "a whole number above 0");
+        u32::try_from(number).ok().filter(|number| *number > 0).ok_or_else(wrong)
+    }
+
+    /// Returns the number of a lane in an attribute, which must exist.
+    pub fn lane(self, attribute: &'static str) -> Result<i32, ReadError> {
+        let number = self.whole(attribute)?;
+        let expected = "the number of a lane with a width, which is not 0; a RoadPosition gives places on lane 0";
+        if number == 0 { Err(self.unexpected(attribute, "0", expected)) } else { Ok(number) }
     }
 
     /// Returns the truth in an attribute; `default` if the attribute is absent.

@@ -7,6 +7,7 @@ use super::entity::Entity;
 use super::environment::{Environment, Surroundings};
 use super::names::Names;
 use super::position::Position;
+use super::reference::References;
 use super::scope::Node;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
@@ -104,6 +105,7 @@ impl Storyboard {
         let variable_names: Vec<_> = variables.iter().map(|variable| variable.name.clone()).collect();
         let declared = variables.len() - root.scope.names().count();
         let types: Vec<_> = entities.iter().map(Entity::object_type).collect();
+        let references = References::default();
         let names = Names {
             entities: &entity_names,
             types: &types,
@@ -111,6 +113,7 @@ impl Storyboard {
             variables: &variable_names,
             declared,
             catalogs,
+            references: &references,
         };
         let board = root.child("Storyboard")?;
         let mut init = Vec::new();
@@ -140,9 +143,11 @@ impl Storyboard {
         for story in board.all("Story") {
             reader.story(story)?;
         }
-        let items = reader.items;
+        let mut items = reader.items;
         let stop = board.first("StopTrigger").map(|stop| trigger(stop, names)).transpose()?;
-        Ok(Self { surroundings, init, items, stop: stop.filter(|stop| !stop.is_empty()), entities, variables })
+        let mut stop = stop.filter(|stop| !stop.is_empty());
+        references.resolve(&mut items, &mut stop)?;
+        Ok(Self { surroundings, init, items, stop, entities, variables })
     }
 }
 
@@ -202,7 +207,7 @@ impl Reader<'_> {
         let name = node.text("name")?.unwrap_or_default().into_owned();
         let most_runs = match node.element.text("maximumExecutionCount") {
             None => 1,
-            Some(_) => node.count("maximumExecutionCount")?,
+            Some(_) => node.positive_count("maximumExecutionCount")?,
         };
         let read = |name| node.first(name).map(|found| trigger(found, self.names)).transpose();
         let (start, stop) = (read("StartTrigger")?, read("StopTrigger")?);

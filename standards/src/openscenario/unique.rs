@@ -1,42 +1,62 @@
-//! New names for elements of a storyboard that share their name with elements of other kinds.
+//! New names for elements of a storyboard to which conditions refer and whose name alone is not enough.
 //!
-//! A condition refers to an element by its name and its kind. The checker of ASAM wants the name alone to be enough (rule
-//! `reference_control.resolvable_storyboard_element_reference`).
+//! A condition refers to an element by its name, its kind, and the names around it if necessary. The checker of ASAM wants the name
+//! alone to be enough (rule `reference_control.resolvable_storyboard_element_reference`).
 
 use super::measure::Measure;
 use super::play::Stage;
-use super::story::Storyboard;
+use super::reference::{full_path, item};
+use super::story::{Item, Storyboard};
+use std::collections::BTreeMap;
 
-/// The elements with new names: the kind, the name, and the new name of each.
-pub(super) struct Renamed(Vec<(&'static str, String, String)>);
+/// The elements with new names.
+pub(super) struct Renamed<'b> {
+    items: &'b [Item],
+    /// The new names of elements, by their indices.
+    names: BTreeMap<usize, String>,
+}
 
-impl Renamed {
+impl<'b> Renamed<'b> {
     /// Finds new names for the elements to which the conditions of a storyboard refer.
-    pub fn of(board: &Storyboard) -> Self {
-        let mut renamed: Vec<(&'static str, String, String)> = Vec::new();
+    pub fn of(board: &'b Storyboard) -> Self {
+        let mut names: BTreeMap<usize, String> = BTreeMap::new();
         let measures = Stage::conditions(board).flat_map(|condition| &condition.check.measures);
         for measure in measures {
-            let Measure::State { element, kind, .. } = measure else { continue };
-            let named = |name: &str| board.items.iter().filter(|item| item.name == name).count();
-            let of_kind = board.items.iter().filter(|item| item.name == *element && item.kind.name() == *kind).count();
-            let new = format!("{element} ({kind})");
-            let is_known = renamed.iter().any(|(_, name, to)| name == element || *to == new);
-            if named(element) > 1 && of_kind == 1 && named(&new) == 0 && !is_known {
-                renamed.push((kind, element.clone(), new));
+            let Measure::State { element, .. } = measure else { continue };
+            let (name, kind) = (&board.items[*element].name, board.items[*element].kind.name());
+            let is_shared = board.items.iter().filter(|item| item.name == *name).count() > 1;
+            if is_shared && !names.contains_key(element) {
+                let numbered = (2..).map(|number| format!("{name} ({kind} {number})"));
+                let mut candidates = [format!("{name} ({kind})")].into_iter().chain(numbered);
+                let is_taken = |new: &String| names.values().any(|known| known == new);
+                let is_free = |new: &String| board.items.iter().all(|item| item.name != *new) && !is_taken(new);
+                let new = candidates.find(is_free).expect("there are more numbers than elements");
+                names.insert(*element, new);
             }
         }
-        Self(renamed)
+        Self { items: &board.items, names }
     }
 
-    /// Returns the new name of an element; `None` if it keeps its name.
-    pub fn name(&self, kind: &str, name: &str) -> Option<&str> {
-        self.0.iter().find(|(of, old, _)| *of == kind && old == name).map(|(.., new)| new.as_str())
+    /// Returns the new name of the element of a kind whose name follows the names of all elements around it; `None` if it keeps its
+    /// name.
+    pub fn name(&self, kind: &str, path: &str) -> Option<&str> {
+        let is_it = |index: usize| self.items[index].kind.name() == kind && full_path(self.items, index) == path;
+        self.names.iter().find(|(index, _)| is_it(**index)).map(|(_, new)| new.as_str())
+    }
+
+    /// Returns the name that is enough to refer to the element of a kind to which a condition refers; `None` if no element is meant.
+    /// `around` is the name of the element of the condition, after the names of all elements around it.
+    pub fn reference(&self, kind: &str, path: &str, around: &str) -> Option<&str> {
+        let owner = (0..self.items.len()).find(|index| full_path(self.items, *index) == around);
+        let index = item(self.items, kind, path, owner).ok()?;
+        Some(self.names.get(&index).unwrap_or(&self.items[index].name))
     }
 
     /// Describes the new names.
     pub fn notes(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|(kind, old, new)| {
-            format!("the {kind} `{old}` is called `{new}`, because another element has its name")
+        self.names.iter().map(|(index, new)| {
+            let Item { name, kind, .. } = &self.items[*index];
+            format!("the {} `{name}` is called `{new}`, because another element has its name", kind.name())
         })
     }
 }

@@ -176,6 +176,23 @@ pub enum Flaw {
         /// The line of the first element.
         first: u32,
     },
+    /// An attribute names several elements.
+    #[error(
+        "`{attribute}=\"{found}\"` of <{element}> names more than one {kind}: write `{}` or `{}`",
+        candidates[0], candidates[1]
+    )]
+    Ambiguous {
+        /// The name of the element with the reference.
+        element: String,
+        /// The name of the attribute.
+        attribute: &'static str,
+        /// The value of the attribute.
+        found: String,
+        /// The kind of the elements, for example `event`.
+        kind: &'static str,
+        /// The full names of the first two elements.
+        candidates: [String; 2],
+    },
     /// An attribute names an element that does not exist.
     #[error("`{attribute}=\"{found}\"` of <{element}> names no {kind} of the file{}", did_you_mean(nearest))]
     Dangling {

@@ -174,6 +174,40 @@ fn links_to_lanes_that_do_not_exist_are_noted() {
 }
 
 #[test]
+fn links_of_lanes_beyond_the_end_of_a_road_without_links_are_noted() {
+    let lane = "<width sOffset=\"0\" a=\"3.5\"";
+    let linked = with(&[(lane, &format!("<link><predecessor id=\"-1\"/>\n<successor id=\"-1\"/></link>{lane}"))]);
+    let notes: Vec<String> = parse(linked).expect("it is sound").notes.iter().map(in_file).collect();
+    let says = "the lane has a link beyond the end of its road, but the road has none there; cars do not use it";
+    assert_eq!(notes, [format!("x.xodr:8: {says}; and 1 link more")]);
+}
+
+#[test]
+fn the_end_of_a_road_can_meet_the_beginning_of_the_road_but_not_itself() {
+    let link = |name: &str, contact: &str| {
+        format!("<link><{name} elementType=\"road\" elementId=\"1\" contactPoint=\"{contact}\"/></link>")
+    };
+    for (name, contact) in [("successor", "end"), ("predecessor", "start")] {
+        let says = format!(
+            "road.xodr:4: `elementId=\"1\"` of <{name}> is not allowed, expected another road, or the other end"
+        );
+        refuses(&[("<link/>", &link(name, contact))], &says);
+    }
+    let circle = "length=\"50\"><arc curvature=\"0.12566370614359174\"/>";
+    let lane = "<width sOffset=\"0\" a=\"3.5\"";
+    let ring = with(&[
+        ("<link/>", &link("successor", "start")),
+        ("length=\"50\"><line/>", circle),
+        (lane, &format!("<link><successor id=\"-1\"/></link>{lane}")),
+    ]);
+    let map = parse(ring).expect("it is sound");
+    assert_eq!(map.notes, []);
+    let network = map.network().expect("it has lanes");
+    let lane = network.lane_of("1", 1).expect("it has the lane");
+    assert_eq!(network.lane(lane).successors, [lane]);
+}
+
+#[test]
 fn links_between_lanes_that_do_not_meet_are_noted_and_not_used() {
     let text = fs::read_to_string(file("junction.xodr")).expect("the file is readable");
     let apart = parse(text.replacen("x=\"10\"", "x=\"12\"", 1)).expect("it is sound");

@@ -72,7 +72,38 @@ fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
         ("straight.xodr", "../../../../../../../../../../etc/hostname", "which does not lead to the root"),
         ("Directory path=\"catalogs\"", "Directory path=\"/etc\"", "15: `path=\"/etc\"` of <Directory> is not allowed"),
         ("Directory path=\"catalogs\"", "Directory path=\"cats\"", "15: the folder "),
-        ("maximumExecutionCount=\"1\"", "maximumExecutionCount=\"-1\"", "expected a whole number that is not negative"),
+        ("maximumExecutionCount=\"1\"", "maximumExecutionCount=\"-1\"", "expected a whole number above 0"),
+        (
+            "maximumExecutionCount=\"1\"",
+            "maximumExecutionCount=\"0\"",
+            "45: `maximumExecutionCount=\"0\"` of <ManeuverGroup>",
+        ),
+        (
+            "storyboardElementRef=\"slowing down\"",
+            "storyboardElementRef=\"slowing dow\"",
+            "71: `storyboardElementRef=\"slowing dow\"` of <StoryboardElementStateCondition> names no event of the file \
+             (did you mean `slowing down`?)",
+        ),
+        (
+            "storyboardElementRef=\"slowing down\"",
+            "storyboardElementRef=\"activation::slowing down\"",
+            "names no event of the file (did you mean `slowing down`?)",
+        ),
+        (
+            "storyboardElementType=\"event\" storyboardElementRef",
+            "storyboardElementType=\"act\" storyboardElementRef",
+            "names no act of the file",
+        ),
+        (
+            "<Event name=\"activation\"",
+            "<Event name=\"slowing down\"",
+            "names more than one event: write `story::act::group::",
+        ),
+        (
+            "laneId=\"-1\" s=\"10\"",
+            "laneId=\"0\" s=\"10\"",
+            "expected the number of a lane with a width, which is not 0",
+        ),
         ("delay=\"5\"", "delay=\"-5\"", "expected a number that is not negative"),
         (
             "dynamicsDimension=\"time\" value=\"0\"",

@@ -121,6 +121,26 @@ fn an_element_to_which_a_condition_refers_has_a_name_of_its_own() {
 }
 
 #[test]
+fn a_condition_names_an_element_by_the_elements_around_it() {
+    let event = ("<Event name=\"activation\"", "<Event name=\"slowing down\"");
+    let (_folder, path) = changed_in("slow-leader.xosc", event.0, event.1);
+    for around in ["slow-down", "group::slow-down", "story::act::group::slow-down"] {
+        let text = fs::read_to_string(&path).unwrap();
+        fs::write(&path, text.replacen("Ref=\"slowing down\"", &format!("Ref=\"{around}::slowing down\""), 1)).unwrap();
+        // The leader needs 10 s from 5 s on, and the scenario ends 5 s later.
+        let concrete = same_when_written(&path, &test(&path, &[]));
+        for part in [
+            "<Event name=\"slowing down (event)\" priority",
+            "Ref=\"slowing down (event)\"",
+            "<Event name=\"slowing down\"",
+        ] {
+            assert!(concrete.scenario.contains(part), "{part} is missing in {}", concrete.scenario);
+        }
+        fs::write(&path, text).unwrap();
+    }
+}
+
+#[test]
 fn an_entry_that_refers_to_itself_ends() {
     let (folder, path) = changed_in(
         "slow-leader.xosc",

@@ -31,9 +31,9 @@ impl Mark {
 }
 
 impl Cast {
-    /// Returns the value of a measure. A distance that does not exist is infinite. `is_in` tells whether an element with a name and of
-    /// a kind is in a state.
-    pub fn measure(&self, measure: &Measure, is_in: impl Fn(&str, &str, State) -> bool) -> f64 {
+    /// Returns the value of a measure. A distance that does not exist is infinite. `is_in` tells whether the element
+    /// with an index is in a state.
+    pub fn measure(&self, measure: &Measure, is_in: impl Fn(usize, State) -> bool) -> f64 {
         let actor = |index: usize| &self.actors[index];
         match measure {
             Measure::Time => self.time,
@@ -45,7 +45,7 @@ impl Cast {
                 Value::Text(_) => f64::INFINITY,
             },
             Measure::VariableIs(index, value) => f64::from(u8::from(self.variables[*index].value == *value)),
-            Measure::State { element, kind, state } => f64::from(u8::from(is_in(element, kind, *state))),
+            Measure::State { element, state } => f64::from(u8::from(is_in(*element, *state))),
             Measure::Speed { entity, direction } => speed(actor(*entity), *direction),
             Measure::Acceleration { entity } => actor(*entity).acceleration,
             Measure::RelativeSpeed { entity, other, direction } => {

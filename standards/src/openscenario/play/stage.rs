@@ -126,16 +126,15 @@ impl Stage {
         triggers.flatten().flatten().flatten()
     }
 
-    /// Returns `true` if an element with a name and of a kind is in a state, or has made a transition since a moment.
-    fn is_in(&self, name: &str, kind: &str, state: State, since: u64) -> bool {
-        let named = self.items.iter().filter(|playing| playing.item.name == name && playing.item.kind.name() == kind);
+    /// Returns `true` if an element is in a state, or has made a transition since a moment.
+    fn is_in(&self, index: usize, state: State, since: u64) -> bool {
         let made = |(transition, moment): (State, u64)| transition == state && moment > since;
-        named.into_iter().any(|playing| playing.state == state || playing.transition.is_some_and(made))
+        self.items[index].state == state || self.items[index].transition.is_some_and(made)
     }
 
     /// Answers a question for a state. A transition counts once, and within the tick after it at the latest.
     fn answer(&self, question: &Question) -> bool {
-        self.is_in(&question.element, question.kind, question.state, question.since.max(self.began[1]))
+        self.is_in(question.element, question.state, question.since.max(self.began[1]))
     }
 
     /// Moves an element to a state by a transition.
@@ -146,7 +145,7 @@ impl Stage {
 
     /// Returns the value of a measure.
     pub fn measure(&self, measure: &Measure) -> f64 {
-        self.cast.measure(measure, |name, kind, state| self.is_in(name, kind, state, self.began[0]))
+        self.cast.measure(measure, |element, state| self.is_in(element, state, self.began[0]))
     }
 
     /// Plays a tick of `dt` seconds. `truths` are the values of all conditions at its beginning.

@@ -16,8 +16,8 @@ pub(super) struct Watch(Vec<Vec<History>>);
 /// of the tick: an element that starts at a tick is running for all elements after it.
 #[derive(Debug, Clone)]
 pub(super) struct Question {
-    pub element: String,
-    pub kind: &'static str,
+    /// The index of the element.
+    pub element: usize,
     pub state: State,
     /// The moment of the last answer. A transition before it has been seen.
     pub since: u64,
@@ -87,8 +87,8 @@ impl Watch {
 
 impl Question {
     fn of(measures: &[Measure]) -> Option<Self> {
-        let [Measure::State { element, kind, state }] = measures else { return None };
-        Some(Self { element: element.clone(), kind, state: *state, since: 0 })
+        let [Measure::State { element, state }] = *measures else { return None };
+        Some(Self { element, state, since: 0 })
     }
 }
 
