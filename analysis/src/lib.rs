@@ -17,6 +17,7 @@
 //! ```
 
 pub mod asked;
+pub mod audit;
 pub mod bench;
 pub mod blame;
 pub mod certificate;

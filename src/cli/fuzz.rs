@@ -1,7 +1,7 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Status, Verbosity, bench, blame, describe, doctor, export, likelihood, list, map, monitor, perceive,
+    Failure, Status, Verbosity, audit, bench, blame, describe, doctor, export, likelihood, list, map, monitor, perceive,
     record, replay, roads, run, shrink, trace,
 };
 use clap::{Parser, Subcommand};
@@ -19,6 +19,7 @@ Examples:
   paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
   paracosm-fuzz blame paracosm-out                   which failures other drivers could have avoided
   paracosm-fuzz trace paracosm-out                   requirements by tests, and the untested rest
+  paracosm-fuzz audit cut-in --tests halton:40       what these tests would have missed
   paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       evaluate formulas on a recorded trace
   paracosm-fuzz record pedestrian-crossing --budget 20 --out images      labelled camera images of tests
   paracosm-fuzz perceive highway-traffic --perceiver detector.onnx        a perception network on trial
@@ -67,6 +68,9 @@ enum Verb {
     /// Estimate the probability that a test fails, for given distributions of the parameters
     #[command(after_help = likelihood::EXAMPLES)]
     Likelihood(Box<likelihood::Options>),
+    /// Put a suite of tests on trial: what it does not cover, and which defects of a driver it does not notice
+    #[command(after_help = audit::EXAMPLES)]
+    Audit(Box<audit::Options>),
     /// Compare strategies: how soon each finds a failure, and how well each knows where tests fail
     #[command(after_help = bench::EXAMPLES)]
     Bench(Box<bench::Options>),
@@ -127,6 +131,7 @@ impl Command {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),
             Some(Verb::Likelihood(options)) => options.execute(self.verbosity),
+            Some(Verb::Audit(options)) => options.execute(self.verbosity),
             Some(Verb::Bench(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
             Some(Verb::Describe(options)) => options.execute(self.verbosity),

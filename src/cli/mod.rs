@@ -5,6 +5,7 @@
 //! run was wrong.
 
 mod arguments;
+mod audit;
 mod bench;
 mod blame;
 mod cover;

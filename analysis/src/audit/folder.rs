@@ -1,0 +1,157 @@
+//! The folder of an audit: what is audited, and the mutants that have been tried, so that the audit can go on after a kill.
+
+use super::{Audit, Suite, Tried};
+use paracosm_campaign::files::{create_folder, is_no_link, write_whole_here};
+use paracosm_campaign::reasons::InUse;
+use paracosm_campaign::{Error, Learned, Reason, StudyFile, differing_key};
+use paracosm_mutants::Mutant;
+use serde::Serialize;
+use serde_json::Value;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use xxhash_rust::xxh3::xxh3_128;
+
+/// The file that says what is audited.
+const SETTINGS: &str = "audit-settings.json";
+/// The file with a line for each mutant that has been tried.
+const TRIED: &str = "mutants.jsonl";
+
+/// The reason why an audit cannot use a folder.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum AuditFolderFlaw {
+    /// The folder holds an audit already.
+    #[error("{} holds an audit already; --resume continues it, and --out names another folder", path.display())]
+    Occupied {
+        /// The path of the folder.
+        path: PathBuf,
+    },
+    /// The folder holds another audit than the one that is to go on.
+    #[error("{} holds another audit: `{key}` differs; repeat the command of that audit, or name another folder with --out", path.display())]
+    Other {
+        /// The path of the folder.
+        path: PathBuf,
+        /// The first entry that differs.
+        key: String,
+    },
+    /// A line is not a mutant that this audit tries at this place.
+    #[error("the line is not the result of mutant {index} of this audit")]
+    Line {
+        /// The number of the mutant, from 0.
+        index: usize,
+    },
+    /// The file does not say what is audited.
+    #[error("the file does not say what is audited: {message}")]
+    Settings {
+        /// The error in the file.
+        message: String,
+    },
+}
+
+impl Reason for AuditFolderFlaw {}
+
+/// The folder of an audit, to which mutants are added as they are tried.
+#[derive(Debug)]
+pub struct AuditFolder {
+    path: PathBuf,
+    tried: File,
+}
+
+/// What is audited.
+#[derive(Serialize)]
+struct Settings<'a> {
+    study: Value,
+    suites: Vec<SuiteEntry>,
+    mutants: &'a [Mutant],
+    search: usize,
+}
+
+#[derive(Serialize)]
+struct SuiteEntry {
+    name: String,
+    tests: usize,
+    /// The 128-bit XXH3 of the values of the tests, as JSON.
+    hash: String,
+}
+
+impl AuditFolder {
+    /// Opens the folder of an audit. Returns the mutants that have been tried; there are some only if the audit is resumed.
+    ///
+    /// # Errors
+    /// The folder cannot be written, holds an audit that is not to go on, or holds another audit.
+    pub fn open(path: &Path, audit: &Audit, resume: bool) -> Result<(Self, Vec<Tried>), Error> {
+        create_folder(path)?;
+        let settings = serde_json::to_value(audit.settings()).expect("what is audited is always JSON");
+        let (file, tried) = (path.join(SETTINGS), path.join(TRIED));
+        is_no_link(&tried)?;
+        let there = match fs::read_to_string(&file) {
+            Ok(_) if !resume => return Err(AuditFolderFlaw::Occupied { path: path.to_owned() }.into()),
+            Ok(text) => Some(text),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(Error::io("read", &file)(error)),
+        };
+        let mut known = Vec::new();
+        let mut text = String::new();
+        match there {
+            None => write_whole_here(&file, &paracosm_campaign::json(&settings))?,
+            Some(there) => {
+                let wrong = |error: serde_json::Error| AuditFolderFlaw::Settings { message: error.to_string() };
+                let there: Value = serde_json::from_str(&there).map_err(|error| Error::in_file(&file, None, wrong(error)))?;
+                if let Some(key) = differing_key(&there, &settings) {
+                    let (path, key) = (path.to_owned(), key.to_owned());
+                    return Err(AuditFolderFlaw::Other { path, key }.into());
+                }
+                text = fs::read_to_string(&tried).or_else(|error| match error.kind() {
+                    io::ErrorKind::NotFound => Ok(String::new()),
+                    _ => Err(Error::io("read", &tried)(error)),
+                })?;
+                // A last line without its end was cut off.
+                text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
+                for (index, line) in text.lines().enumerate() {
+                    let one = serde_json::from_str(line).ok().filter(|one: &Tried| audit.tries(index, one));
+                    let flaw = || Error::in_file(&tried, Some(index + 1), AuditFolderFlaw::Line { index });
+                    known.push(one.ok_or_else(flaw)?);
+                }
+            }
+        }
+        write_whole_here(&tried, text.as_bytes())?;
+        let log = File::options().append(true).open(&tried).map_err(Error::io("write", &tried))?;
+        if let Err(TryLockError::WouldBlock) = log.try_lock() {
+            return Err(InUse { folder: path.to_owned(), holder: None }.into());
+        }
+        Ok((Self { path: path.to_owned(), tried: log }, known))
+    }
+
+    /// Adds a mutant that has been tried.
+    ///
+    /// # Errors
+    /// The file cannot be written: the disk is full, say.
+    pub fn add(&mut self, tried: &Tried) -> Result<(), Error> {
+        let mut line = serde_json::to_string(tried).expect("a tried mutant is always JSON");
+        line.push('\n');
+        self.tried.write_all(line.as_bytes()).map_err(Error::io("write", &self.path.join(TRIED)))
+    }
+
+}
+
+impl Audit<'_> {
+    fn settings(&self) -> Settings<'_> {
+        let study = StudyFile::new(self.study, &Learned::new(), None);
+        let entry = |suite: &Suite| {
+            let values = serde_json::to_vec(&suite.values(self.study)).expect("tests are always JSON");
+            SuiteEntry { name: suite.name.clone(), tests: suite.points.len(), hash: format!("{:032x}", xxh3_128(&values)) }
+        };
+        Settings {
+            study: study.identity(),
+            suites: self.suites.iter().map(entry).collect(),
+            mutants: &self.mutants,
+            search: self.search,
+        }
+    }
+
+    /// Returns `true` if a line is about the mutant at this place, and has an entry for each suite.
+    fn tries(&self, index: usize, one: &Tried) -> bool {
+        self.mutants.get(index) == Some(&one.mutant) && one.kills.len() == self.suites.len()
+    }
+}

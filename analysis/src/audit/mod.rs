@@ -1,0 +1,182 @@
+//! An audit: a test suite on trial.
+//!
+//! An audit asks what a suite of tests would have missed. It measures how well the suite covers the space of a study, with the largest
+//! hole of each row of discrete values. It shows what a hole means by a *witness*: a driver with a defect that passes the suite as the
+//! driver of the study does, and fails in the hole. It counts how many *mutants* (drivers with defects of many kinds and sizes) the suite
+//! notices.
+
+mod bout;
+mod folder;
+mod holes;
+mod runs;
+mod score;
+mod suite;
+mod witness;
+
+pub use bout::{Found, Kill, Tried};
+pub use folder::{AuditFolder, AuditFolderFlaw};
+pub use holes::{Holes, RowHole};
+pub use runs::Runs;
+pub use score::{KindScore, Score, Share, SizeScore};
+pub use suite::{Source, Suite, SuiteFlaw};
+pub use witness::Witness;
+
+use crate::Coverage;
+use bout::Bout;
+use paracosm_campaign::{Error, JsonArtefact, Reason, Study, TestSet};
+use paracosm_coverage::{Deadline, Measure};
+use paracosm_mutants::{Defect, Mutant, NO_BRAKES};
+use serde::Serialize;
+use std::time::Duration;
+use thiserror::Error;
+
+/// The reason why a study cannot be audited.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum AuditFlaw {
+    /// The study tests a system, in which no defect can be made.
+    #[error("the study tests the system `{command}`: an audit makes defects in a driver, so it needs a scenario with a driver")]
+    System {
+        /// The command that starts the system.
+        command: String,
+    },
+    /// A perceiver is on trial.
+    #[error("the study tests the perceiver `{name}`: an audit makes defects in a driver")]
+    Perceiver {
+        /// The name of the perceiver.
+        name: String,
+    },
+    /// The driver runs in another process.
+    #[error("driver `{driver}` runs in a process of its own: an audit makes defects in drivers of this process")]
+    External {
+        /// The address or the command of the driver.
+        driver: String,
+    },
+    /// A parameter varies while a test runs.
+    #[error("parameter `{name}` is a signal, which varies while a test runs: an audit needs parameters with one value in each test")]
+    Signal {
+        /// The name of the parameter.
+        name: String,
+    },
+}
+
+impl Reason for AuditFlaw {}
+
+/// An audit of suites of tests.
+#[derive(Debug)]
+pub struct Audit<'a> {
+    study: &'a Study,
+    suites: Vec<Suite>,
+    mutants: Vec<Mutant>,
+    search: usize,
+    limit: Option<Duration>,
+    runs: Runs,
+}
+
+/// A suite with the results of its audit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Audited {
+    /// The name of the suite.
+    pub suite: String,
+    /// The number of tests of the suite.
+    pub tests: usize,
+    /// The number of tests of the source that break a constraint and are left out.
+    pub left_out: usize,
+    /// The coverage of the space by the suite.
+    pub coverage: Coverage,
+    /// The holes of the suite, by rows of discrete values.
+    pub holes: Holes,
+    /// The witness; `None` if it failed in no test that was tried.
+    pub witness: Option<Witness>,
+    /// The mutation score; `None` without mutants.
+    pub mutants: Option<Score>,
+}
+
+/// The results of an audit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// The description of the study.
+    pub title: String,
+    /// The greatest number of tests of the search for a test that notices a mutant which no suite notices.
+    pub search: usize,
+    /// The number of mutants that neither a suite nor the search noticed. They are equivalent to the driver as far as known.
+    pub equivalent_as_far_as_known: usize,
+    /// The suites, in the order in which they were named.
+    pub suites: Vec<Audited>,
+}
+
+impl JsonArtefact for Report {
+    const FILE: &'static str = "audit.json";
+}
+
+impl<'a> Audit<'a> {
+    /// Makes an audit of suites for the driver of a study, without mutants.
+    ///
+    /// # Errors
+    /// The study tests a system, a perceiver or a driver in another process; or a parameter is a signal.
+    pub fn of(study: &'a Study, suites: Vec<Suite>) -> Result<Self, AuditFlaw> {
+        runs::check(study)?;
+        if let Some(signal) = study.space().parameters().iter().find(|parameter| parameter.signal.is_some()) {
+            return Err(AuditFlaw::Signal { name: signal.name.clone() });
+        }
+        Ok(Self { study, suites, mutants: Vec::new(), search: 0, limit: None, runs: Runs::default() })
+    }
+
+    /// Puts mutants on trial. Those that no suite notices get a search of so many tests.
+    pub fn mutants(self, mutants: Vec<Mutant>, search: usize) -> Self {
+        Self { mutants, search, ..self }
+    }
+
+    /// Limits the time for the measures of each suite. Without a limit, they are exact.
+    pub fn time_limit(self, limit: Duration) -> Self {
+        Self { limit: Some(limit), ..self }
+    }
+
+    /// Sets the means by which tests are run.
+    pub fn runs(self, runs: Runs) -> Self {
+        Self { runs, ..self }
+    }
+
+    /// Runs the audit. `tried` has the mutants that were tried before, and gets the others. `sink` gets each mutant as soon as those
+    /// before it are done.
+    ///
+    /// # Errors
+    /// A suite cannot be measured, the audit was stopped, or `sink` fails.
+    pub fn run(
+        &self,
+        tried: &mut Vec<Tried>,
+        mut sink: impl FnMut(&Tried) -> Result<(), Error>,
+    ) -> Result<Report, Error> {
+        let mut suites = self.suites.iter().map(|suite| self.measured(suite)).collect::<Result<Vec<_>, Error>>()?;
+        let Self { study, suites: all, mutants, search, runs, .. } = self;
+        let bout = Bout { study, suites: all, mutants, search: *search, runs };
+        bout.run(tried.len(), |one| {
+            sink(&one)?;
+            tried.push(one);
+            Ok(())
+        })?;
+        if !mutants.is_empty() {
+            for (position, suite) in suites.iter_mut().enumerate() {
+                suite.mutants = Some(Score::of(tried, position));
+            }
+        }
+        Ok(Report {
+            title: study.title(),
+            search: *search,
+            equivalent_as_far_as_known: tried.iter().filter(|one| !one.counts()).count(),
+            suites,
+        })
+    }
+
+    /// Measures a suite, and finds its witness.
+    fn measured(&self, suite: &Suite) -> Result<Audited, Error> {
+        let tests = TestSet::new(self.study.space().clone(), suite.points.clone());
+        let half = self.limit.map(|limit| limit / 2);
+        let coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, half)?;
+        let holes = Holes::of(suite, self.study, half.map_or_else(Deadline::never, Deadline::after))?;
+        let defect = Defect::new(NO_BRAKES, NO_BRAKES.sizes[0]);
+        let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs, defect };
+        let witness = search.run()?;
+        let (name, tests, left_out) = (suite.name.clone(), suite.points.len(), suite.left_out);
+        Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None })
+    }
+}

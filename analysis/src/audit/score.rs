@@ -1,0 +1,119 @@
+//! The mutation score of a suite: in all, and by the kind and the size of defects.
+
+use super::bout::Tried;
+use crate::statistics::interval::wilson;
+use paracosm_mutants::Mutant;
+use serde::Serialize;
+
+const CONFIDENCE: f64 = 0.95;
+
+/// The mutation score of a suite.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Score {
+    /// The mutants that the suite kills, of those that count.
+    #[serde(flatten)]
+    pub all: Share,
+    /// The scores of mutants that are always on, that one condition turns on, that two conditions turn on, and so on.
+    pub by_conditions: Vec<Share>,
+    /// The scores by kind of defect, in the order of the list of kinds.
+    pub kinds: Vec<KindScore>,
+}
+
+/// A number of mutants, and how many of them a suite kills.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Share {
+    /// The number of mutants.
+    pub mutants: usize,
+    /// The number of mutants that some test notices.
+    pub counted: usize,
+    /// The number of mutants that the suite kills.
+    pub killed: usize,
+    /// The mutation score: the share of counted mutants that the suite kills; `None` if no mutant counts.
+    pub score: Option<f64>,
+    /// The interval of the score with 95 % confidence, if the mutants are a sample of many (Wilson).
+    pub interval: Option<[f64; 2]>,
+}
+
+/// The score of a suite for a kind of defect.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct KindScore {
+    /// The name of the kind.
+    pub kind: &'static str,
+    /// The unit of its size.
+    pub unit: &'static str,
+    /// The score for the kind.
+    #[serde(flatten)]
+    pub all: Share,
+    /// The least size from which on the suite kills all counted mutants of the kind that are always on; `None` if it does not kill
+    /// the grossest one, or none counts.
+    pub noticed_from: Option<f64>,
+    /// The scores of the sizes, from slight to gross.
+    pub sizes: Vec<SizeScore>,
+}
+
+/// The score of a suite for a size of a defect.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SizeScore {
+    /// The size.
+    pub size: f64,
+    /// The score for the size.
+    #[serde(flatten)]
+    pub all: Share,
+}
+
+impl Share {
+    fn of<'t>(tried: impl Iterator<Item = &'t Tried>, suite: usize) -> Self {
+        let (mut mutants, mut counted, mut killed) = (0, 0, 0);
+        for one in tried {
+            mutants += 1;
+            counted += usize::from(one.counts());
+            killed += usize::from(one.kills[suite].is_some());
+        }
+        let score = (counted > 0).then(|| killed as f64 / counted as f64);
+        Self { mutants, counted, killed, score, interval: score.map(|_| wilson(killed, counted, CONFIDENCE)) }
+    }
+}
+
+impl Score {
+    /// Counts the kills of a suite, which is named by its position.
+    pub(super) fn of(tried: &[Tried], suite: usize) -> Self {
+        let conditions = |one: &Tried| one.mutant.when.len();
+        let most = tried.iter().map(conditions).max().map_or(0, |most| most + 1);
+        let with = |count| tried.iter().filter(move |one| conditions(one) == count);
+        let kinds = paracosm_mutants::ALL.iter().filter_map(|kind| KindScore::of(kind, tried, suite));
+        Self {
+            all: Share::of(tried.iter(), suite),
+            by_conditions: (0..most).map(|count| Share::of(with(count), suite)).collect(),
+            kinds: kinds.collect(),
+        }
+    }
+}
+
+impl KindScore {
+    fn of(kind: &'static paracosm_mutants::Kind, tried: &[Tried], suite: usize) -> Option<Self> {
+        let is_of = |mutant: &Mutant| mutant.defect.kind().name == kind.name;
+        let of_kind: Vec<&Tried> = tried.iter().filter(|one| is_of(&one.mutant)).collect();
+        if of_kind.is_empty() {
+            return None;
+        }
+        let of_size = |size: f64| of_kind.iter().copied().filter(move |one| one.mutant.defect.size() == size);
+        let sizes = kind.sizes.iter().map(|&size| SizeScore { size, all: Share::of(of_size(size), suite) });
+        let always = |size| of_size(size).filter(|one| one.mutant.when.is_empty() && one.counts());
+        let mut noticed_from = None;
+        for &size in kind.sizes.iter().rev() {
+            if always(size).any(|one| one.kills[suite].is_none()) {
+                break;
+            }
+            if always(size).next().is_some() {
+                noticed_from = Some(size);
+            }
+        }
+        Some(Self {
+            kind: kind.name,
+            unit: kind.unit,
+            all: Share::of(of_kind.iter().copied(), suite),
+            noticed_from,
+            sizes: sizes.filter(|size| size.all.mutants > 0).collect(),
+        })
+    }
+}

@@ -1,0 +1,221 @@
+//! `paracosm-fuzz audit`: puts a suite of tests on trial.
+
+use super::output::{Format, Table, digits, json, percent, plural, short_bracket, value_words};
+use super::progress::bar;
+use super::subject::Subject;
+use super::{Failure, Status, Verbosity, on_interrupt, print};
+use clap::Args;
+use paracosm_analysis::audit::{
+    Audit, AuditFolder, Audited, Report, Runs, Score, Share, Source, Suite, SuiteFlaw, Witness,
+};
+use paracosm_campaign::files::write_whole_here;
+use paracosm_campaign::{Artefact, Error, Study};
+use paracosm_mutants::mutants;
+use paracosm_space::Record;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Duration;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz audit pedestrian-crossing --tests my-tests.csv --driver planner
+  paracosm-fuzz audit cut-in --tests halton:40 --tests lhs:40 --tests grid:5x4x2
+  paracosm-fuzz audit alks_4_4_1_variation.xosc --driver fsm --out audit        its own values are the suite
+
+An audit says what a suite of tests would have missed:
+  coverage   the k-wise coverage, and for each row of discrete values the largest box that no test has entered
+  witness    a driver that drives like the given one, but does not brake in such a box. It has the same verdict as the
+             given driver in every test of the suite, and fails in the box
+  mutants    drivers with defects of many kinds and sizes. A suite kills a mutant if a test of the suite violates a
+             requirement with the mutant, and keeps it with the given driver. A mutant counts if some suite kills it, or
+             if a search finds a test that would
+
+The audit writes audit.json and mutants.jsonl, which has a line for each mutant, to the folder --out.";
+
+/// The number of rows with the largest holes in the table.
+const ROWS: usize = 5;
+
+/// The options of `audit`.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    #[command(flatten)]
+    subject: Subject,
+    /// A suite: a CSV file of tests, the folder of a campaign, STRATEGY:N for the first N tests of a strategy, or grid:AxB
+    /// for an even grid; the option can be repeated [default: the values of the parameters in a scenario file]
+    #[arg(long, value_name = "SUITE")]
+    tests: Vec<String>,
+    /// The number of mutants
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    mutants: usize,
+    /// The most tests of the search for a test that would kill a mutant, for mutants that no suite kills
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    search: usize,
+    /// Limit the seconds for the coverage of each suite; holes are brackets if the time is too short [default: no limit]
+    #[arg(long, value_name = "SECONDS")]
+    time_limit: Option<f64>,
+    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR", default_value = "paracosm-audit")]
+    out: PathBuf,
+    /// Continue the audit in the folder
+    #[arg(long)]
+    resume: bool,
+    /// The form of the result [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        let sources = self.tests.iter().map(|text| text.parse()).collect::<Result<Vec<Source>, SuiteFlaw>>();
+        let sources = sources.map_err(Error::from)?;
+        let (study, suites) = self.suites(&sources, verbosity)?;
+        let mut runs = Runs::default();
+        if let Some(jobs) = self.jobs {
+            runs.jobs = jobs;
+        }
+        on_interrupt(runs.stop.clone());
+        let mutants = mutants(study.space(), self.mutants, 0);
+        let mut audit = Audit::of(&study, suites).map_err(Error::from)?.mutants(mutants, self.search).runs(runs);
+        if let Some(seconds) = self.time_limit {
+            audit = audit.time_limit(Duration::from_secs_f64(seconds));
+        }
+        self.subject.note_before(&study, verbosity)?;
+        let (mut folder, mut tried) = AuditFolder::open(&self.out, &audit, self.resume)?;
+        let bar = bar(verbosity, self.mutants);
+        bar.inc(tried.len() as u64);
+        let report = audit.run(&mut tried, |one| {
+            bar.inc(1);
+            folder.add(one)
+        });
+        bar.finish_and_clear();
+        let report = report?;
+        for file in report.files() {
+            write_whole_here(&self.out.join(file), &report.contents(file)?)?;
+        }
+        verbosity.note(format_args!("written to {}", self.out.display()));
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => table(&report),
+            Format::Json => json(&report),
+        })?;
+        Ok(Status::Nothing)
+    }
+
+    /// Returns the study and its suites. Without a named suite, the suite is that of the scenario's listed values, and the study has
+    /// their intervals open.
+    fn suites(&self, sources: &[Source], verbosity: Verbosity) -> Result<(Study, Vec<Suite>), Error> {
+        let builder = self.subject.study(verbosity)?;
+        if !sources.is_empty() {
+            let study = builder.build()?;
+            let suites = sources.iter().map(|source| Suite::of(source, &study)).collect::<Result<_, Error>>()?;
+            return Ok((study, suites));
+        }
+        let listed = builder.clone().build()?;
+        if listed.space().dims() > 0 {
+            return Err(SuiteFlaw::NoGrid.into());
+        }
+        // Without an interval to open, the listed values are the whole space.
+        let study = builder.continuous().build().unwrap_or_else(|_| listed.clone());
+        let suite = Suite::stated(&listed, &study)?;
+        Ok((study, vec![suite]))
+    }
+}
+
+fn table(report: &Report) -> String {
+    let mut table = Table::default();
+    for suite in &report.suites {
+        let left = if suite.left_out == 0 {
+            String::new()
+        } else {
+            format!(" ({} left out: they break a constraint)", suite.left_out)
+        };
+        table.heading(&format!("{}: {}, {}{left}", report.title, suite.suite, plural(suite.tests, "test")));
+        table.coverage(&suite.coverage);
+        holes(&mut table, suite);
+        match &suite.witness {
+            Some(witness) => self::witness(&mut table, witness),
+            None => table.row("witness", "none: a driver that does not brake failed in no test that was tried outside of the suite"),
+        }
+        if let Some(score) = &suite.mutants {
+            self::score(&mut table, report, score);
+        }
+    }
+    if report.suites.len() > 1 {
+        compared(&mut table, report);
+    }
+    table.finish()
+}
+
+fn holes(table: &mut Table, suite: &Audited) {
+    let Audited { holes, .. } = suite;
+    if holes.rows.first().is_none_or(|hole| hole.row.is_empty()) {
+        return;
+    }
+    for (rank, hole) in holes.rows.iter().take(ROWS).enumerate() {
+        let label = if rank == 0 { "largest hole by row" } else { "" };
+        let row: Vec<String> = hole.row.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        let tests = plural(hole.tests, "test");
+        table.row(label, &format!("{} in {} with {tests}", short_bracket(&hole.volume), row.join(", ")));
+    }
+    if holes.rows.len() > ROWS {
+        table.row("", &format!("and {}", plural(holes.rows.len() - ROWS, "more row")));
+    }
+    if holes.only_tested_rows {
+        table.row("", "rows without a test were not looked at: there are too many");
+    }
+}
+
+fn place(sides: &Record<[f64; 2]>, row: &Record<paracosm_space::Value>) -> String {
+    let sides = sides.iter().map(|(name, [lo, hi])| format!("{name} {}..{}", digits(*lo), digits(*hi)));
+    sides.chain(row.iter().map(|(name, value)| format!("{name} {value}"))).collect::<Vec<_>>().join(", ")
+}
+
+fn witness(table: &mut Table, witness: &Witness) {
+    let Witness { tried, failing, test, requirement, robustness, probability, .. } = witness;
+    let which = if witness.is_largest_hole { "the largest hole" } else { "an empty box" };
+    table.row("witness", &format!("{} within {which}, a box of {}", witness.mutant.defect, digits(witness.volume)));
+    table.row("  box", &place(&witness.sides, &witness.row));
+    let tests = if witness.tests_inside == 0 { "no test".to_owned() } else { plural(witness.tests_inside, "test") };
+    table.row("  on in the suite", &format!("in {tests}, so it gets every verdict of the given driver"));
+    table.row("  fails in the box", &format!("{failing} of {}", plural(*tried, "test")));
+    let values: Vec<String> = test.iter().map(|(name, value)| format!("{name} {}", value_words(value))).collect();
+    table.row("  fails with", &values.join(", "));
+    let [with, without] = robustness.map(|number| number.map_or("undecided".to_owned(), digits));
+    table.row(&format!("  {requirement}"), &format!("{with}, with the given driver {without}"));
+    let [lo, hi] = witness.probability_interval.map(digits);
+    table.row("  probability", &format!("{} of a test in the box ({lo} to {hi}, 95 %)", digits(*probability)));
+}
+
+fn share(share: &Share) -> String {
+    let Share { counted, killed, score, interval, .. } = share;
+    let interval = interval.map_or(String::new(), |[lo, hi]| format!(", {} to {} (95 %)", percent(lo), percent(hi)));
+    format!("{}: {killed} of {counted}{interval}", score.map_or("none counts".to_owned(), percent))
+}
+
+fn score(table: &mut Table, report: &Report, score: &Score) {
+    table.row("mutation score", &share(&score.all));
+    let equivalent = score.all.mutants - score.all.counted;
+    let found = format!("{equivalent} of {}, no test of the suites or of the search ({} each) notices them", score.all.mutants, report.search);
+    table.row("  equivalent", &format!("{found}, as far as known"));
+    for (conditions, of) in score.by_conditions.iter().enumerate() {
+        let label = if conditions == 0 { "  always on".to_owned() } else { format!("  {} on", plural(conditions, "condition")) };
+        table.row(&label, &share(of));
+    }
+    for kind in score.kinds.iter().filter(|kind| kind.all.counted > 0) {
+        let noticed = match kind.noticed_from {
+            Some(size) => format!("; noticed from {} {} on if always on", digits(size), kind.unit),
+            None => String::new(),
+        };
+        table.row(&format!("  {}", kind.kind), &format!("{} of {}{}", kind.all.killed, kind.all.counted, noticed.trim_end()));
+    }
+}
+
+fn compared(table: &mut Table, report: &Report) {
+    table.heading("compared: largest hole of a row, mutation score");
+    for suite in &report.suites {
+        let score = suite.mutants.as_ref().map_or(String::new(), |score| share(&score.all));
+        table.row(&suite.suite, &format!("{}, {score}", short_bracket(&suite.holes.largest())));
+    }
+}
