@@ -6,7 +6,7 @@ use crate::expect_none;
 use crate::workspace::{Crate, Kind, Use, crates};
 
 /// The house, bottom to top; ARCHITECTURE.md draws it.
-const FLOORS: [(&str, u8); 18] = [
+const FLOORS: [(&str, u8); 19] = [
     ("paracosm-space", 0),
     ("paracosm-oracles", 0),
     ("paracosm-coverage", 1),
@@ -14,6 +14,7 @@ const FLOORS: [(&str, u8); 18] = [
     ("paracosm-road", 1),
     ("paracosm-generators", 2),
     ("paracosm-engine", 2),
+    ("paracosm-mutants", 3),
     ("paracosm-render", 3),
     ("paracosm-rpc", 3),
     ("paracosm-neural", 3),

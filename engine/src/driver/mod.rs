@@ -13,6 +13,8 @@ mod perception;
 mod planner;
 pub mod reference;
 
+pub use perception::hidden;
+
 use crate::observation::{Briefing, Control, Observation};
 use crate::sensor::{Cameras, Image, Rig};
 use paracosm_space::{did_you_mean, nearest};

@@ -123,7 +123,7 @@ impl Perception {
 
 /// Returns `true` if a large body stands between the middle of a body and the car's front, which is `front` metres from
 /// the car's middle.
-pub(super) fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
+pub fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
     let sensor = Vector2::new(front, 0.0);
     let large = |other: &&Other| hides(other.class);
     observation.others.iter().filter(|other| other.id != body.id).filter(large).any(|other| {

@@ -1,0 +1,108 @@
+//! A defect: a kind with a size.
+
+use crate::acting::brakes::WEAK_BRAKES;
+use crate::kind::{Kind, find};
+use paracosm_engine::driver::Driver;
+use paracosm_space::did_you_mean;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use thiserror::Error;
+
+/// A defect of a driver or of its sensors, with a size.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Entry", into = "Entry")]
+pub struct Defect {
+    kind: &'static Kind,
+    size: f64,
+}
+
+/// The defect of a driver that never brakes: `weak-brakes` of 100 %.
+pub const NO_BRAKES: Defect = Defect { kind: &WEAK_BRAKES, size: 100.0 };
+
+/// An error in the kind or the size of a defect.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum DefectError {
+    /// No kind of defect has the given name.
+    #[error("no kind of defect is called `{name}`{}", did_you_mean(.nearest))]
+    Unknown {
+        /// The name that no kind has.
+        name: String,
+        /// A known name that the user perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// The given size is not in the range of the kind.
+    #[error("the size of the defect `{kind}` is {size}, expected a number from {} to {} ({unit})", range.0, range.1)]
+    OutOfRange {
+        /// The name of the kind.
+        kind: &'static str,
+        /// The size that the user gave.
+        size: f64,
+        /// The least and the greatest size of the kind.
+        range: (f64, f64),
+        /// The unit of the size.
+        unit: &'static str,
+    },
+}
+
+impl Defect {
+    /// Makes a defect of the kind with the given name.
+    ///
+    /// # Errors
+    /// No kind has the name, or the size is not in the range of the kind.
+    pub fn new(kind: &str, size: f64) -> Result<Self, DefectError> {
+        let kind = find(kind)?;
+        let range = kind.range();
+        if !(range.0..=range.1).contains(&size) {
+            return Err(DefectError::OutOfRange { kind: kind.name, size, range, unit: kind.unit });
+        }
+        Ok(Self { kind, size })
+    }
+
+    /// Makes a defect with one of the sizes of its kind, which `size` numbers.
+    pub(crate) fn at(kind: &'static Kind, size: usize) -> Self {
+        Self { kind, size: kind.sizes[size] }
+    }
+
+    /// Returns the kind of the defect.
+    pub fn kind(&self) -> &'static Kind {
+        self.kind
+    }
+
+    /// Returns the size of the defect, in the unit of the kind.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Puts the defect into a driver.
+    pub fn in_driver(&self, driver: Box<dyn Driver>) -> Box<dyn Driver> {
+        (self.kind.make)(self.size, driver)
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {} {}", self.kind.name, self.size, self.kind.unit)
+    }
+}
+
+/// A defect as it is written in a file. It is not checked yet.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    kind: String,
+    size: f64,
+}
+
+impl TryFrom<Entry> for Defect {
+    type Error = DefectError;
+
+    fn try_from(entry: Entry) -> Result<Self, DefectError> {
+        Self::new(&entry.kind, entry.size)
+    }
+}
+
+impl From<Defect> for Entry {
+    fn from(defect: Defect) -> Self {
+        Self { kind: defect.kind.name.to_owned(), size: defect.size }
+    }
+}
