@@ -26,7 +26,7 @@ fn a_defect_of_an_unknown_kind_or_of_an_impossible_size_is_refused() {
     let words = "the size of the defect `late-reaction` is 50, expected a number from 0.1 to 2.5 (s)";
     assert!(large.contains(words), "{large}");
     assert!(read(r#"{"kind": "late-reaction", "size": 1, "when": []}"#).contains("unknown field `when`"));
-    assert!(matches!(Defect::new("short-range", f64::NAN), Err(DefectError::OutOfRange { range: (7.0, 150.0), .. })));
+    assert!(matches!(Defect::new("short-range", f64::NAN), Err(DefectError::OutOfRange { range: (7.0, 80.0), .. })));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use crate::{ALL, Condition, Mutant, find, mutants, mutants_of};
+use crate::{ALL, Condition, Defect, Mutant, find, mutants, mutants_where};
 use paracosm_space::{Domain, Parameter, Shape, Space, Value};
 use std::collections::BTreeMap;
 
@@ -55,7 +55,7 @@ fn kinds_take_turns_and_all_sizes_and_numbers_of_conditions_appear() {
 fn each_size_meets_each_number_of_conditions() {
     for kind in ["short-range", "busy", "slow-self", "late-detection"] {
         let kind = find(kind).unwrap();
-        let set = mutants_of(&[kind], &space(), 4 * kind.sizes.len(), 3);
+        let set = mutants_where(&space(), 4 * kind.sizes.len(), 3, |defect| defect.kind() == kind);
         for &size in kind.sizes {
             for count in 0..4 {
                 let is_it = |mutant: &&Mutant| mutant.defect.size() == size && mutant.when.len() == count;
@@ -107,7 +107,20 @@ fn a_space_with_few_tests_has_few_mutants_and_each_of_them_once() {
     assert_eq!(set.len(), sizes);
     let choice = Parameter::new("side", Domain::Choice(vec!["near".into(), "far".into()]));
     assert_eq!(mutants(&Space::new(vec![choice]).unwrap(), 100_000, 1).len(), 3 * sizes);
-    assert!(mutants_of(&[], &space(), 10, 1).is_empty());
+    assert!(mutants_where(&space(), 10, 1, |_| false).is_empty());
+}
+
+#[test]
+fn a_set_can_be_of_some_defects_only() {
+    let is_kept = |defect: Defect| defect.kind().name.starts_with("no-brakes") && defect.size() >= 20.0;
+    let set = mutants_where(&space(), 300, 1, is_kept);
+    assert_eq!(set.len(), 300);
+    assert!(is_new(&set) && set.iter().all(|mutant| is_kept(mutant.defect)));
+    assert_eq!(mutants_where(&space(), 70, 1, is_kept), set[..70]);
+    for kind in ["no-brakes-above", "no-brakes-below", "no-brakes-in-bends"].map(|name| find(name).unwrap()) {
+        let turns = set.iter().filter(|mutant| mutant.defect.kind() == kind).count();
+        assert_eq!(turns, 100, "{}", kind.name);
+    }
 }
 
 /// A set must never change, or results that are in the repository cannot be computed again. If a kind is added or a
@@ -117,10 +130,10 @@ fn the_set_of_a_seed_is_the_same_on_every_machine() {
     let set = mutants(&space(), 400, 1);
     let told: Vec<String> = [0, 3, 55, 133, 399].iter().map(|&index| set[index].to_string()).collect();
     let expected = [
-        "short-range 150 m",
+        "short-range 80 m",
         "blind-right 178 deg when speed is 11.32 to 18.82 and distance is 9.39 to 23.14 and friction is 0.3281 to 0.4781",
-        "short-range 100 m when distance is 31.93 to 50.27",
-        "outages 2.2 s when speed is 13.19 to 18.19",
+        "short-range 60 m when distance is 31.93 to 50.27",
+        "outages 2.5 s when speed is 13.19 to 18.19",
         "unseen-lorries 10 m when friction is 0.3151 to 0.4651",
     ];
     assert_eq!(told, expected);
