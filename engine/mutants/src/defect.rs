@@ -58,9 +58,9 @@ impl Defect {
         Ok(Self { kind, size })
     }
 
-    /// Makes a defect with one of the sizes of its kind, which `size` numbers.
-    pub(crate) fn at(kind: &'static Kind, size: usize) -> Self {
-        Self { kind, size: kind.sizes[size] }
+    /// Returns the defects of a kind with the sizes of its ladder, from slight to gross.
+    pub fn all_of(kind: &'static Kind) -> impl Iterator<Item = Self> {
+        kind.sizes.iter().map(move |&size| Self { kind, size })
     }
 
     /// Returns the kind of the defect.

@@ -39,7 +39,7 @@ pub use condition::{Condition, ConditionError};
 pub use defect::{Defect, DefectError, NO_BRAKES};
 pub use kind::{ALL, Kind, find};
 pub use mutant::Mutant;
-pub use set::{mutants, mutants_of};
+pub use set::{mutants, mutants_where};
 
 #[cfg(test)]
 mod tests;

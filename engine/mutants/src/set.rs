@@ -30,20 +30,24 @@ const DIGITS: i32 = 3;
 /// mutants than `count` if the space has so few parameters that there are no further mutants. Conditions are about the
 /// parameters of the space that are constant in each test and have more than one value.
 pub fn mutants(space: &Space, count: usize, seed: u64) -> Vec<Mutant> {
-    mutants_of(ALL, space, count, seed)
+    mutants_where(space, count, seed, |_| true)
 }
 
-/// Makes a set as [`mutants`] does, of the given kinds only: for instance without kinds that cannot matter in a scenario.
-pub fn mutants_of(kinds: &[&'static Kind], space: &Space, count: usize, seed: u64) -> Vec<Mutant> {
-    let parameters: Vec<&Parameter> =
-        space.parameters().iter().filter(|parameter| can_be_a_condition(parameter)).collect();
+/// Makes a set as [`mutants`] does, but only of the defects that `keep` keeps. An audit keeps the defects that change a verdict
+/// somewhere, because other defects make mutants that nobody can tell from the given driver.
+pub fn mutants_where(space: &Space, count: usize, seed: u64, mut keep: impl FnMut(Defect) -> bool) -> Vec<Mutant> {
+    let ladder =
+        |kind: &&'static Kind| -> Vec<Defect> { Defect::all_of(kind).filter(|defect| keep(*defect)).collect() };
+    let ladders: Vec<_> = ALL.iter().map(ladder).filter(|ladder| !ladder.is_empty()).collect();
+    let parameters = space.parameters().iter().filter(|parameter| can_be_a_condition(parameter)).collect();
+    let rules = Rules { ladders, parameters, seed };
     let (mut set, mut known) = (Vec::new(), BTreeSet::new());
     let mut fruitless = 0;
     for place in 0_usize.. {
-        if set.len() == count || fruitless == kinds.len() * TURNS {
+        if set.len() == count || fruitless == rules.ladders.len() * TURNS {
             break;
         }
-        let mutant = at(place, kinds, &parameters, seed).find(|mutant| known.insert(key(mutant)));
+        let mutant = rules.at(place).find(|mutant| known.insert(key(mutant)));
         fruitless = if mutant.is_some() { 0 } else { fruitless + 1 };
         set.extend(mutant);
     }
@@ -59,26 +63,32 @@ fn key(mutant: &Mutant) -> String {
     format!("{mutant:?}")
 }
 
-/// Returns the mutants that may stand at a place, the preferred first. If they are all in the set already, further conditions make new
-/// mutants.
-fn at<'a>(
-    place: usize,
-    kinds: &'a [&'static Kind],
-    parameters: &'a [&Parameter],
+/// The facts that a set follows from.
+struct Rules<'a> {
+    /// The defects of each kind, from slight to gross.
+    ladders: Vec<Vec<Defect>>,
+    /// The parameters that conditions may be about.
+    parameters: Vec<&'a Parameter>,
     seed: u64,
-) -> impl Iterator<Item = Mutant> + 'a {
-    let (turn, index) = (place / kinds.len(), place % kinds.len());
-    let kind = kinds[index];
-    // One step of the ladder for each turn, and one more condition; after a pass through the ladder, one condition is
-    // skipped, so that each size meets each number of conditions. Kinds begin at different sizes.
-    let (pass, step) = (turn / kind.sizes.len(), turn % kind.sizes.len());
-    let defect = Defect::at(kind, (step + 5 * index) % kind.sizes.len());
-    let most = MOST_CONDITIONS.min(parameters.len());
-    let fewest = ((pass + step + index) % (MOST_CONDITIONS + 1)).min(most);
-    let mut random = Pcg64::seed_from_u64(mixed(mixed(seed) ^ place as u64));
-    (fewest..=most)
-        .flat_map(|conditions| [conditions; TRIES])
-        .map(move |conditions| Mutant { defect, when: some(conditions, parameters, &mut random) })
+}
+
+impl Rules<'_> {
+    /// Returns the mutants that may stand at a place, the preferred first. If they are all in the set already, further
+    /// conditions make new mutants.
+    fn at(&self, place: usize) -> impl Iterator<Item = Mutant> {
+        let (turn, index) = (place / self.ladders.len(), place % self.ladders.len());
+        let ladder = &self.ladders[index];
+        // One step of the ladder for each turn, and one more condition; after a pass through the ladder, one condition is
+        // skipped, so that each size meets each number of conditions. Kinds begin at different sizes.
+        let (pass, step) = (turn / ladder.len(), turn % ladder.len());
+        let defect = ladder[(step + 5 * index) % ladder.len()];
+        let most = MOST_CONDITIONS.min(self.parameters.len());
+        let fewest = ((pass + step + index) % (MOST_CONDITIONS + 1)).min(most);
+        let mut random = Pcg64::seed_from_u64(mixed(mixed(self.seed) ^ place as u64));
+        (fewest..=most)
+            .flat_map(|conditions| [conditions; TRIES])
+            .map(move |conditions| Mutant { defect, when: some(conditions, &self.parameters, &mut random) })
+    }
 }
 
 /// Returns conditions on random parameters, in the order of the parameters.

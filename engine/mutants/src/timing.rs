@@ -68,7 +68,7 @@ pub(crate) const SLOW_CYCLE: Kind = Kind {
     name: "slow-cycle",
     about: "gives a new answer only once in as long as the size, and keeps the last answer in between",
     unit: "s",
-    sizes: &[0.15, 0.25, 0.4, 0.6, 1.0, 1.6, 2.5],
+    sizes: &[0.2, 0.4, 0.7, 1.0, 1.4, 2.0, 3.0],
     source: "fault model: overload of a computer",
     make: |every, driver| {
         // A step that comes on time belongs to the next cycle.
@@ -93,7 +93,7 @@ pub(crate) const LOST_ANSWERS: Kind = Kind {
     name: "lost-answers",
     about: "loses some of its answers and keeps the last one instead; the size is their share",
     unit: "%",
-    sizes: &[5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 90.0, 97.0],
+    sizes: &[20.0, 40.0, 60.0, 75.0, 85.0, 92.0, 97.0],
     source: "fault model: random loss of messages",
     make: |percent, driver| {
         let is_due = move |_, _, step| unit(step, 0) >= 0.01 * percent;

@@ -11,7 +11,7 @@ pub(crate) const WEAK_BRAKES: Kind = Kind {
     name: "weak-brakes",
     about: "brakes less hard than it can; the size is the missing share of the strongest braking",
     unit: "%",
-    sizes: &[10.0, 20.0, 30.0, 40.0, 55.0, 70.0, 85.0, 100.0],
+    sizes: &[20.0, 35.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0],
     source: "fault model: limited actuator",
     make: |percent, driver| {
         let strongest = 0.01 * percent - 1.0;
@@ -23,7 +23,7 @@ pub(crate) const NO_BRAKES_ABOVE: Kind = Kind {
     name: "no-brakes-above",
     about: "does not brake while it is faster than the size",
     unit: "km/h",
-    sizes: &[130.0, 100.0, 80.0, 60.0, 50.0, 40.0, 30.0, 20.0],
+    sizes: &[100.0, 80.0, 60.0, 50.0, 40.0, 30.0, 20.0, 10.0],
     source: "UN Regulation No. 152 asks for emergency braking up to 60 km/h",
     make: |speed, driver| {
         acting(driver, move |truth, control| {
@@ -38,7 +38,7 @@ pub(crate) const NO_BRAKES_BELOW: Kind = Kind {
     name: "no-brakes-below",
     about: "does not brake while it is slower than the size",
     unit: "km/h",
-    sizes: &[3.0, 6.0, 10.0, 15.0, 20.0, 30.0, 45.0, 70.0],
+    sizes: &[6.0, 10.0, 15.0, 20.0, 25.0, 35.0, 50.0, 70.0],
     source: "UN Regulation No. 152 asks for emergency braking from 10 km/h on for cars, from 20 km/h on for pedestrians",
     make: |speed, driver| {
         acting(driver, move |truth, control| {

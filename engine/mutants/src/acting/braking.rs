@@ -9,7 +9,7 @@ pub(crate) const SLOW_BRAKES: Kind = Kind {
     name: "slow-brakes",
     about: "builds up its brakes slowly; the size is the time to the strongest braking",
     unit: "s",
-    sizes: &[0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0],
+    sizes: &[0.4, 0.7, 1.0, 1.5, 2.5, 4.0, 6.0],
     source: "fault model: slow actuator",
     make: |seconds, driver| flawed(driver, Slow { seconds, last: None }),
 };
@@ -90,7 +90,7 @@ pub(crate) const FADING_BRAKES: Kind = Kind {
     name: "fading-brakes",
     about: "lets go of the brakes after it has braked for as long as the size, until it no longer wants to brake",
     unit: "s",
-    sizes: &[5.0, 3.5, 2.5, 1.8, 1.2, 0.8, 0.5, 0.2],
+    sizes: &[3.5, 2.5, 1.8, 1.3, 0.9, 0.6, 0.4, 0.2],
     source: "fault model: a time limit of an emergency function",
     make: |after, driver| flawed(driver, releasing(move |lasts, _| lasts >= after - SAME_TIME)),
 };
@@ -99,7 +99,7 @@ pub(crate) const FEW_BRAKINGS: Kind = Kind {
     name: "few-brakings",
     about: "brakes only so many times as the size says, rounded down, and then never again",
     unit: "times",
-    sizes: &[20.0, 12.0, 8.0, 5.0, 3.0, 2.0, 1.0],
+    sizes: &[8.0, 5.0, 4.0, 3.0, 2.0, 1.0],
     source: "fault model: a flag that nobody clears",
     make: |most, driver| flawed(driver, releasing(move |_, count| count as f64 > most)),
 };
@@ -108,7 +108,7 @@ pub(crate) const SUPPRESSED_BRAKING: Kind = Kind {
     name: "suppressed-braking",
     about: "ignores each wish to brake until the wish has lasted for as long as the size",
     unit: "s",
-    sizes: &[0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5],
+    sizes: &[0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.5],
     source: "NTSB/HAR-19/03 (Tempe: actions were suppressed for one second after a hazard was detected)",
     make: |until, driver| flawed(driver, releasing(move |lasts, _| lasts < until - SAME_TIME)),
 };

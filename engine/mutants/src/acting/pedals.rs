@@ -27,7 +27,7 @@ pub(crate) const BIASED_STEERING: Kind = Kind {
     name: "biased-steering",
     about: "steers too far to the right; the size is the offset, in percent of the full turn",
     unit: "%",
-    sizes: &[0.2, 0.5, 1.0, 2.0, 4.0, 8.0, 15.0],
+    sizes: &[0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0],
     source: "fault model: offset of an actuator",
     make: |percent, driver| {
         acting(driver, move |_, control| control.steering = (control.steering - 0.01 * percent).max(-1.0))

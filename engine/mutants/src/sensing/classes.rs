@@ -6,7 +6,7 @@ use paracosm_engine::driver::Driver;
 use paracosm_engine::object::Class;
 
 /// The distances in metres beyond which the driver does not see the class. At 0 it never sees the class.
-const RANGES: &[f64] = &[60.0, 40.0, 30.0, 22.0, 16.0, 10.0, 5.0, 0.0];
+const RANGES: &[f64] = &[45.0, 35.0, 28.0, 22.0, 16.0, 10.0, 5.0, 0.0];
 
 fn unseen(classes: &'static [Class], range: f64, driver: Box<dyn Driver>) -> Box<dyn Driver> {
     hiding(driver, move |body, _| classes.contains(&body.class) && (range == 0.0 || body.position.norm() > range))

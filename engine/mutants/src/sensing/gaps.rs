@@ -7,9 +7,9 @@ use crate::kind::Kind;
 use paracosm_engine::{Briefing, Observation, Other};
 
 /// The probabilities in percent with which something is lost in a step.
-const PERCENT: &[f64] = &[2.0, 5.0, 10.0, 20.0, 35.0, 50.0, 70.0, 90.0];
+const PERCENT: &[f64] = &[5.0, 10.0, 20.0, 35.0, 50.0, 65.0, 80.0, 92.0];
 /// The seconds in every four seconds that a disturbance lasts.
-const SECONDS: &[f64] = &[0.2, 0.4, 0.7, 1.0, 1.5, 2.2, 3.0, 3.8];
+const SECONDS: &[f64] = &[0.4, 0.7, 1.0, 1.4, 1.9, 2.5, 3.1, 3.8];
 /// A number that stands for all bodies.
 const ALL_BODIES: usize = 0xffff_ffff;
 

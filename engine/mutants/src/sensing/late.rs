@@ -98,7 +98,7 @@ pub(crate) const RECLASSIFIED: Kind = Kind {
     about: "takes each body for an unknown thing that stands still, for 0.5 s, again and again; \
             the size is the time from one such change of class to the next",
     unit: "s",
-    sizes: &[8.0, 5.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5],
+    sizes: &[5.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.6, 0.5],
     source: "NTSB/HAR-19/03 (Tempe: the class of a pedestrian alternated, and each change dropped the tracking history)",
     make: |every, driver| flawed(driver, Reclassified { every }),
 };

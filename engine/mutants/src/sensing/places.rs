@@ -20,7 +20,7 @@ pub(crate) const MIXED_UNITS: Kind = Kind {
     name: "mixed-units",
     about: "takes m/s for km/h in the speeds of bodies that are farther away than the size",
     unit: "m",
-    sizes: &[100.0, 70.0, 50.0, 35.0, 25.0, 15.0, 8.0, 0.0],
+    sizes: &[60.0, 45.0, 35.0, 28.0, 20.0, 14.0, 8.0, 0.0],
     source: "NASA 1999, Mars Climate Orbiter Mishap Investigation Board, Phase I Report (units were mixed up)",
     make: |from, driver| {
         changing(driver, move |body| {
@@ -35,7 +35,7 @@ pub(crate) const FLIPPED_SIDE: Kind = Kind {
     name: "flipped-side",
     about: "sees a body on its right at the same distance on its left, if the body is farther to the side than the size",
     unit: "m",
-    sizes: &[6.0, 4.5, 3.5, 2.5, 1.8, 1.2, 0.6, 0.0],
+    sizes: &[4.5, 3.5, 2.8, 2.2, 1.6, 1.0, 0.5, 0.0],
     source: "fault model: wrong sign in one branch",
     make: |from, driver| {
         changing(driver, move |body| {
@@ -50,7 +50,7 @@ pub(crate) const OFF_BY_ONE_LANE: Kind = Kind {
     name: "off-by-one-lane",
     about: "sees bodies that are farther ahead than the size one lane (3.5 m) too far to the left",
     unit: "m",
-    sizes: &[100.0, 70.0, 50.0, 35.0, 25.0, 15.0, 8.0, 0.0],
+    sizes: &[60.0, 45.0, 35.0, 28.0, 20.0, 14.0, 8.0, 0.0],
     source: "fault model: the index of the lane is off by one",
     make: |from, driver| {
         changing(driver, move |body| {
@@ -79,7 +79,7 @@ pub(crate) const PHANTOM: Kind = Kind {
     name: "phantom",
     about: "sees a standing car 20 m ahead that is not there, at the end of every 4 s, for as long as the size",
     unit: "s",
-    sizes: &[0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0],
+    sizes: &[0.3, 0.6, 1.0, 1.5, 2.5, 4.0],
     source: "NHTSA PE22-002 (complaints about unexpected braking)",
     make: |lasts, driver| flawed(driver, Phantom { lasts }),
 };

@@ -18,7 +18,7 @@ pub(crate) const SHORT_RANGE: Kind = Kind {
     name: "short-range",
     about: "sees no body that is farther away than the size",
     unit: "m",
-    sizes: &[150.0, 100.0, 70.0, 46.0, 30.0, 20.0, 12.0, 7.0],
+    sizes: &[80.0, 60.0, 46.0, 35.0, 25.0, 17.0, 11.0, 7.0],
     source: "UN Regulation No. 157 asks for a detection range of at least 46 m ahead at 60 km/h",
     make: |range, driver| hiding(driver, move |body, _| body.position.norm() > range),
 };
@@ -27,7 +27,7 @@ pub(crate) const NARROW_VIEW: Kind = Kind {
     name: "narrow-view",
     about: "sees only bodies within a field of view ahead, whose opening angle is the size",
     unit: "deg",
-    sizes: &[180.0, 120.0, 80.0, 50.0, 30.0, 18.0, 10.0, 5.0],
+    sizes: &[120.0, 60.0, 40.0, 30.0, 22.0, 16.0, 10.0, 5.0],
     source: "fault model: limited field of view",
     make: |angle, driver| hiding(driver, move |body, _| bearing(body).abs() > 0.5 * angle),
 };
@@ -54,7 +54,7 @@ pub(crate) const BLIND_NEAR: Kind = Kind {
     name: "blind-near",
     about: "sees no body that is nearer than the size, from middle to middle",
     unit: "m",
-    sizes: &[3.0, 5.0, 8.0, 12.0, 18.0, 25.0, 40.0, 60.0],
+    sizes: &[5.0, 7.0, 10.0, 14.0, 19.0, 26.0, 40.0, 60.0],
     source: "fault model: dead zone of a sensor",
     make: |range, driver| hiding(driver, move |body, _| body.position.norm() < range),
 };
@@ -72,7 +72,7 @@ pub(crate) const NARROW_CORRIDOR: Kind = Kind {
     name: "narrow-corridor",
     about: "sees no body whose middle is farther to the side than the size",
     unit: "m",
-    sizes: &[8.0, 6.0, 4.5, 3.5, 2.5, 1.8, 1.2, 0.7],
+    sizes: &[6.0, 4.5, 3.5, 2.8, 2.2, 1.7, 1.2, 0.7],
     source: "fault model: objects outside of the car's own path are discarded",
     make: |width, driver| hiding(driver, move |body, _| body.position.y.abs() > width),
 };
@@ -90,7 +90,7 @@ pub(crate) const UNSEEN_CROSSING: Kind = Kind {
     name: "unseen-crossing",
     about: "sees no body whose speed across the car's heading is greater than the size",
     unit: "m/s",
-    sizes: &[8.0, 5.0, 3.0, 2.0, 1.4, 0.9, 0.5, 0.2],
+    sizes: &[5.0, 3.5, 2.5, 1.8, 1.3, 0.9, 0.5, 0.2],
     source: "NTSB/HAR-17/02 (Williston: a crossing truck was not detected)",
     make: |speed, driver| hiding(driver, move |body, _| body.velocity.y.abs() > speed),
 };
@@ -108,7 +108,7 @@ pub(crate) const UNSEEN_SMALL: Kind = Kind {
     name: "unseen-small",
     about: "sees no body whose length and width are below the size",
     unit: "m",
-    sizes: &[0.2, 0.4, 0.55, 0.7, 1.0, 1.5, 2.5, 5.0],
+    sizes: &[0.4, 0.55, 0.7, 1.0, 1.5, 2.5, 5.0],
     source: "AAA 2019, Automatic Emergency Braking with Pedestrian Detection (89 % collisions with a child at 20 mph)",
     make: |length, driver| hiding(driver, move |body, _| 2.0 * body.outline.half_extent().max() < length),
 };

@@ -12,7 +12,7 @@ pub(crate) const POSITION_NOISE: Kind = Kind {
     name: "position-noise",
     about: "sees each body at a place with a random error in each step; the size is its standard deviation",
     unit: "m",
-    sizes: &[0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0],
+    sizes: &[0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0],
     source: "fault model: noise",
     make: |deviation, driver| flawed(driver, Noise { deviation, of: |body| &mut body.position, step: 0 }),
 };
@@ -61,7 +61,7 @@ pub(crate) const SLOW_OTHERS: Kind = Kind {
     name: "slow-others",
     about: "takes the speeds of bodies for lower than they are; the size is the missing share",
     unit: "%",
-    sizes: &[5.0, 10.0, 20.0, 35.0, 50.0, 75.0, 100.0],
+    sizes: &[20.0, 35.0, 50.0, 65.0, 80.0, 90.0, 100.0],
     source: "fault model: wrong scale",
     make: |percent, driver| changing(driver, move |body| body.velocity *= 1.0 - share(percent)),
 };
@@ -79,7 +79,7 @@ pub(crate) const NO_SIDEWAYS: Kind = Kind {
     name: "no-sideways",
     about: "takes the speeds of bodies across its heading for lower than they are; the size is the missing share",
     unit: "%",
-    sizes: &[10.0, 20.0, 35.0, 50.0, 70.0, 85.0, 100.0],
+    sizes: &[20.0, 35.0, 50.0, 65.0, 80.0, 90.0, 100.0],
     source: "fault model: a model of motion along the lane only",
     make: |percent, driver| changing(driver, move |body| body.velocity.y *= 1.0 - share(percent)),
 };
