@@ -5,9 +5,10 @@ use super::catalogs::Catalogs;
 use super::condition::{Trigger, trigger};
 use super::entity::Entity;
 use super::environment::{Environment, Surroundings};
+use super::measure::Measure;
 use super::names::Names;
 use super::position::Position;
-use super::reference::References;
+use super::reference::{Named, References};
 use super::scope::Node;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
@@ -144,9 +145,17 @@ impl Storyboard {
             reader.story(story)?;
         }
         let mut items = reader.items;
+        references.now_of(None);
         let stop = board.first("StopTrigger").map(|stop| trigger(stop, names)).transpose()?;
         let mut stop = stop.filter(|stop| !stop.is_empty());
-        references.resolve(&mut items, &mut stop)?;
+        let elements = references.resolve(&names_of(&items))?;
+        let triggers = items.iter_mut().flat_map(|item| [&mut item.start, &mut item.stop]).chain([&mut stop]);
+        let conditions = triggers.flatten().flatten().flatten();
+        for measure in conditions.flat_map(|condition| &mut condition.check.measures) {
+            if let Measure::State { element, .. } = measure {
+                *element = elements[*element];
+            }
+        }
         Ok(Self { surroundings, init, items, stop, entities, variables })
     }
 }
@@ -181,6 +190,11 @@ impl Storyboard {
     }
 }
 
+/// Returns the names of elements, to which conditions refer.
+pub(super) fn names_of(items: &[Item]) -> Vec<Named<'_>> {
+    items.iter().map(|Item { name, kind, parent, .. }| Named { name, kind: kind.name(), parent: *parent }).collect()
+}
+
 /// Reads an action that concerns no entity.
 fn global(node: Node<'_>, names: Names<'_>) -> Result<Kind, ReadError> {
     let kind = node.choice("a kind of action such as VariableAction")?;
@@ -209,6 +223,7 @@ impl Reader<'_> {
             None => 1,
             Some(_) => node.positive_count("maximumExecutionCount")?,
         };
+        self.names.references.now_of(Some(self.items.len()));
         let read = |name| node.first(name).map(|found| trigger(found, self.names)).transpose();
         let (start, stop) = (read("StartTrigger")?, read("StopTrigger")?);
         // Without conditions, an element starts at once, and nothing stops it.

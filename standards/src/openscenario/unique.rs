@@ -5,13 +5,13 @@
 
 use super::measure::Measure;
 use super::play::Stage;
-use super::reference::{full_path, item};
-use super::story::{Item, Storyboard};
+use super::reference::{Named, full_path, item};
+use super::story::{Storyboard, names_of};
 use std::collections::BTreeMap;
 
 /// The elements with new names.
 pub(super) struct Renamed<'b> {
-    items: &'b [Item],
+    items: Vec<Named<'b>>,
     /// The new names of elements, by their indices.
     names: BTreeMap<usize, String>,
 }
@@ -34,29 +34,29 @@ impl<'b> Renamed<'b> {
                 names.insert(*element, new);
             }
         }
-        Self { items: &board.items, names }
+        Self { items: names_of(&board.items), names }
     }
 
     /// Returns the new name of the element of a kind whose name follows the names of all elements around it; `None` if it keeps its
     /// name.
     pub fn name(&self, kind: &str, path: &str) -> Option<&str> {
-        let is_it = |index: usize| self.items[index].kind.name() == kind && full_path(self.items, index) == path;
+        let is_it = |index: usize| self.items[index].kind == kind && full_path(&self.items, index) == path;
         self.names.iter().find(|(index, _)| is_it(**index)).map(|(_, new)| new.as_str())
     }
 
     /// Returns the name that is enough to refer to the element of a kind to which a condition refers; `None` if no element is meant.
     /// `around` is the name of the element of the condition, after the names of all elements around it.
     pub fn reference(&self, kind: &str, path: &str, around: &str) -> Option<&str> {
-        let owner = (0..self.items.len()).find(|index| full_path(self.items, *index) == around);
-        let index = item(self.items, kind, path, owner).ok()?;
-        Some(self.names.get(&index).unwrap_or(&self.items[index].name))
+        let owner = (0..self.items.len()).find(|index| full_path(&self.items, *index) == around);
+        let index = item(&self.items, kind, path, owner).ok()?;
+        Some(self.names.get(&index).map_or(self.items[index].name, String::as_str))
     }
 
     /// Describes the new names.
     pub fn notes(&self) -> impl Iterator<Item = String> {
         self.names.iter().map(|(index, new)| {
-            let Item { name, kind, .. } = &self.items[*index];
-            format!("the {} `{name}` is called `{new}`, because another element has its name", kind.name())
+            let Named { name, kind, .. } = self.items[*index];
+            format!("the {kind} `{name}` is called `{new}`, because another element has its name")
         })
     }
 }
