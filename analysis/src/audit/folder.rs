@@ -94,7 +94,10 @@ impl AuditFolder {
         let mut known = Vec::new();
         let mut text = String::new();
         match there {
-            None => write_whole_here(&file, &paracosm_campaign::json(&settings))?,
+            None => {
+                let text = serde_json::to_vec_pretty(&settings).expect("JSON is always JSON");
+                write_whole_here(&file, &text)?;
+            }
             Some(there) => {
                 let wrong = |error: serde_json::Error| AuditFolderFlaw::Settings { message: error.to_string() };
                 let there: Value = serde_json::from_str(&there).map_err(|error| Error::in_file(&file, None, wrong(error)))?;

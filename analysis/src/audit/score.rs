@@ -1,7 +1,7 @@
 //! The mutation score of a suite: in all, and by the kind and the size of defects.
 
 use super::bout::Tried;
-use crate::statistics::interval::wilson;
+use crate::statistics::wilson;
 use paracosm_mutants::Mutant;
 use serde::Serialize;
 

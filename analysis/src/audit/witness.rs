@@ -7,7 +7,7 @@
 use super::holes::{Holes, RowHole, sides};
 use super::runs::{Runs, gives_away, mutated};
 use super::{AuditFlaw, Suite};
-use crate::statistics::interval::clopper_pearson;
+use crate::statistics::clopper_pearson;
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::{Error, Study, Trial};
 use paracosm_coverage::dispersion::LargestEmptyBox;
