@@ -1,12 +1,12 @@
 //! A defect: a kind with a size.
 
 use crate::acting::brakes::WEAK_BRAKES;
-use crate::kind::{Kind, find};
+use crate::error::DefectError;
+use crate::kind::Kind;
+use crate::kinds::find;
 use paracosm_engine::driver::Driver;
-use paracosm_space::did_you_mean;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use thiserror::Error;
 
 /// A defect of a driver or of its sensors, with a size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -18,31 +18,6 @@ pub struct Defect {
 
 /// The defect of a driver that never brakes: `weak-brakes` of 100 %.
 pub const NO_BRAKES: Defect = Defect { kind: &WEAK_BRAKES, size: 100.0 };
-
-/// An error in the kind or the size of a defect.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum DefectError {
-    /// No kind of defect has the given name.
-    #[error("no kind of defect is called `{name}`{}", did_you_mean(.nearest))]
-    Unknown {
-        /// The name that no kind has.
-        name: String,
-        /// A known name that the user perhaps meant.
-        nearest: Option<&'static str>,
-    },
-    /// The given size is not in the range of the kind.
-    #[error("the size of the defect `{kind}` is {size}, expected a number from {} to {} ({unit})", range.0, range.1)]
-    OutOfRange {
-        /// The name of the kind.
-        kind: &'static str,
-        /// The size that the user gave.
-        size: f64,
-        /// The least and the greatest size of the kind.
-        range: (f64, f64),
-        /// The unit of the size.
-        unit: &'static str,
-    },
-}
 
 impl Defect {
     /// Makes a defect of the kind with the given name.

@@ -28,16 +28,20 @@ mod acting;
 mod chance;
 mod condition;
 mod defect;
+mod error;
 mod flaw;
 mod kind;
+mod kinds;
 mod mutant;
 mod sensing;
 mod set;
 mod timing;
 
 pub use condition::{Condition, ConditionError};
-pub use defect::{Defect, DefectError, NO_BRAKES};
-pub use kind::{ALL, Kind, find};
+pub use defect::{Defect, NO_BRAKES};
+pub use error::DefectError;
+pub use kind::Kind;
+pub use kinds::{ALL, find};
 pub use mutant::Mutant;
 pub use set::{mutants, mutants_where};
 

@@ -5,7 +5,8 @@
 //! kind to its next, the size goes one step through the ladder, and the number of conditions goes from 0 to 3.
 
 use crate::chance::mixed;
-use crate::kind::{ALL, Kind};
+use crate::kind::Kind;
+use crate::kinds::ALL;
 use crate::{Condition, Defect, Mutant};
 use paracosm_space::{Domain, Parameter, Space};
 use rand::{Rng, SeedableRng};

@@ -234,7 +234,7 @@ fn noise_has_the_size_of_its_defect_and_no_bias() {
         let errors = part(kind);
         let n = errors.len() as f64;
         let mean: Vector2<f64> = errors.iter().sum::<Vector2<f64>>() / n;
-        let square: f64 = errors.iter().map(|error| error.norm_squared()).sum::<f64>() / (2.0 * n);
+        let square: f64 = errors.iter().map(Vector2::norm_squared).sum::<f64>() / (2.0 * n);
         // Five standard deviations of a mean and of a variance of so many numbers.
         assert!(mean.amax() < 5.0 * 2.0 / n.sqrt(), "{kind}: {mean}");
         assert!((square - 4.0).abs() < 5.0 * 4.0 / n.sqrt(), "{kind}: {square}");
