@@ -6,11 +6,10 @@ use super::subject::Subject;
 use super::{Failure, Status, Verbosity, on_interrupt, print};
 use clap::Args;
 use paracosm_analysis::audit::{
-    Audit, AuditFolder, Audited, Report, Runs, Score, Share, Source, Suite, SuiteFlaw, Witness,
+    Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Source, Suite, SuiteFlaw, Witness,
 };
 use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Error, Study};
-use paracosm_mutants::mutants;
 use paracosm_space::Record;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -77,8 +76,9 @@ impl Options {
             runs.jobs = jobs;
         }
         on_interrupt(runs.stop.clone());
-        let mutants = mutants(study.space(), self.mutants, 0);
-        let mut audit = Audit::of(&study, suites).map_err(Error::from)?.mutants(mutants, self.search).runs(runs);
+        let audit = Audit::of(&study, suites).map_err(Error::from)?;
+        let screen = Screen::of(&study, self.mutants, &runs)?;
+        let mut audit = audit.mutants(screen, self.search).runs(runs);
         if let Some(seconds) = self.time_limit {
             audit = audit.time_limit(Duration::from_secs_f64(seconds));
         }
@@ -150,7 +150,7 @@ fn table(report: &Report) -> String {
 
 fn holes(table: &mut Table, suite: &Audited) {
     let Audited { holes, .. } = suite;
-    if holes.rows.first().is_none_or(|hole| hole.row.is_empty()) {
+    if holes.rows.first().is_none_or(|hole| hole.row.iter().next().is_none()) {
         return;
     }
     for (rank, hole) in holes.rows.iter().take(ROWS).enumerate() {

@@ -71,7 +71,7 @@ pub(super) struct Bout<'a> {
 }
 
 /// A suite with the trials of the study's driver.
-struct Known {
+pub(super) struct Known {
     tests: Vec<Values>,
     given: Vec<Trial>,
     /// The positions of the tests, from the least robustness on.
@@ -79,7 +79,7 @@ struct Known {
 }
 
 impl Known {
-    fn of(suite: &Suite, study: &Study, runs: &Runs) -> Result<Self, Error> {
+    pub fn of(suite: &Suite, study: &Study, runs: &Runs) -> Result<Self, Error> {
         let tests = suite.values(study);
         let given = runs.of(study, &tests)?;
         let mut order: Vec<usize> = (0..tests.len()).filter(|index| given[*index].covers()).collect();
@@ -88,7 +88,7 @@ impl Known {
     }
 
     /// Returns the first test that notices a mutant.
-    fn kill(&self, mutant: &Mutant, worker: &mut Worker) -> Option<Kill> {
+    pub fn kill(&self, mutant: &Mutant, worker: &mut Worker) -> Option<Kill> {
         self.order.iter().copied().filter(|test| mutant.is_active(&self.tests[*test])).find_map(|test| {
             let trial = worker.run(test, &self.tests[test]).0;
             let requirement = gives_away(&self.given[test], &trial)?.to_owned();
@@ -119,7 +119,7 @@ impl Bout<'_> {
     }
 
     fn tried(&self, mutant: &Mutant, known: &[Known], seats: &Seats, given: &mut Worker) -> Result<Tried, Error> {
-        let study = mutated(self.study, mutant.defect.clone())?;
+        let study = mutated(self.study, mutant.defect)?;
         let mut worker = seats.worker(&study);
         let kills: Vec<_> = known.iter().map(|suite| suite.kill(mutant, &mut worker)).collect();
         let mut tried = Tried { mutant: mutant.clone(), kills, searched: 0, found: None };

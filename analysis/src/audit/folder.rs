@@ -148,13 +148,13 @@ impl Audit<'_> {
         Settings {
             study: study.identity(),
             suites: self.suites.iter().map(entry).collect(),
-            mutants: &self.mutants,
+            mutants: self.tried_mutants(),
             search: self.search,
         }
     }
 
     /// Returns `true` if a line is about the mutant at this place, and has an entry for each suite.
     fn tries(&self, index: usize, one: &Tried) -> bool {
-        self.mutants.get(index) == Some(&one.mutant) && one.kills.len() == self.suites.len()
+        self.tried_mutants().get(index) == Some(&one.mutant) && one.kills.len() == self.suites.len()
     }
 }

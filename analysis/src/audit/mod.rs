@@ -10,6 +10,7 @@ mod folder;
 mod holes;
 mod runs;
 mod score;
+mod screen;
 mod suite;
 mod witness;
 
@@ -18,6 +19,7 @@ pub use folder::{AuditFolder, AuditFolderFlaw};
 pub use holes::{Holes, RowHole};
 pub use runs::Runs;
 pub use score::{KindScore, Score, Share, SizeScore};
+pub use screen::Screen;
 pub use suite::{Source, Suite, SuiteFlaw};
 pub use witness::Witness;
 
@@ -66,7 +68,7 @@ impl Reason for AuditFlaw {}
 pub struct Audit<'a> {
     study: &'a Study,
     suites: Vec<Suite>,
-    mutants: Vec<Mutant>,
+    screen: Option<Screen>,
     search: usize,
     limit: Option<Duration>,
     runs: Runs,
@@ -96,6 +98,8 @@ pub struct Audited {
 pub struct Report {
     /// The description of the study.
     pub title: String,
+    /// The screen of the defects; `None` without mutants.
+    pub screen: Option<Screen>,
     /// The greatest number of tests of the search for a test that notices a mutant which no suite notices.
     pub search: usize,
     /// The number of mutants that neither a suite nor the search noticed. They are equivalent to the driver as far as known.
@@ -118,12 +122,12 @@ impl<'a> Audit<'a> {
         if let Some(signal) = study.space().parameters().iter().find(|parameter| parameter.signal.is_some()) {
             return Err(AuditFlaw::Signal { name: signal.name.clone() });
         }
-        Ok(Self { study, suites, mutants: Vec::new(), search: 0, limit: None, runs: Runs::default() })
+        Ok(Self { study, suites, screen: None, search: 0, limit: None, runs: Runs::default() })
     }
 
-    /// Puts mutants on trial. Those that no suite notices get a search of so many tests.
-    pub fn mutants(self, mutants: Vec<Mutant>, search: usize) -> Self {
-        Self { mutants, search, ..self }
+    /// Puts the mutants of a screen on trial. Those that no suite notices get a search of so many tests.
+    pub fn mutants(self, screen: Screen, search: usize) -> Self {
+        Self { screen: Some(screen).filter(|screen| !screen.mutants.is_empty()), search, ..self }
     }
 
     /// Limits the time for the measures of each suite. Without a limit, they are exact.
@@ -147,7 +151,8 @@ impl<'a> Audit<'a> {
         mut sink: impl FnMut(&Tried) -> Result<(), Error>,
     ) -> Result<Report, Error> {
         let mut suites = self.suites.iter().map(|suite| self.measured(suite)).collect::<Result<Vec<_>, Error>>()?;
-        let Self { study, suites: all, mutants, search, runs, .. } = self;
+        let Self { study, suites: all, search, runs, .. } = self;
+        let mutants = self.tried_mutants();
         let bout = Bout { study, suites: all, mutants, search: *search, runs };
         bout.run(tried.len(), |one| {
             sink(&one)?;
@@ -161,10 +166,15 @@ impl<'a> Audit<'a> {
         }
         Ok(Report {
             title: study.title(),
+            screen: self.screen.clone(),
             search: *search,
             equivalent_as_far_as_known: tried.iter().filter(|one| !one.counts()).count(),
             suites,
         })
+    }
+
+    fn tried_mutants(&self) -> &[Mutant] {
+        self.screen.as_ref().map_or(&[], |screen| &screen.mutants)
     }
 
     /// Measures a suite, and finds its witness.

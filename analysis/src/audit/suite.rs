@@ -168,7 +168,7 @@ impl Suite {
         Ok(Self { left_out: suite.left_out + left.len(), ..suite })
     }
 
-    fn new(name: String, points: Vec<Point>, study: &Study) -> Result<Self, Error> {
+    pub(super) fn new(name: String, points: Vec<Point>, study: &Study) -> Result<Self, Error> {
         let all = points.len();
         let points: Vec<Point> = points.into_iter().filter(|point| study.space().allows(point)).collect();
         let left_out = all - points.len();
