@@ -183,7 +183,8 @@ impl Space {
 
     /// Returns whether the tests of a part of the space keep every constraint: those with the levels in `row`, and with
     /// continuous coordinates from `lower` to `upper`. Returns `None` if some of them may keep the constraints and others not.
-    /// If the answer is not `None`, it is certain.
+    /// If the answer is not `None`, it is certain, except for
+    /// tests in which parameters are equal that must not be: such tests have no volume.
     ///
     /// # Panics
     /// The part has fewer coordinates than the space, or a level index is not below the number of levels.

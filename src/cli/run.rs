@@ -167,10 +167,14 @@ impl Options {
             let beside = beside.unwrap_or_default();
             verbosity.note(match (self.sampling.epsilon, ran) {
                 (_, 0) if extension.is_some() => format!("no test was run: nothing is missing{beside}"),
-                (_, 0) => "no test was run: the strategy has no test that keeps the constraints".to_owned(),
+                (_, 0) => "no test was run: the strategy has no test that keeps the constraints; use another strategy".to_owned(),
                 (Some(epsilon), ran) => {
                     let ran = plural(ran, "test");
                     format!("the campaign ended before its budget: after {ran}{beside} no row has an empty box above {epsilon}")
+                }
+                (None, ran) if report.log.study().space().checks_each_test() => {
+                    let ran = plural(ran, "test");
+                    format!("the campaign ended before its budget: after {ran}{beside} the strategy found no other that keeps the constraints")
                 }
                 (None, ran) => {
                     let ran = plural(ran, "test");
