@@ -269,7 +269,8 @@ fn a_constraint_that_no_value_of_an_interval_keeps_is_broken_by_every_row() {
 
 #[test]
 fn continuous_parameters_may_have_to_differ() {
-    let test = |speed: f64, gap: f64| Point { continuous: vec![speed / 10.0, (gap + 5.0) / 25.0], discrete: vec![0, 0] };
+    let test =
+        |speed: f64, gap: f64| Point { continuous: vec![speed / 10.0, (gap + 5.0) / 25.0], discrete: vec![0, 0] };
     let part = |space: &Space| space.allows_part(&[0, 0], &[0.0, 0.0], &[1.0, 1.0]);
     for text in [
         "speed != [the gap]",

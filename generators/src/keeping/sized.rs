@@ -69,7 +69,8 @@ fn thinned(tests: Vec<Point>, wanted: usize) -> Vec<Point> {
         return tests;
     }
     // The middles of as many equal stretches as tests are wanted: neither end of the list loses more than the other.
-    let mut next = (0..wanted as u128).map(|at| ((2 * at + 1) * len as u128 / (2 * wanted as u128)) as usize).peekable();
+    let mut next =
+        (0..wanted as u128).map(|at| ((2 * at + 1) * len as u128 / (2 * wanted as u128)) as usize).peekable();
     let is_kept = |(at, test)| (next.next_if_eq(&at).is_some()).then_some(test);
     tests.into_iter().enumerate().filter_map(is_kept).collect()
 }

@@ -163,7 +163,8 @@ impl Options {
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{}{by}{}", plural(written, "test"), after.unwrap_or_default()));
-        if self.sampling.epsilon.is_none() && space.checks_each_test() && self.budget.is_some_and(|most| written < most) {
+        if self.sampling.epsilon.is_none() && space.checks_each_test() && self.budget.is_some_and(|most| written < most)
+        {
             complain(&format!("{strategy} found no other test that keeps the constraints; use another strategy"));
         }
         let measuring = match self.sampling.epsilon {
