@@ -172,7 +172,15 @@ impl Space {
     /// # Panics
     /// The point has fewer coordinates than the space, or a level index is not below the number of levels.
     pub fn allows(&self, point: &Point) -> bool {
-        self.constraints.iter().all(|constraint| constraint.allows(point))
+        self.broken(point).is_none()
+    }
+
+    /// Returns the first constraint of the space that the test at the given point breaks.
+    ///
+    /// # Panics
+    /// The point has fewer coordinates than the space, or a level index is not below the number of levels.
+    pub fn broken(&self, point: &Point) -> Option<&Constraint> {
+        self.constraints.iter().find(|constraint| !constraint.allows(point))
     }
 
     /// Returns `true` if the levels of a test do not decide whether the test keeps the constraints, so that each test has to be

@@ -104,10 +104,7 @@ impl Share {
             Err(error) => return Err(error),
         };
         let refused = |point: &&Point| !space.allows(point);
-        let broken = points.iter().find(refused).and_then(|point| {
-            let constraint = space.constraints().iter().find(|constraint| !constraint.allows(point))?;
-            Some(constraint.text().to_owned())
-        });
+        let broken = points.iter().find_map(|point| space.broken(point)).map(|constraint| constraint.text().to_owned());
         let valid = points.len() - points.iter().filter(refused).count();
         Ok(Self { valid, probes: points.len(), broken })
     }
