@@ -21,6 +21,7 @@ use crate::strategy::MethodKind;
 use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_space::{Point, Space};
 use sized::sized;
+use std::collections::BTreeSet;
 
 /// The number of proposals in a row that may break a constraint before the strategy counts as exhausted.
 const MOST_REFUSED: usize = 10_000;
@@ -37,6 +38,9 @@ const MOST_DRAWS: usize = 10_000;
 struct Keeping {
     inner: Box<dyn Generator>,
     space: Space,
+    /// The tests to which the first test of a row moves; `None` if such a test is left out like any other.
+    moved: Option<Moved>,
+    rows: BTreeSet<Vec<usize>>,
     is_exhausted: bool,
 }
 
@@ -67,7 +71,9 @@ impl Strategy {
         let budget = if keeps_the_budget { request.budget } else { proposals };
         let inner = self.assembled(&Request { budget, ..*request }, knows_the_share)?;
         share?.checked()?;
-        Ok(if places_rows { inner } else { Keeping::of(inner, request.space) })
+        // Holes between all parameters are holes in rows, too: a row that lost its test would look covered.
+        let moves = self.fills_holes() && !request.space.levels().is_empty();
+        Ok(if places_rows { inner } else { Keeping::of(inner, request.space, moves) })
     }
 
     /// Builds the generator that [`Strategy::build_independent`] promises.
@@ -90,7 +96,7 @@ impl Strategy {
             return Ok(Box::new(Listed(tests.into_iter())));
         }
         let inner = self.unchecked_independent(&Request { budget: proposals, ..*request })?;
-        Ok(Keeping::of(inner, request.space))
+        Ok(Keeping::of(inner, request.space, false))
     }
 }
 
@@ -129,8 +135,9 @@ impl Share {
 }
 
 impl Keeping {
-    fn of(inner: Box<dyn Generator>, space: &Space) -> Box<dyn Generator> {
-        Box::new(Self { inner, space: space.clone(), is_exhausted: false })
+    fn of(inner: Box<dyn Generator>, space: &Space, moves: bool) -> Box<dyn Generator> {
+        let moved = if moves { Moved::new(space, |row| row) } else { None };
+        Box::new(Self { inner, space: space.clone(), moved, rows: BTreeSet::new(), is_exhausted: false })
     }
 }
 
@@ -142,7 +149,11 @@ impl Generator for Keeping {
             let proposed = self.inner.ask(n - kept.len());
             self.is_exhausted = proposed.is_empty();
             let mut bad = Vec::new();
-            for point in proposed {
+            for mut point in proposed {
+                if let Some(moved) = self.moved.as_ref().filter(|_| !self.rows.contains(&point.discrete)) {
+                    point = moved.moved(point);
+                    self.rows.insert(point.discrete.clone());
+                }
                 if self.space.allows(&point) {
                     refused = 0;
                     kept.push(point);
@@ -178,7 +189,6 @@ mod tests {
     use paracosm_coverage::valid::Validity;
     use paracosm_space::{Domain, Parameter};
     use proptest::prelude::{prop_assert, proptest};
-    use std::collections::BTreeSet;
 
     fn space(constraints: &[&str]) -> Space {
         let interval = |name: &str| Parameter::new(name, Domain::Interval { lo: 0.0, hi: 1.0 });
@@ -264,6 +274,17 @@ mod tests {
         for strategy in [Strategy::HALTON, Strategy::LHS] {
             let tests = strategy.build(&Request::new(&space, 20)).unwrap().ask(20);
             assert!(tests.len() == 20 && tests.iter().all(|test| test.discrete[0] < 2), "{strategy}");
+        }
+    }
+
+    #[test]
+    fn holes_between_all_parameters_leave_no_pair_of_levels_out() {
+        let space = space(&["x + y < 0.1 * a"]);
+        let tests = Strategy::GREEDY.build(&Request::new(&space, 30)).unwrap().ask(30);
+        assert!(tests.len() == 30 && tests.iter().all(|test| space.allows(test)));
+        for [a, b] in [[0, 1], [0, 2], [1, 2]] {
+            let pairs: BTreeSet<_> = tests.iter().map(|test| (test.discrete[a], test.discrete[b])).collect();
+            assert_eq!(pairs.len(), 9, "{a} {b}");
         }
     }
 
