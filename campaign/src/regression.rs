@@ -64,6 +64,12 @@ pub enum RegressionFlaw {
     /// The test does not belong to the study of the file.
     #[error("`test`: {0}")]
     Test(SpaceError),
+    /// The test breaks a constraint of the study.
+    #[error("`test`: the values break the constraint `{constraint}`; change the values")]
+    Broken {
+        /// The text of the constraint.
+        constraint: String,
+    },
     /// The file names a requirement that the study of the file does not have.
     #[error("`violates`: no requirement is called `{id}`")]
     NoRequirement {
@@ -103,7 +109,10 @@ impl Regression {
         let wrong = |flaw| Error::in_file(path, None, flaw);
         read.study = read.study.with_program_of(catalogue).map_err(|flaw| Error::in_file(path, None, flaw))?;
         let study = read.study();
-        study.space().encode(&read.test).map_err(|error| wrong(RegressionFlaw::Test(error)))?;
+        let test = study.space().encode(&read.test).map_err(|error| wrong(RegressionFlaw::Test(error)))?;
+        if let Some(constraint) = study.space().broken(&test) {
+            return Err(wrong(RegressionFlaw::Broken { constraint: constraint.text().to_owned() }));
+        }
         // The requirements of a system that answers with robustness are known only from its answer.
         let judges_itself = !study.requirements().iter().any(|requirement| requirement.formula.is_some());
         let stated = |id: &&String| judges_itself || study.requirement(id).is_some();

@@ -3,7 +3,7 @@
 use crate::deal::Deal;
 use crate::family::Family;
 use crate::greedy::{GreedyRows, KwiseGreedy};
-use crate::keeping::keeping;
+use crate::keeping::{RowPoints, Share, ValidRows, roomy};
 use crate::mixed::Mixed;
 use crate::seeded::{Purpose, seeded};
 use crate::sequence::{MOST_SOBOL_DIMS, PerRow};
@@ -28,11 +28,21 @@ impl Strategy {
     /// test does not belong to the space. Or hardly any test keeps the constraints. Or the strategy cannot serve the
     /// request: the number of points or dimensions, the skip, the existing tests, or the aim.
     pub fn build(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
-        keeping(self, request, |request| self.unchecked(request))
+        self.build_valid(request)
     }
 
     /// Builds the generator, which may propose tests that break a constraint on continuous parameters.
     pub(crate) fn unchecked(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
+        self.assembled(request, None)
+    }
+
+    /// Builds the generator. With the share of valid tests, the tests of rows keep the constraints on continuous
+    /// parameters; all others may break them.
+    pub(crate) fn assembled(
+        self,
+        request: &Request,
+        share: Option<&Share>,
+    ) -> Result<Box<dyn Generator>, GeneratorError> {
         let &Request { space, budget, seed, skip, k, aim, existing, .. } = request;
         if space.parameters().is_empty() {
             return Err(GeneratorError::EmptySpace);
@@ -51,6 +61,9 @@ impl Strategy {
         let dims = space.dims();
         let rules = space.rules()?;
         check_existing(space, existing)?;
+        // A test that breaks a constraint covers nothing.
+        let existing: &[Point] = &existing.iter().filter(|test| space.allows(test)).cloned().collect::<Vec<_>>();
+        let request = &Request { existing, ..*request };
         match self.kind() {
             MethodKind::Search { build, .. } => return build(self.descriptor(), request, rules),
             MethodKind::Own(build) => return build(request),
@@ -76,11 +89,13 @@ impl Strategy {
             return Err(GeneratorError::NoExtension { strategy: self.name() });
         }
         let deal = Deal::new(family.len(), budget as u64);
+        // Holes are searched for when a point is asked for, so that room for points costs nothing.
+        let room = if share.is_some() { roomy(deal, u64::MAX) } else { deal };
         let sequence = match self.kind() {
             MethodKind::Sequence(endless) => (endless.build)(dims, seed),
             MethodKind::Sets { build, .. } => build(dims, seed, deal)?,
             MethodKind::Holes(make) => {
-                Box::new(PerRow::new(deal, GreedyRows::new(make, dims, seed_or_0, family.points_of_rows(existing))))
+                Box::new(PerRow::new(room, GreedyRows::new(make, dims, seed_or_0, family.points_of_rows(existing))))
             }
             MethodKind::Search { .. } | MethodKind::Own(_) => unreachable!("such generators were built above"),
         };
@@ -88,7 +103,17 @@ impl Strategy {
         if end > len {
             return Err(GeneratorError::IndexLimit { strategy: self.name(), len, last: end - 1 });
         }
-        Ok(Box::new(Mixed::new(family, sequence, deal, first)))
+        let Some(share) = share else { return Ok(Box::new(Mixed::new(family, sequence, deal, first))) };
+        let (points, goes_on) = match self.kind() {
+            MethodKind::Sets { build, .. } => (RowPoints::Sets { build, seed }, false),
+            MethodKind::Sequence(endless) => {
+                let block = roomy(deal, len - first).block;
+                (RowPoints::Walked { sequence, first, block, fills: endless.fills }, deal.rows == 1)
+            }
+            _ => (RowPoints::Walked { sequence, first, block: room.block, fills: true }, false),
+        };
+        let tests = if goes_on { u64::MAX } else { deal.budget };
+        Ok(Box::new(ValidRows::new(request, family, points, tests, share)?))
     }
 
     fn cannot_cover(self, dims: usize) -> GeneratorError {

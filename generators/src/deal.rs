@@ -17,11 +17,18 @@ pub(crate) struct Deal {
     pub(crate) block: u64,
     /// The number of tests of all rows.
     pub(crate) budget: u64,
+    /// The number of the first row. Rows differ in their sets by their numbers.
+    pub(crate) from: u64,
 }
 
 impl Deal {
     pub(crate) fn new(rows: u64, budget: u64) -> Self {
-        Self { rows, block: budget.div_ceil(rows), budget }
+        Self { rows, block: budget.div_ceil(rows), budget, from: 0 }
+    }
+
+    /// Makes the deal of the one row of this number.
+    pub(crate) fn of_row(row: u64, tests: u64) -> Self {
+        Self { from: row, ..Self::new(1, tests) }
     }
 
     /// Returns the number of indices that the rows with at least one test own together.

@@ -7,7 +7,6 @@
 //! uniformly, one for each test, favour no strategy. Random points with such rows are a uniform distribution over all
 //! valid tests.
 
-use crate::keeping::keeping;
 use crate::seeded::{Purpose, seeded};
 use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_space::Point;
@@ -45,7 +44,7 @@ impl Strategy {
     /// # Errors
     /// As [`Strategy::build`]; also if the constraints join too many parameters for random rows.
     pub fn build_independent(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
-        keeping(self, request, |request| self.unchecked_independent(request))
+        self.build_valid_independent(request)
     }
 
     /// Builds the generator, which may propose tests that break a constraint on continuous parameters.

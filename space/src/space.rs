@@ -172,7 +172,15 @@ impl Space {
     /// # Panics
     /// The point has fewer coordinates than the space, or a level index is not below the number of levels.
     pub fn allows(&self, point: &Point) -> bool {
-        self.constraints.iter().all(|constraint| constraint.allows(point))
+        self.broken(point).is_none()
+    }
+
+    /// Returns the first constraint of the space that the test at the given point breaks.
+    ///
+    /// # Panics
+    /// The point has fewer coordinates than the space, or a level index is not below the number of levels.
+    pub fn broken(&self, point: &Point) -> Option<&Constraint> {
+        self.constraints.iter().find(|constraint| !constraint.allows(point))
     }
 
     /// Returns `true` if the levels of a test do not decide whether the test keeps the constraints, so that each test has to be
@@ -183,7 +191,8 @@ impl Space {
 
     /// Returns whether the tests of a part of the space keep every constraint: those with the levels in `row`, and with
     /// continuous coordinates from `lower` to `upper`. Returns `None` if some of them may keep the constraints and others not.
-    /// If the answer is not `None`, it is certain.
+    /// If the answer is not `None`, it is certain, except for
+    /// tests in which parameters are equal that must not be: such tests have no volume.
     ///
     /// # Panics
     /// The part has fewer coordinates than the space, or a level index is not below the number of levels.

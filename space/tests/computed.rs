@@ -266,3 +266,31 @@ fn a_constraint_that_no_value_of_an_interval_keeps_is_broken_by_every_row() {
         assert!(space.rules().is_err(), "{text}");
     }
 }
+
+#[test]
+fn continuous_parameters_may_have_to_differ() {
+    let test =
+        |speed: f64, gap: f64| Point { continuous: vec![speed / 10.0, (gap + 5.0) / 25.0], discrete: vec![0, 0] };
+    let part = |space: &Space| space.allows_part(&[0, 0], &[0.0, 0.0], &[1.0, 1.0]);
+    for text in [
+        "speed != [the gap]",
+        "not speed == [the gap]",
+        "speed == [the gap] implies lanes == 4",
+        "speed > 20 or [the gap] != speed",
+    ] {
+        let space = space().with_constraints([text]).unwrap();
+        assert!(!space.allows(&test(5.0, 5.0)), "{text}");
+        assert!(space.allows(&test(5.0, 5.1)) && space.allows(&test(2.5, 5.0)), "{text}");
+        // The equal values have no volume.
+        assert_eq!(part(&space), Some(true), "{text}");
+        let place = [0.5, 0.4];
+        assert_eq!(space.allows_part(&[0, 0], &place, &place), Some(false), "{text}");
+    }
+    let number = space().with_constraints(["speed != 5"]).unwrap();
+    assert!(!number.allows(&test(5.0, 0.0)) && number.allows(&test(4.0, 0.0)) && part(&number) == Some(true));
+    // Intervals do not decide this: two different terms may be equal everywhere.
+    let computed = space().with_constraints(["speed + 1 != max(speed + 1, [the gap] - 20)"]).unwrap();
+    assert_eq!(part(&computed), None);
+    let never = space().with_constraints(["speed != speed"]).unwrap();
+    assert!(!never.allows(&test(5.0, 5.0)) && part(&never).is_none());
+}

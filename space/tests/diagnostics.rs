@@ -17,9 +17,12 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check("", 1, "found the end of the constraint, expected a parameter, `not` or `(`");
     check("weathr == 'fog'", 1, "no parameter is called `weathr` (did you mean `weather`?)");
     check("lanes == 2 implies wether != 'fog'", 20, "no parameter is called `wether` (did you mean `weather`?)");
-    let continuous = "`speed` is continuous, expected a discrete parameter, or one of `<`, `<=`, `>` and `>=`";
+    let continuous = "`speed` is continuous, so hardly any test keeps an equation with it; expected a discrete parameter, or one of `!=`, `<`, `<=`, `>` and `>=`";
     check("speed == 3", 1, continuous);
-    check("lanes != speed", 10, continuous);
+    check("lanes == speed", 10, continuous);
+    check("not lanes != speed", 14, continuous);
+    check("speed != lanes implies lanes == 2", 1, continuous);
+    check("speed * 2 == lanes", 1, continuous);
     check("speed + 1 == lanes", 1, continuous);
     check("speed in [3]", 1, continuous);
     check("speed < 'fog'", 9, "`<` compares numbers, found 'fog'");

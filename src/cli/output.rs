@@ -2,7 +2,7 @@
 
 use crate::coverage::Bracket;
 pub(super) use crate::space::plural;
-use crate::space::{Domain, Record, Value};
+use crate::space::{Domain, Point, Record, Space, Value};
 use clap::ValueEnum;
 use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
 use std::fmt::Write;
@@ -29,6 +29,14 @@ pub(super) fn json(value: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(value).expect("results are always JSON");
     text.push('\n');
     text
+}
+
+/// Describes the tests of a source that break a constraint, with the first of these constraints; `None` if all keep them.
+pub(super) fn broken(space: &Space, tests: &[Point], source: &str) -> Option<String> {
+    let mut broken = tests.iter().enumerate().filter_map(|(at, test)| Some((at, space.broken(test)?.text())));
+    let (first, constraint) = broken.next()?;
+    let (count, first) = (plural(1 + broken.count(), "test"), first + 1);
+    Some(format!("{count} of the {} in {source} cover nothing: test {first} breaks `{constraint}`", tests.len()))
 }
 
 /// A table with names on the left and values on the right.

@@ -1,6 +1,6 @@
 //! `paracosm-fuzz run`: runs a campaign, shows its progress and prints its summary.
 
-use super::output::{Format, json, plural};
+use super::output::{Format, broken, json, plural};
 use super::progress::Progress;
 use super::sampling::Sampling;
 use super::subject::Subject;
@@ -96,6 +96,12 @@ impl Options {
         let study = self.reference.iter().fold(study, |study, name| study.reference(name)).build()?;
         self.subject.note_before(&study, verbosity)?;
         let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
+        if let Some(extension) = &extension {
+            let source = &extension.record().name;
+            broken(study.space(), &extension.points(study.space())?, source)
+                .into_iter()
+                .for_each(|note| verbosity.note(note));
+        }
         note_outlasting(&study, verbosity)?;
         let stop = Arc::<AtomicBool>::default();
         let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
@@ -122,6 +128,10 @@ impl Options {
                 let (id, tests) = (&judged.id, plural(judged.undecided, "test"));
                 verbosity.note(format!("{id} stayed undecided in {tests}: too short for `{formula}`"));
             }
+        }
+        if summary.tests() == 0 && report.finish == Finish::Exhausted && extension.is_none() {
+            let strategy = self.strategy()?;
+            return Err(format!("{strategy} found no test that keeps the constraints; use another strategy").into());
         }
         if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
             let first = log.trials()[0].error().unwrap_or_default();
@@ -161,16 +171,19 @@ impl Options {
     /// Notes why the campaign has fewer tests than its budget, and why it has no map.
     fn note_end(&self, report: &Report, extension: Option<&Extension>, verbosity: Verbosity) {
         let ran = report.log.trials().len();
-        if ran < self.budget && report.finish != Finish::Stopped {
+        if ran < self.budget && report.finish != Finish::Stopped && (ran > 0 || extension.is_some()) {
             let beside =
                 extension.map(|known| format!(" beside the {} in {}", known.record().tests, known.record().name));
             let beside = beside.unwrap_or_default();
             verbosity.note(match (self.sampling.epsilon, ran) {
                 (_, 0) if extension.is_some() => format!("no test was run: nothing is missing{beside}"),
-                (_, 0) => "no test was run: the strategy has no test that keeps the constraints".to_owned(),
                 (Some(epsilon), ran) => {
                     let ran = plural(ran, "test");
                     format!("the campaign ended before its budget: after {ran}{beside} no row has an empty box above {epsilon}")
+                }
+                (None, ran) if report.log.study().space().checks_each_test() => {
+                    let ran = plural(ran, "test");
+                    format!("the campaign ended before its budget: after {ran}{beside} the strategy found no other that keeps the constraints")
                 }
                 (None, ran) => {
                     let ran = plural(ran, "test");

@@ -12,6 +12,7 @@ mod certificate;
 mod commands;
 mod common;
 mod comparison;
+mod computed_constraints;
 mod covering;
 mod documents;
 mod earlier_versions;

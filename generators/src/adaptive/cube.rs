@@ -6,8 +6,10 @@
 //!
 //! A row that the constraints exclude is repaired. Parameter by parameter the level is kept, or replaced by the
 //! nearest level that a valid test has together with the levels before it. So every test satisfies all constraints. A
-//! search is told the result of the repaired test as the result of its proposal.
+//! search is told the result of the repaired test as the result of its proposal. A test that breaks a constraint on
+//! continuous parameters moves to the nearest edge of the valid part in the same way ([`Moved`]).
 
+use crate::keeping::Moved;
 use paracosm_space::rules::Rules;
 use paracosm_space::{Point, Space, Value};
 
@@ -37,11 +39,14 @@ pub(super) struct Cube {
     axes: Vec<Axis>,
     dims: usize,
     rules: Rules,
+    /// The valid tests to which others move; `None` if no constraint depends on continuous parameters.
+    moved: Option<Moved>,
 }
 
 impl Cube {
     pub(super) fn new(space: &Space, rules: Rules) -> Self {
-        Self { axes: axes(space), dims: space.dims(), rules }
+        let moved = Moved::new(space, |row| valid_row(&rules, row));
+        Self { axes: axes(space), dims: space.dims(), rules, moved }
     }
 
     /// Returns the kinds of all axes, with the continuous axes first.
@@ -59,9 +64,17 @@ impl Cube {
     pub(super) fn point(&self, at: &[f64]) -> Point {
         let (continuous, discrete) = at.split_at(self.dims);
         let row: Vec<usize> = discrete.iter().zip(self.rules.levels()).map(|(&u, &levels)| level(u, levels)).collect();
-        Point {
+        self.valid(Point {
             continuous: continuous.iter().map(|u| u.clamp(0.0, 1.0_f64.next_down())).collect(),
-            discrete: if self.rules.allows(&row) { row } else { self.repaired(&row) },
+            discrete: valid_row(&self.rules, row),
+        })
+    }
+
+    /// Returns the test itself, or a valid test near it if it breaks a constraint on continuous parameters.
+    pub(super) fn valid(&self, test: Point) -> Point {
+        match &self.moved {
+            Some(moved) => moved.moved(test),
+            None => test,
         }
     }
 
@@ -69,16 +82,20 @@ impl Cube {
     pub(super) fn place(&self, point: &Point) -> Vec<f64> {
         place(&self.axes, point)
     }
+}
 
-    fn repaired(&self, row: &[usize]) -> Vec<usize> {
-        let mut fixed = vec![None; row.len()];
-        for (parameter, &wanted) in row.iter().enumerate() {
-            let supported = self.rules.supported_at(parameter, |other| fixed[other]);
-            let valid = (0..supported.len()).filter(|&level| supported[level]);
-            fixed[parameter] = valid.min_by_key(|level| level.abs_diff(wanted));
-        }
-        fixed.into_iter().map(|level| level.expect("what is fixed so far is part of a valid test")).collect()
+/// Returns the row itself if it keeps the constraints, and otherwise a valid row near it.
+fn valid_row(rules: &Rules, row: Vec<usize>) -> Vec<usize> {
+    if rules.allows(&row) {
+        return row;
     }
+    let mut fixed = vec![None; row.len()];
+    for (parameter, &wanted) in row.iter().enumerate() {
+        let supported = rules.supported_at(parameter, |other| fixed[other]);
+        let valid = (0..supported.len()).filter(|&level| supported[level]);
+        fixed[parameter] = valid.min_by_key(|level| level.abs_diff(wanted));
+    }
+    fixed.into_iter().map(|level| level.expect("what is fixed so far is part of a valid test")).collect()
 }
 
 /// Returns the kinds of the axes of a space, with the continuous axes first.

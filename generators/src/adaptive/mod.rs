@@ -197,7 +197,7 @@ impl Adaptive {
         if self.cube.dims() > 0 || !self.opening.is_over() {
             // Points of a sequence differ, but rows repeat, and the search may have proposed the same test.
             while self.cube.dims() > 0 || !self.opening.is_over() {
-                let point = self.opening.next();
+                let point = self.cube.valid(self.opening.next());
                 if self.insert(&point) {
                     return Some(point);
                 }

@@ -12,7 +12,8 @@
 //! parameters, and failures may lie at the last levels. The opening takes at most a third of the budget.
 //!
 //! Signals count as one parameter here too: many points in many coordinates tell a search less than the tests that
-//! they take are worth (experiments/automatic-transmission.md).
+//! they take are worth (experiments/automatic-transmission.md). Halton points that break a constraint on continuous parameters
+//! are passed over.
 
 use crate::{
     Request,
@@ -20,7 +21,7 @@ use crate::{
     seeded::{Purpose, seeded},
     sequence::{Halton, Sequence},
 };
-use paracosm_space::Point;
+use paracosm_space::{Point, Space};
 use rand::Rng;
 
 /// The greatest number of corners.
@@ -32,6 +33,9 @@ const MOST_PAIRED: usize = 7;
 /// The greatest number of rows of the discrete family that are part of the opening.
 const MOST_ROWS: usize = 32;
 
+/// The greatest number of Halton points in a row that are passed over.
+const MOST_PASSED: u64 = 1000;
+
 /// The opening of an adaptive strategy, which gives the first points and then low-dispersion points.
 pub(super) struct Opening {
     family: Family,
@@ -41,6 +45,10 @@ pub(super) struct Opening {
     corners: Vec<Vec<f64>>,
     len: usize,
     next: usize,
+    /// The space, if its constraints depend on continuous parameters.
+    constrained: Option<Space>,
+    /// The number of Halton points that were passed over.
+    passed: u64,
 }
 
 impl Opening {
@@ -52,7 +60,8 @@ impl Opening {
         let mut rows: Vec<u64> = (0..family.len().min(MOST_ROWS as u64)).collect();
         shuffle(&mut rows, &mut seeded(seed, Purpose::Corners, 1));
         let len = (corners.len() + points).max(rows.len()).min(request.budget.div_ceil(3));
-        Self { family, rows, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
+        let constrained = request.space.checks_each_test().then(|| request.space.clone());
+        Self { family, rows, halton: Halton::new(dims, Some(seed)), corners, len, next: 0, constrained, passed: 0 }
     }
 
     /// Returns `true` if all points of the opening have been proposed.
@@ -64,13 +73,19 @@ impl Opening {
     pub(super) fn next(&mut self) -> Point {
         let index = self.next;
         self.next += 1;
-        let continuous = match self.corners.get(index) {
-            Some(corner) => corner.clone(),
-            None => self.halton.point((index - self.corners.len()) as u64 + 1),
-        };
         let row = index as u64 % self.family.len();
         let row = self.rows.get(row as usize).copied().unwrap_or(row);
-        Point { continuous, discrete: self.family.row(row) }
+        let test = |continuous| Point { continuous, discrete: self.family.row(row) };
+        if let Some(corner) = self.corners.get(index) {
+            return test(corner.clone());
+        }
+        let first = (index - self.corners.len()) as u64 + 1 + self.passed;
+        let point = |passed: u64| test(self.halton.point(first + passed));
+        let Some(space) = &self.constrained else { return point(0) };
+        let passed = (0..MOST_PASSED).find(|&passed| space.allows(&point(passed)));
+        let point = point(passed.unwrap_or(0));
+        self.passed += passed.unwrap_or(0);
+        point
     }
 }
 
@@ -126,7 +141,6 @@ fn is_high(corner: usize, parameter: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm_space::Space;
     use std::collections::BTreeSet;
 
     fn corners_of(space: &Space, seed: u64) -> Vec<Vec<bool>> {

@@ -61,6 +61,8 @@ pub(crate) struct Lhs {
     dims: usize,
     /// The number of points from the start of one hypercube to the start of the next.
     block: u64,
+    /// The number of the first row.
+    from: u64,
     coordinates: Vec<f64>,
 }
 
@@ -74,7 +76,7 @@ impl Lhs {
         }
         let mut coordinates = vec![0.0; points as usize * dims];
         for (row, block) in coordinates.chunks_mut(deal.block as usize * dims).enumerate() {
-            let mut rng = seeded(seed, Purpose::Cells, row as u64);
+            let mut rng = seeded(seed, Purpose::Cells, deal.from + row as u64);
             let size = deal.tests_of(row as u64);
             for axis in 0..dims {
                 let mut cells: Vec<u64> = (0..size).collect();
@@ -87,13 +89,13 @@ impl Lhs {
                 }
             }
         }
-        Ok(Self { dims, block: deal.block, coordinates })
+        Ok(Self { dims, block: deal.block, from: deal.from, coordinates })
     }
 }
 
 impl RowSet for Lhs {
     fn point(&self, row: u64, _size: u64, index: u64) -> Vec<f64> {
-        let number = row * self.block + index;
+        let number = (row - self.from) * self.block + index;
         self.coordinates[number as usize * self.dims..][..self.dims].to_vec()
     }
 }

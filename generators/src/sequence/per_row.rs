@@ -34,6 +34,6 @@ impl<S: RowSet> Sequence for PerRow<S> {
 
     fn point(&self, index: u64) -> Vec<f64> {
         let row = index / self.deal.block;
-        self.set.point(row, self.deal.tests_of(row), index % self.deal.block)
+        self.set.point(self.deal.from + row, self.deal.tests_of(row), index % self.deal.block)
     }
 }

@@ -174,7 +174,7 @@ struct Sets {
 impl Sets {
     fn new(strategy: Strategy, request: &Request, family: &Family, first: u64) -> Self {
         let (dims, seed) = (request.space.dims(), request.seed.unwrap_or(0));
-        let long = Deal { rows: family.len(), block: LONG, budget: u64::MAX };
+        let long = Deal { rows: family.len(), block: LONG, budget: u64::MAX, from: 0 };
         let (plain, deal): (Arc<dyn Sequence>, Deal) = match strategy.kind() {
             // Greedy points belong to one row, whose number selects it.
             MethodKind::Holes(make) => {

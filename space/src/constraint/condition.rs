@@ -156,12 +156,20 @@ impl<'a> Resolver<'a> {
 
     /// Checks the names and values of an expression that may compute numbers and name continuous parameters.
     pub(super) fn check(&mut self, expression: &Expression) -> Result<(), ConstraintError> {
+        self.check_part(expression, true)
+    }
+
+    /// Checks an expression that has to hold if `holds` is true, and must not hold otherwise.
+    fn check_part(&mut self, expression: &Expression, holds: bool) -> Result<(), ConstraintError> {
+        let demands_equality = |relation: Relation| !relation.orders() && (relation == Relation::Equal) == holds;
         match expression {
-            Expression::Compare { parameter, relation, with } => self.check_comparison(parameter, *relation, with),
+            Expression::Compare { parameter, relation, with } => {
+                self.check_comparison(parameter, *relation, with, demands_equality(*relation))
+            }
             Expression::In { .. } => self.condition(expression, true).map(|_| ()),
             Expression::Relate { left, relation, right } => {
                 let places = self.next_places();
-                let equality = !relation.orders();
+                let equality = demands_equality(*relation);
                 for (term, place) in [(left, places.left), (right, places.right[0])] {
                     let mut flaw = None;
                     term.each_parameter(&mut |name| {
@@ -173,23 +181,30 @@ impl<'a> Resolver<'a> {
                 }
                 Ok(())
             }
-            Expression::Not(part) => self.check(part),
-            Expression::And(parts) | Expression::Or(parts) => parts.iter().try_for_each(|part| self.check(part)),
+            Expression::Not(part) => self.check_part(part, !holds),
+            Expression::And(parts) | Expression::Or(parts) => {
+                parts.iter().try_for_each(|part| self.check_part(part, holds))
+            }
             Expression::Implies(condition, consequence) => {
-                self.check(condition)?;
-                self.check(consequence)
+                self.check_part(condition, !holds)?;
+                self.check_part(consequence, holds)
             }
         }
     }
 
-    fn check_comparison(&mut self, name: &str, relation: Relation, with: &Operand) -> Result<(), ConstraintError> {
+    fn check_comparison(
+        &mut self,
+        name: &str,
+        relation: Relation,
+        with: &Operand,
+        equality: bool,
+    ) -> Result<(), ConstraintError> {
         let has_levels = |name: &str| self.parameter(name).map(|parameter| parameter.levels().is_some());
         let continuous = [Some(name), if let Operand::Parameter(other) = with { Some(other) } else { None }];
         if continuous.into_iter().flatten().all(|name| has_levels(name).unwrap_or(true)) {
             return self.comparison(name, relation, with, true).map(|_| ());
         }
         let places = self.next_places();
-        let equality = !relation.orders();
         self.check_number(name, equality).map_err(at(places.left))?;
         match with {
             Operand::Parameter(other) => self.check_number(other, equality).map_err(at(places.right[0])),
@@ -200,7 +215,8 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Checks that the values of a parameter are numbers, and that no continuous parameter is compared for equality.
+    /// Checks that the values of a parameter are numbers, and that no continuous parameter has to be equal to
+    /// something if `equality` is true.
     fn check_number(&self, name: &str, equality: bool) -> Result<(), ConstraintFlaw> {
         let parameter = self.parameter(name)?;
         let Some(levels) = parameter.levels() else {

@@ -127,8 +127,11 @@ pub enum ConstraintFlaw {
         /// The word.
         word: String,
     },
-    /// A continuous parameter is compared for equality, which no test would keep.
-    #[error("`{name}` is continuous, expected a discrete parameter, or one of `<`, `<=`, `>` and `>=`")]
+    /// A continuous parameter has to be equal to something, which hardly any test would keep.
+    #[error(
+        "`{name}` is continuous, so hardly any test keeps an equation with it; expected a discrete parameter, or one of `!=`, \
+         `<`, `<=`, `>` and `>=`"
+    )]
     Continuous {
         /// The name of the continuous parameter.
         name: String,

@@ -25,8 +25,8 @@
 //! `round`, `sign`, `sin`, `cos`, `tan`, `asin`, `acos` and `atan`, with angles in radians. A comparison with a number that
 //! has no value (a division by zero, the root of a negative number, a number that is not finite) does not hold.
 //!
-//! A constraint may name continuous parameters, but not compare them with `==`, `!=` or `in`: hardly any test would keep
-//! such a constraint. The levels of the discrete parameters do not decide a constraint on continuous parameters, so
+//! A constraint may name continuous parameters, but must not demand an equation with one (`==`, `in`, `not a != b`): hardly any
+//! test would keep such a constraint. The levels of the discrete parameters do not decide a constraint on continuous parameters, so
 //! [`Constraint::checks_each_test`] is true for it.
 //!
 //! A constraint is kept in three forms. The [`Expression`] is the constraint as it was written. A tree of sets of
@@ -127,7 +127,8 @@ impl Constraint {
 
     /// Returns whether the tests of a part of the space keep the constraint: those with the levels in `row`, and with
     /// continuous coordinates from `lower` to `upper`. Returns `None` if some of them may keep the constraint and others not.
-    /// If the answer is not `None`, it is certain.
+    /// If the answer is not `None`, it is certain, except for
+    /// tests in which parameters are equal that must not be: such tests have no volume.
     ///
     /// # Panics
     /// The part lacks a coordinate for a parameter that the constraint names, or a level does not exist.

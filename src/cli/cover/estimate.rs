@@ -2,7 +2,7 @@
 
 use super::{certificate, open_loop, strength, time_limit};
 use crate::cli::draw::is_ours_to_write;
-use crate::cli::output::{Format, Table, json, plural, short_bracket};
+use crate::cli::output::{Format, Table, broken, json, plural, short_bracket};
 use crate::cli::usage;
 use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::coverage::Bracket;
@@ -83,6 +83,9 @@ impl Options {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read(verbosity)?,
         };
+        if tests.space.dims() > 0 {
+            broken(&tests.space, &tests.points, &source).into_iter().for_each(|note| verbosity.note(note));
+        }
         let asked = |measure: &Measure| self.measures.is_empty() || self.measures.contains(measure);
         let measures: Vec<Measure> = Measure::all().filter(asked).collect();
         if !self.strength.is_empty() && !measures.contains(&Measure::K_WISE) {

@@ -4,7 +4,7 @@ use super::array::ArrayOptions;
 use super::reached::Reached;
 use super::{open_loop, strength, time_limit};
 use crate::cli::interrupt::Interruptible;
-use crate::cli::output::plural;
+use crate::cli::output::{broken, plural};
 use crate::cli::sampling::Sampling;
 use crate::cli::usage;
 use crate::cli::{Failure, Strict, Verbosity, complain, output_error};
@@ -110,6 +110,9 @@ impl Options {
             None => Strategy::usual(Purpose::Cover),
         };
         let request = self.request(&space, strategy, &existing)?;
+        if let Some(path) = self.extend.as_ref().filter(|_| space.dims() > 0) {
+            broken(&space, &existing, &path.display().to_string()).into_iter().for_each(|note| verbosity.note(note));
+        }
         if strategy.has_rows(&request) {
             strength::capped(self.sampling.k, &space).into_iter().for_each(|note| verbosity.note(note));
         }
@@ -163,6 +166,12 @@ impl Options {
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{}{by}{}", plural(written, "test"), after.unwrap_or_default()));
+        if self.sampling.epsilon.is_none() && space.checks_each_test() && written < most {
+            if written == 0 {
+                return Err(format!("{strategy} found no test that keeps the constraints; use another strategy").into());
+            }
+            complain(&format!("{strategy} found no other test that keeps the constraints; use another strategy"));
+        }
         let measuring = match self.sampling.epsilon {
             Some(_) => REPORT_LIMIT,
             None if is_noted => UNASKED_LIMIT,
