@@ -25,9 +25,9 @@ An audit says what a suite of tests would have missed:
   coverage   the k-wise coverage, and for each row of discrete values the largest box that no test has entered
   witness    a driver that drives like the given one, but does not brake in such a box. It has the same verdict as the
              given driver in every test of the suite, and fails in the box
-  mutants    drivers with defects of many kinds and sizes. A suite kills a mutant if a test of the suite violates a
-             requirement with the mutant, and keeps it with the given driver. A mutant counts if some suite kills it, or
-             if a search finds a test that would
+  mutants    drivers with defects of many kinds and sizes, always on or on under conditions. A suite kills a mutant if
+             a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
+             are fixed before: each is noticed in one of 128 random tests of the whole space
 
 The audit writes audit.json and mutants.jsonl, which has a line for each mutant, to the folder --out.";
 
@@ -46,9 +46,6 @@ pub(super) struct Options {
     /// The number of mutants
     #[arg(long, value_name = "N", default_value_t = 200)]
     mutants: usize,
-    /// The most tests of the search for a test that would kill a mutant, for mutants that no suite kills
-    #[arg(long, value_name = "N", default_value_t = 64)]
-    search: usize,
     /// Limit the seconds for the coverage of each suite; holes are brackets if the time is too short [default: no limit]
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
@@ -78,7 +75,7 @@ impl Options {
         on_interrupt(runs.stop.clone());
         let audit = Audit::of(&study, suites).map_err(Error::from)?;
         let screen = Screen::of(&study, self.mutants, &runs)?;
-        let mut audit = audit.mutants(screen, self.search).runs(runs);
+        let mut audit = audit.mutants(screen).runs(runs);
         if let Some(seconds) = self.time_limit {
             audit = audit.time_limit(Duration::from_secs_f64(seconds));
         }
@@ -136,10 +133,14 @@ fn table(report: &Report) -> String {
         holes(&mut table, suite);
         match &suite.witness {
             Some(witness) => self::witness(&mut table, witness),
-            None => table.row("witness", "none: a driver that does not brake failed in no test that was tried outside of the suite"),
+            None => table.row(
+                "witness",
+                "none: a driver that does not brake failed in no test that was tried outside of the suite",
+            ),
         }
         if let Some(score) = &suite.mutants {
-            self::score(&mut table, report, score);
+            let screen = report.screen.as_ref().expect("mutants come from a screen");
+            self::score(&mut table, screen, score);
         }
     }
     if report.suites.len() > 1 {
@@ -189,26 +190,35 @@ fn witness(table: &mut Table, witness: &Witness) {
 }
 
 fn share(share: &Share) -> String {
-    let Share { counted, killed, score, interval, .. } = share;
+    let Share { mutants, killed, score, interval } = share;
     let interval = interval.map_or(String::new(), |[lo, hi]| format!(", {} to {} (95 %)", percent(lo), percent(hi)));
-    format!("{}: {killed} of {counted}{interval}", score.map_or("none counts".to_owned(), percent))
+    format!("{}: {killed} of {mutants}{interval}", score.map_or("no mutant".to_owned(), percent))
 }
 
-fn score(table: &mut Table, report: &Report, score: &Score) {
+fn score(table: &mut Table, screen: &Screen, score: &Score) {
     table.row("mutation score", &share(&score.all));
-    let equivalent = score.all.mutants - score.all.counted;
-    let found = format!("{equivalent} of {}, no test of the suites or of the search ({} each) notices them", score.all.mutants, report.search);
-    table.row("  equivalent", &format!("{found}, as far as known"));
+    let Screen { tests, defects, noticed, .. } = screen;
+    table.row(
+        "  mutants",
+        &format!("with {noticed} of {defects} defects, which {} notice", plural(*tests, "random test")),
+    );
     for (conditions, of) in score.by_conditions.iter().enumerate() {
-        let label = if conditions == 0 { "  always on".to_owned() } else { format!("  {} on", plural(conditions, "condition")) };
+        let label = if conditions == 0 {
+            "  always on".to_owned()
+        } else {
+            format!("  on if {}", plural(conditions, "condition"))
+        };
         table.row(&label, &share(of));
     }
-    for kind in score.kinds.iter().filter(|kind| kind.all.counted > 0) {
+    for kind in &score.kinds {
         let noticed = match kind.noticed_from {
-            Some(size) => format!("; noticed from {} {} on if always on", digits(size), kind.unit),
+            Some(size) => format!("; from {} {} on if always on", digits(size), kind.unit),
             None => String::new(),
         };
-        table.row(&format!("  {}", kind.kind), &format!("{} of {}{}", kind.all.killed, kind.all.counted, noticed.trim_end()));
+        table.row(
+            &format!("  {}", kind.kind),
+            &format!("{} of {}{}", kind.all.killed, kind.all.mutants, noticed.trim_end()),
+        );
     }
 }
 

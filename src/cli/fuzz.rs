@@ -1,8 +1,8 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Status, Verbosity, audit, bench, blame, describe, doctor, export, likelihood, list, map, monitor, perceive,
-    record, replay, roads, run, shrink, trace,
+    Failure, Status, Verbosity, audit, bench, blame, describe, doctor, export, likelihood, list, map, monitor,
+    perceive, record, replay, roads, run, shrink, trace,
 };
 use clap::{Parser, Subcommand};
 

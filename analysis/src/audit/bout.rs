@@ -1,20 +1,14 @@
 //! Mutants on trial: which of them a suite notices.
 //!
 //! A suite *kills* a mutant if the mutant violates a requirement in a test of the suite that the driver of the study keeps in the same
-//! test. A mutant *counts* if some suite kills it, or if a search finds such a test. All other mutants are equivalent to the driver as
-//! far as known. The mutation score of a suite is the share of counted mutants that it kills.
+//! test. The mutation score of a suite is the share of mutants that it kills.
 
 use super::Suite;
 use super::runs::{Runs, Seats, gives_away, mutated};
-use crate::statistics::random::SplitMix64;
 use paracosm_campaign::{Error, Study, Trial, Worker};
-use paracosm_generators::{Request, Strategy};
-use paracosm_mutants::{Condition, Mutant};
-use paracosm_space::{Domain, Point, Space, Values};
+use paracosm_mutants::Mutant;
+use paracosm_space::Values;
 use serde::{Deserialize, Serialize};
-
-/// The number of points that are drawn for each test of a search: others break a constraint.
-const DRAWN: usize = 8;
 
 /// A mutant with what the suites noticed of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,12 +17,8 @@ pub struct Tried {
     pub mutant: Mutant,
     /// The kill by each suite, in the order of the suites; `None` if the suite does not notice the mutant.
     pub kills: Vec<Option<Kill>>,
-    /// The number of tests of the search, which ran if no suite noticed the mutant.
-    #[serde(skip_serializing_if = "is_zero", default)]
-    pub searched: usize,
-    /// The test that the search found; `None` if a suite noticed the mutant or the search found nothing.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub found: Option<Found>,
+    /// The test of the screen that notices the mutant.
+    pub noticed: Found,
 }
 
 /// The first test of a suite that notices a mutant. The tests run from the test with the least robustness of the study's driver on.
@@ -40,7 +30,7 @@ pub struct Kill {
     pub requirement: String,
 }
 
-/// A test outside of the suites that notices a mutant.
+/// A test that notices a mutant, and that may be in no suite.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// The values of the test.
@@ -49,24 +39,20 @@ pub struct Found {
     pub requirement: String,
 }
 
-fn is_zero(count: &usize) -> bool {
-    *count == 0
-}
-
-impl Tried {
-    /// Returns `true` if some test notices the mutant, so that it counts.
-    pub fn counts(&self) -> bool {
-        self.found.is_some() || self.kills.iter().any(Option::is_some)
-    }
+/// A mutant that is to be tried, with a test that notices it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Noticed {
+    /// The mutant.
+    pub mutant: Mutant,
+    /// The test.
+    pub test: Found,
 }
 
 /// The suites and the mutants of an audit.
 pub(super) struct Bout<'a> {
     pub study: &'a Study,
     pub suites: &'a [Suite],
-    pub mutants: &'a [Mutant],
-    /// The greatest number of tests of the search for each mutant.
-    pub search: usize,
+    pub mutants: &'a [Noticed],
     pub runs: &'a Runs,
 }
 
@@ -87,13 +73,19 @@ impl Known {
         Ok(Self { tests, given, order })
     }
 
-    /// Returns the first test that notices a mutant.
-    pub fn kill(&self, mutant: &Mutant, worker: &mut Worker) -> Option<Kill> {
-        self.order.iter().copied().filter(|test| mutant.is_active(&self.tests[*test])).find_map(|test| {
+    /// Iterates over the tests that notice a mutant. `worker` has the driver with its defect.
+    pub fn kills(&self, mutant: &Mutant, worker: &mut Worker) -> impl Iterator<Item = Kill> {
+        let active = self.order.iter().copied().filter(|test| mutant.is_active(&self.tests[*test]));
+        active.filter_map(|test| {
             let trial = worker.run(test, &self.tests[test]).0;
             let requirement = gives_away(&self.given[test], &trial)?.to_owned();
             Some(Kill { test, requirement })
         })
+    }
+
+    /// Returns the values of a test of the suite.
+    pub fn test(&self, index: usize) -> &Values {
+        &self.tests[index]
     }
 }
 
@@ -114,83 +106,15 @@ impl Bout<'_> {
         let known = self.suites.iter().map(|suite| Known::of(suite, self.study, self.runs));
         let known = known.collect::<Result<Vec<_>, Error>>()?;
         let seats = Seats::of(self.study)?;
-        let try_one = |given: &mut Worker, index: usize| Some(self.tried(&self.mutants[index], &known, &seats, given));
-        self.runs.each_into(tried..self.mutants.len(), || seats.worker(self.study), try_one, |one| sink(one?))
+        let try_one = |(): &mut (), index: usize| Some(self.tried(&self.mutants[index], &known, &seats));
+        self.runs.each_into(tried..self.mutants.len(), || (), try_one, |one| sink(one?))
     }
 
-    fn tried(&self, mutant: &Mutant, known: &[Known], seats: &Seats, given: &mut Worker) -> Result<Tried, Error> {
+    fn tried(&self, noticed: &Noticed, known: &[Known], seats: &Seats) -> Result<Tried, Error> {
+        let Noticed { mutant, test } = noticed;
         let study = mutated(self.study, mutant.defect)?;
         let mut worker = seats.worker(&study);
-        let kills: Vec<_> = known.iter().map(|suite| suite.kill(mutant, &mut worker)).collect();
-        let mut tried = Tried { mutant: mutant.clone(), kills, searched: 0, found: None };
-        if tried.counts() {
-            return Ok(tried);
-        }
-        for test in region(self.study.space(), mutant, self.search)? {
-            let trial = worker.run(tried.searched, &test).0;
-            tried.searched += 1;
-            if trial.violated().next().is_none() {
-                continue;
-            }
-            let given = given.run(0, &test).0;
-            if let Some(requirement) = gives_away(&given, &trial) {
-                tried.found = Some(Found { test, requirement: requirement.to_owned() });
-                break;
-            }
-        }
-        Ok(tried)
-    }
-}
-
-/// Returns valid tests for which a mutant is on: Halton points over the continuous parameters, and random levels.
-fn region(space: &Space, mutant: &Mutant, most: usize) -> Result<Vec<Values>, Error> {
-    let on = |name: &str| mutant.when.iter().find(|condition| condition.parameter() == name);
-    let axes: Vec<_> = space.continuous().collect();
-    let drawn = most.saturating_mul(DRAWN);
-    let places: Vec<Vec<f64>> = match axes.len() {
-        0 => vec![Vec::new(); drawn],
-        dims => {
-            let cube = Space::unit_cube(dims);
-            let points = Strategy::HALTON.build(&Request::new(&cube, drawn.max(1)))?.ask(drawn);
-            points.into_iter().map(|point| point.continuous).collect()
-        }
-    };
-    let mut random = SplitMix64(0);
-    let mut tests = Vec::new();
-    for place in places {
-        let discrete = space.discrete().map(|choice| {
-            let levels = choice.parameter.levels().expect("it is discrete");
-            match on(&choice.parameter.name) {
-                Some(Condition::Is { value, .. }) => levels.iter().position(|level| level == value).unwrap_or(0),
-                _ => ((random.unit() * levels.len() as f64) as usize).min(levels.len() - 1),
-            }
-        });
-        let discrete = discrete.collect();
-        let continuous = axes.iter().zip(&place).map(|(axis, u)| match on(&axis.parameter.name) {
-            Some(Condition::Within { lo, hi, .. } | Condition::Between { lo, hi, .. }) => {
-                let [low, high] = [*lo, *hi].map(|value| coordinate(&axis.parameter.domain, value));
-                low + u * (high - low)
-            }
-            _ => *u,
-        });
-        let point = Point { continuous: continuous.collect(), discrete };
-        if space.allows(&point) {
-            let test = space.decode(&point);
-            if mutant.is_active(&test) {
-                tests.push(test);
-            }
-        }
-        if tests.len() == most {
-            break;
-        }
-    }
-    Ok(tests)
-}
-
-/// Returns the coordinate of a value of an interval.
-fn coordinate(domain: &Domain, value: f64) -> f64 {
-    match domain {
-        Domain::Interval { lo, hi } => ((value - lo) / (hi - lo)).clamp(0.0, 1.0),
-        Domain::Choice(_) => value,
+        let kills = known.iter().map(|suite| suite.kills(mutant, &mut worker).next()).collect();
+        Ok(Tried { mutant: mutant.clone(), kills, noticed: test.clone() })
     }
 }

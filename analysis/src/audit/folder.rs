@@ -63,8 +63,7 @@ pub struct AuditFolder {
 struct Settings<'a> {
     study: Value,
     suites: Vec<SuiteEntry>,
-    mutants: &'a [Mutant],
-    search: usize,
+    mutants: Vec<&'a Mutant>,
 }
 
 #[derive(Serialize)]
@@ -100,7 +99,8 @@ impl AuditFolder {
             }
             Some(there) => {
                 let wrong = |error: serde_json::Error| AuditFolderFlaw::Settings { message: error.to_string() };
-                let there: Value = serde_json::from_str(&there).map_err(|error| Error::in_file(&file, None, wrong(error)))?;
+                let there: Value =
+                    serde_json::from_str(&there).map_err(|error| Error::in_file(&file, None, wrong(error)))?;
                 if let Some(key) = differing_key(&there, &settings) {
                     let (path, key) = (path.to_owned(), key.to_owned());
                     return Err(AuditFolderFlaw::Other { path, key }.into());
@@ -135,7 +135,6 @@ impl AuditFolder {
         line.push('\n');
         self.tried.write_all(line.as_bytes()).map_err(Error::io("write", &self.path.join(TRIED)))
     }
-
 }
 
 impl Audit<'_> {
@@ -143,18 +142,22 @@ impl Audit<'_> {
         let study = StudyFile::new(self.study, &Learned::new(), None);
         let entry = |suite: &Suite| {
             let values = serde_json::to_vec(&suite.values(self.study)).expect("tests are always JSON");
-            SuiteEntry { name: suite.name.clone(), tests: suite.points.len(), hash: format!("{:032x}", xxh3_128(&values)) }
+            SuiteEntry {
+                name: suite.name.clone(),
+                tests: suite.points.len(),
+                hash: format!("{:032x}", xxh3_128(&values)),
+            }
         };
         Settings {
             study: study.identity(),
             suites: self.suites.iter().map(entry).collect(),
-            mutants: self.tried_mutants(),
-            search: self.search,
+            mutants: self.tried_mutants().iter().map(|noticed| &noticed.mutant).collect(),
         }
     }
 
     /// Returns `true` if a line is about the mutant at this place, and has an entry for each suite.
     fn tries(&self, index: usize, one: &Tried) -> bool {
-        self.tried_mutants().get(index) == Some(&one.mutant) && one.kills.len() == self.suites.len()
+        self.tried_mutants().get(index).is_some_and(|noticed| noticed.mutant == one.mutant)
+            && one.kills.len() == self.suites.len()
     }
 }

@@ -126,7 +126,10 @@ impl Holes {
 /// Returns the sides of a box over the continuous parameters, as values.
 pub(super) fn sides(axes: &[Coordinate], found: &LargestEmptyBox) -> Record<[f64; 2]> {
     let ends = found.lower.iter().zip(&found.upper);
-    axes.iter().zip(ends).map(|(axis, (&lo, &hi))| (axis.name(), [lo, hi].map(|u| axis.parameter.value_at(u)))).collect()
+    axes.iter()
+        .zip(ends)
+        .map(|(axis, (&lo, &hi))| (axis.name(), [lo, hi].map(|u| axis.parameter.value_at(u))))
+        .collect()
 }
 
 /// Iterates over all combinations of levels. The last parameter changes fastest.

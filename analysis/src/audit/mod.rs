@@ -14,7 +14,7 @@ mod screen;
 mod suite;
 mod witness;
 
-pub use bout::{Found, Kill, Tried};
+pub use bout::{Found, Kill, Noticed, Tried};
 pub use folder::{AuditFolder, AuditFolderFlaw};
 pub use holes::{Holes, RowHole};
 pub use runs::Runs;
@@ -27,7 +27,7 @@ use crate::Coverage;
 use bout::Bout;
 use paracosm_campaign::{Error, JsonArtefact, Reason, Study, TestSet};
 use paracosm_coverage::{Deadline, Measure};
-use paracosm_mutants::{Mutant, NO_BRAKES};
+use paracosm_mutants::NO_BRAKES;
 use serde::Serialize;
 use std::time::Duration;
 use thiserror::Error;
@@ -36,7 +36,9 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum AuditFlaw {
     /// The study tests a system, in which no defect can be made.
-    #[error("the study tests the system `{command}`: an audit makes defects in a driver, so it needs a scenario with a driver")]
+    #[error(
+        "the study tests the system `{command}`: an audit makes defects in a driver, so it needs a scenario with a driver"
+    )]
     System {
         /// The command that starts the system.
         command: String,
@@ -54,7 +56,9 @@ pub enum AuditFlaw {
         driver: String,
     },
     /// A parameter varies while a test runs.
-    #[error("parameter `{name}` is a signal, which varies while a test runs: an audit needs parameters with one value in each test")]
+    #[error(
+        "parameter `{name}` is a signal, which varies while a test runs: an audit needs parameters with one value in each test"
+    )]
     Signal {
         /// The name of the parameter.
         name: String,
@@ -69,7 +73,6 @@ pub struct Audit<'a> {
     study: &'a Study,
     suites: Vec<Suite>,
     screen: Option<Screen>,
-    search: usize,
     limit: Option<Duration>,
     runs: Runs,
 }
@@ -100,10 +103,6 @@ pub struct Report {
     pub title: String,
     /// The screen of the defects; `None` without mutants.
     pub screen: Option<Screen>,
-    /// The greatest number of tests of the search for a test that notices a mutant which no suite notices.
-    pub search: usize,
-    /// The number of mutants that neither a suite nor the search noticed. They are equivalent to the driver as far as known.
-    pub equivalent_as_far_as_known: usize,
     /// The suites, in the order in which they were named.
     pub suites: Vec<Audited>,
 }
@@ -122,12 +121,12 @@ impl<'a> Audit<'a> {
         if let Some(signal) = study.space().parameters().iter().find(|parameter| parameter.signal.is_some()) {
             return Err(AuditFlaw::Signal { name: signal.name.clone() });
         }
-        Ok(Self { study, suites, screen: None, search: 0, limit: None, runs: Runs::default() })
+        Ok(Self { study, suites, screen: None, limit: None, runs: Runs::default() })
     }
 
-    /// Puts the mutants of a screen on trial. Those that no suite notices get a search of so many tests.
-    pub fn mutants(self, screen: Screen, search: usize) -> Self {
-        Self { screen: Some(screen).filter(|screen| !screen.mutants.is_empty()), search, ..self }
+    /// Puts the mutants of a screen on trial.
+    pub fn mutants(self, screen: Screen) -> Self {
+        Self { screen: Some(screen), ..self }
     }
 
     /// Limits the time for the measures of each suite. Without a limit, they are exact.
@@ -151,9 +150,9 @@ impl<'a> Audit<'a> {
         mut sink: impl FnMut(&Tried) -> Result<(), Error>,
     ) -> Result<Report, Error> {
         let mut suites = self.suites.iter().map(|suite| self.measured(suite)).collect::<Result<Vec<_>, Error>>()?;
-        let Self { study, suites: all, search, runs, .. } = self;
+        let Self { study, suites: all, runs, .. } = self;
         let mutants = self.tried_mutants();
-        let bout = Bout { study, suites: all, mutants, search: *search, runs };
+        let bout = Bout { study, suites: all, mutants, runs };
         bout.run(tried.len(), |one| {
             sink(&one)?;
             tried.push(one);
@@ -164,16 +163,10 @@ impl<'a> Audit<'a> {
                 suite.mutants = Some(Score::of(tried, position));
             }
         }
-        Ok(Report {
-            title: study.title(),
-            screen: self.screen.clone(),
-            search: *search,
-            equivalent_as_far_as_known: tried.iter().filter(|one| !one.counts()).count(),
-            suites,
-        })
+        Ok(Report { title: study.title(), screen: self.screen.clone(), suites })
     }
 
-    fn tried_mutants(&self) -> &[Mutant] {
+    fn tried_mutants(&self) -> &[Noticed] {
         self.screen.as_ref().map_or(&[], |screen| &screen.mutants)
     }
 

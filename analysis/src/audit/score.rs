@@ -10,7 +10,7 @@ const CONFIDENCE: f64 = 0.95;
 /// The mutation score of a suite.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Score {
-    /// The mutants that the suite kills, of those that count.
+    /// The score for all mutants.
     #[serde(flatten)]
     pub all: Share,
     /// The scores of mutants that are always on, that one condition turns on, that two conditions turn on, and so on.
@@ -24,11 +24,9 @@ pub struct Score {
 pub struct Share {
     /// The number of mutants.
     pub mutants: usize,
-    /// The number of mutants that some test notices.
-    pub counted: usize,
     /// The number of mutants that the suite kills.
     pub killed: usize,
-    /// The mutation score: the share of counted mutants that the suite kills; `None` if no mutant counts.
+    /// The mutation score: the share of mutants that the suite kills; `None` without mutants.
     pub score: Option<f64>,
     /// The interval of the score with 95 % confidence, if the mutants are a sample of many (Wilson).
     pub interval: Option<[f64; 2]>,
@@ -44,8 +42,8 @@ pub struct KindScore {
     /// The score for the kind.
     #[serde(flatten)]
     pub all: Share,
-    /// The least size from which on the suite kills all counted mutants of the kind that are always on; `None` if it does not kill
-    /// the grossest one, or none counts.
+    /// The size in the list of sizes, from slight to gross, from which on the suite kills all mutants of the kind that are always
+    /// on; `None` if it does not kill the grossest of them, or there is none.
     pub noticed_from: Option<f64>,
     /// The scores of the sizes, from slight to gross.
     pub sizes: Vec<SizeScore>,
@@ -63,14 +61,13 @@ pub struct SizeScore {
 
 impl Share {
     fn of<'t>(tried: impl Iterator<Item = &'t Tried>, suite: usize) -> Self {
-        let (mut mutants, mut counted, mut killed) = (0, 0, 0);
+        let (mut mutants, mut killed) = (0, 0);
         for one in tried {
             mutants += 1;
-            counted += usize::from(one.counts());
             killed += usize::from(one.kills[suite].is_some());
         }
-        let score = (counted > 0).then(|| killed as f64 / counted as f64);
-        Self { mutants, counted, killed, score, interval: score.map(|_| wilson(killed, counted, CONFIDENCE)) }
+        let score = (mutants > 0).then(|| killed as f64 / mutants as f64);
+        Self { mutants, killed, score, interval: score.map(|_| wilson(killed, mutants, CONFIDENCE)) }
     }
 }
 
@@ -98,7 +95,7 @@ impl KindScore {
         }
         let of_size = |size: f64| of_kind.iter().copied().filter(move |one| one.mutant.defect.size() == size);
         let sizes = kind.sizes.iter().map(|&size| SizeScore { size, all: Share::of(of_size(size), suite) });
-        let always = |size| of_size(size).filter(|one| one.mutant.when.is_empty() && one.counts());
+        let always = |size| of_size(size).filter(|one| one.mutant.when.is_empty());
         let mut noticed_from = None;
         for &size in kind.sizes.iter().rev() {
             if always(size).any(|one| one.kills[suite].is_none()) {

@@ -1,11 +1,13 @@
-//! The screen of defects: which of them can matter in a scenario at all.
+//! The screen of defects: which mutants can be told from the driver at all.
 //!
-//! Many defects change no verdict of a given driver: a driver that never looks at bicycles does not miss them. Mutants with such a
-//! defect say nothing about a suite. So a defect is first put on trial always on, in random tests of the whole space. Only defects that
-//! some of these tests notice make mutants. No suite takes part, so no suite is favoured.
+//! Many defects change no verdict of a given driver: a driver that never looks at bicycles does not miss them. Such mutants are
+//! equivalent to the driver as far as known, and say nothing about a suite. So each defect is first on trial always on, in random tests
+//! of the whole space. A mutant belongs to the set only if one of these tests notices it: its defect is noticed in the test, and the
+//! test fulfils its conditions. No suite takes part, so no suite is favoured. The screen leaves out defects that fail only in places
+//! that no random test met, so mutation scores are a little too high.
 
 use super::Suite;
-use super::bout::Known;
+use super::bout::{Found, Kill, Known, Noticed};
 use super::runs::{Runs, Seats, check, mutated};
 use paracosm_campaign::{Error, Sampling, Study};
 use paracosm_generators::Strategy;
@@ -17,7 +19,7 @@ const TESTS: usize = 128;
 /// The seed of these tests, which no strategy has by default.
 const SEED: u64 = 0x5c7e_e201;
 
-/// A set of mutants whose defects can matter in a study.
+/// A set of mutants, each of which some random test notices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Screen {
     /// The number of random tests in which each defect was on.
@@ -25,40 +27,70 @@ pub struct Screen {
     /// The number of defects, counted for each kind and size.
     pub defects: usize,
     /// The number of defects that some test notices.
-    pub kept: usize,
-    /// The mutants, which have only these defects.
+    pub noticed: usize,
+    /// The number of mutants with these defects that no test notices. They are equivalent as far as known, and are left out.
+    pub equivalent_as_far_as_known: usize,
+    /// The mutants.
     #[serde(skip)]
-    pub mutants: Vec<Mutant>,
+    pub mutants: Vec<Noticed>,
 }
 
 impl Screen {
-    /// Makes a fixed set of `count` mutants for a study. The same study and count give the same set, and the set for a smaller count
-    /// is its beginning.
+    /// Makes a fixed set of `count` mutants for a study, or fewer if there are not so many. The same study and count give the same
+    /// set, and the set for a smaller count is its beginning.
     ///
     /// # Errors
     /// The study cannot be audited, or the work was stopped.
     pub fn of(study: &Study, count: usize, runs: &Runs) -> Result<Self, Error> {
         check(study)?;
-        if count == 0 {
-            return Ok(Self { tests: 0, defects: 0, kept: 0, mutants: Vec::new() });
-        }
         let sampling = Sampling { strategy: Strategy::RANDOM, seed: Some(SEED), budget: TESTS, ..Sampling::default() };
         let points = study.sampled(sampling)?.generator(&[])?.ask(TESTS);
         let suite = Suite::new("the screen".to_owned(), points, study)?;
         let known = Known::of(&suite, study, runs)?;
         let seats = Seats::of(study)?;
         let defects: Vec<Defect> = ALL.iter().copied().flat_map(Defect::all_of).collect();
-        let matters = |(): &mut (), index: usize| {
+        let notice = |(): &mut (), index: usize| {
             let mutant = Mutant { defect: defects[index], when: Vec::new() };
-            let noticed = mutated(study, mutant.defect).map(|study| {
+            let kills = mutated(study, mutant.defect).map(|study| {
                 let mut worker = seats.worker(&study);
-                known.kill(&mutant, &mut worker).is_some()
+                known.kills(&mutant, &mut worker).collect::<Vec<Kill>>()
             });
-            Some(noticed)
+            Some(kills)
         };
-        let noticed = runs.each(defects.len(), || (), matters)?.into_iter().collect::<Result<Vec<bool>, Error>>()?;
-        let kept: Vec<&Defect> = defects.iter().zip(&noticed).filter(|(_, noticed)| **noticed).map(|(defect, _)| defect).collect();
-        let mutants = mutants_where(study.space(), count, 0, |defect| kept.contains(&&defect));
-        Ok(Self { tests: suite.points.len(), defects: defects.len(), kept: kept.len(), mutants })
+        let kills = runs.each(defects.len(), || (), notice)?.into_iter().collect::<Result<Vec<_>, Error>>()?;
+        let of = |defect: Defect| {
+            let place = defects.iter().position(|one| *one == defect).expect("it is one of the list");
+            &kills[place]
+        };
+        let noticed_in = |mutant: &Mutant| {
+            let kill = of(mutant.defect).iter().find(|kill| mutant.is_active(known.test(kill.test)))?;
+            Some(Found { test: known.test(kill.test).clone(), requirement: kill.requirement.clone() })
+        };
+        let mut screen = Self {
+            tests: suite.points.len(),
+            defects: defects.len(),
+            noticed: kills.iter().filter(|kills| !kills.is_empty()).count(),
+            equivalent_as_far_as_known: 0,
+            mutants: Vec::new(),
+        };
+        // A longer set begins with the shorter one.
+        let (mut asked, mut seen) = (count, 0);
+        while screen.mutants.len() < count {
+            let set = mutants_where(study.space(), asked, 0, |defect| !of(defect).is_empty());
+            for mutant in set.iter().skip(seen) {
+                if screen.mutants.len() == count {
+                    break;
+                }
+                match noticed_in(mutant) {
+                    Some(test) => screen.mutants.push(Noticed { mutant: mutant.clone(), test }),
+                    None => screen.equivalent_as_far_as_known += 1,
+                }
+            }
+            if set.len() < asked {
+                break;
+            }
+            (asked, seen) = (2 * asked, set.len());
+        }
+        Ok(screen)
     }
 }

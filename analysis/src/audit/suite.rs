@@ -52,7 +52,9 @@ pub enum SuiteFlaw {
         found: String,
     },
     /// The sizes of a grid cannot be read.
-    #[error("found `grid:{found}`, expected the number of values of each continuous parameter, at least 2, such as grid:5x4x2")]
+    #[error(
+        "found `grid:{found}`, expected the number of values of each continuous parameter, at least 2, such as grid:5x4x2"
+    )]
     Sizes {
         /// The text in place of the sizes.
         found: String,
@@ -74,7 +76,9 @@ pub enum SuiteFlaw {
         tests: u64,
     },
     /// The strategy needs the outcomes of tests.
-    #[error("the strategy `{strategy}` chooses tests by the outcomes of earlier tests, so its tests are no suite; audit the folder of a campaign")]
+    #[error(
+        "the strategy `{strategy}` chooses tests by the outcomes of earlier tests, so its tests are no suite; audit the folder of a campaign"
+    )]
     Adaptive {
         /// The name of the strategy.
         strategy: String,
@@ -210,10 +214,7 @@ fn cross(sizes: &[usize], levels: &[usize]) -> Result<Vec<Point>, SuiteFlaw> {
             (*place, index) = ((index % *count as u64) as usize, index / *count as u64);
         }
         let even = |(place, size): (&usize, &usize)| *place as f64 / (*size - 1) as f64;
-        Point {
-            continuous: places.iter().zip(sizes).map(even).collect(),
-            discrete: places[sizes.len()..].to_vec(),
-        }
+        Point { continuous: places.iter().zip(sizes).map(even).collect(), discrete: places[sizes.len()..].to_vec() }
     };
     Ok((0..tests).map(point).collect())
 }

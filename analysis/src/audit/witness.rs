@@ -123,7 +123,8 @@ impl Search<'_> {
         let cube = LargestEmptyBox { lower: vec![0.0; dims], upper: vec![1.0; dims] };
         let tests = self.tests_in(&hole.levels, &cube, TRIES_IN_ROW)?;
         let trials = self.runs.of(blind, &tests)?;
-        let bad: Vec<&Values> = tests.iter().zip(&trials).filter(|(_, t)| t.violated().next().is_some()).map(|(v, _)| v).collect();
+        let bad: Vec<&Values> =
+            tests.iter().zip(&trials).filter(|(_, t)| t.violated().next().is_some()).map(|(v, _)| v).collect();
         if bad.is_empty() {
             return Ok(None);
         }
@@ -219,7 +220,8 @@ impl Search<'_> {
         if let Some(signal) = space.parameters().iter().find(|parameter| parameter.signal.is_some()) {
             return Err(AuditFlaw::Signal { name: signal.name.clone() }.into());
         }
-        let between = sides.iter().map(|(name, [lo, hi])| Condition::Between { parameter: name.to_owned(), lo: *lo, hi: *hi });
+        let between =
+            sides.iter().map(|(name, [lo, hi])| Condition::Between { parameter: name.to_owned(), lo: *lo, hi: *hi });
         let is = row.iter().map(|(name, value)| Condition::Is { parameter: name.to_owned(), value: value.clone() });
         let mutant = Mutant { defect: self.defect.clone(), when: between.chain(is).collect() };
         let tests_inside = self.suite.points.iter().filter(|point| mutant.is_active(&space.decode(point))).count();
