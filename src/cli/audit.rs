@@ -27,7 +27,7 @@ An audit says what a suite of tests would have missed:
              given driver in every test of the suite, and fails in the box
   mutants    drivers with defects of many kinds and sizes, always on or on under conditions. A suite kills a mutant if
              a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
-             are fixed before: each is noticed in one of 128 random tests of the whole space
+             are fixed before: each is noticed in one of the random tests of --screen
 
 The audit writes audit.json and mutants.jsonl, which has a line for each mutant, to the folder --out.";
 
@@ -46,6 +46,9 @@ pub(super) struct Options {
     /// The number of mutants
     #[arg(long, value_name = "N", default_value_t = 200)]
     mutants: usize,
+    /// The number of random tests of the screen: each mutant is noticed in one of them
+    #[arg(long, value_name = "N", default_value_t = Screen::TESTS)]
+    screen: usize,
     /// Limit the seconds for the coverage of each suite; holes are brackets if the time is too short [default: no limit]
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
@@ -74,7 +77,7 @@ impl Options {
         }
         on_interrupt(runs.stop.clone());
         let audit = Audit::of(&study, suites).map_err(Error::from)?;
-        let screen = Screen::of(&study, self.mutants, &runs)?;
+        let screen = Screen::of(&study, self.mutants, self.screen, &runs)?;
         let mut audit = audit.mutants(screen).runs(runs);
         if let Some(seconds) = self.time_limit {
             audit = audit.time_limit(Duration::from_secs_f64(seconds));

@@ -3,6 +3,7 @@
 mod adaptive;
 mod after_failure;
 mod appearances;
+mod audit;
 mod bad_input;
 mod bench;
 mod blame;

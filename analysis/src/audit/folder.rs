@@ -60,10 +60,12 @@ pub struct AuditFolder {
 
 /// What is audited.
 #[derive(Serialize)]
-struct Settings<'a> {
+struct Settings {
     study: Value,
     suites: Vec<SuiteEntry>,
-    mutants: Vec<&'a Mutant>,
+    mutants: usize,
+    /// The 128-bit XXH3 of the mutants, as JSON.
+    mutants_hash: String,
 }
 
 #[derive(Serialize)]
@@ -138,20 +140,19 @@ impl AuditFolder {
 }
 
 impl Audit<'_> {
-    fn settings(&self) -> Settings<'_> {
+    fn settings(&self) -> Settings {
         let study = StudyFile::new(self.study, &Learned::new(), None);
-        let entry = |suite: &Suite| {
-            let values = serde_json::to_vec(&suite.values(self.study)).expect("tests are always JSON");
-            SuiteEntry {
-                name: suite.name.clone(),
-                tests: suite.points.len(),
-                hash: format!("{:032x}", xxh3_128(&values)),
-            }
+        let entry = |suite: &Suite| SuiteEntry {
+            name: suite.name.clone(),
+            tests: suite.points.len(),
+            hash: hash(&suite.values(self.study)),
         };
+        let mutants: Vec<&Mutant> = self.tried_mutants().iter().map(|noticed| &noticed.mutant).collect();
         Settings {
             study: study.identity(),
             suites: self.suites.iter().map(entry).collect(),
-            mutants: self.tried_mutants().iter().map(|noticed| &noticed.mutant).collect(),
+            mutants: mutants.len(),
+            mutants_hash: hash(&mutants),
         }
     }
 
@@ -160,4 +161,9 @@ impl Audit<'_> {
         self.tried_mutants().get(index).is_some_and(|noticed| noticed.mutant == one.mutant)
             && one.kills.len() == self.suites.len()
     }
+}
+
+/// Returns the 128-bit XXH3 of a value as JSON, as 32 hexadecimal digits.
+fn hash(value: &impl Serialize) -> String {
+    format!("{:032x}", xxh3_128(&serde_json::to_vec(value).expect("it is always JSON")))
 }

@@ -183,3 +183,6 @@ impl<'a> Audit<'a> {
         Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None })
     }
 }
+
+#[cfg(test)]
+mod tests;

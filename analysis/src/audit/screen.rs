@@ -14,8 +14,6 @@ use paracosm_generators::Strategy;
 use paracosm_mutants::{ALL, Defect, Mutant, mutants_where};
 use serde::Serialize;
 
-/// The number of random tests of a screen.
-const TESTS: usize = 128;
 /// The seed of these tests, which no strategy has by default.
 const SEED: u64 = 0x5c7e_e201;
 
@@ -36,15 +34,18 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Makes a fixed set of `count` mutants for a study, or fewer if there are not so many. The same study and count give the same
-    /// set, and the set for a smaller count is its beginning.
+    /// The usual number of random tests.
+    pub const TESTS: usize = 128;
+
+    /// Makes a fixed set of `count` mutants for a study, or fewer if there are not so many, from `tests` random tests. The same study
+    /// and numbers give the same set, and the set for a smaller count is its beginning.
     ///
     /// # Errors
     /// The study cannot be audited, or the work was stopped.
-    pub fn of(study: &Study, count: usize, runs: &Runs) -> Result<Self, Error> {
+    pub fn of(study: &Study, count: usize, tests: usize, runs: &Runs) -> Result<Self, Error> {
         check(study)?;
-        let sampling = Sampling { strategy: Strategy::RANDOM, seed: Some(SEED), budget: TESTS, ..Sampling::default() };
-        let points = study.sampled(sampling)?.generator(&[])?.ask(TESTS);
+        let sampling = Sampling { strategy: Strategy::RANDOM, seed: Some(SEED), budget: tests, ..Sampling::default() };
+        let points = study.sampled(sampling)?.generator(&[])?.ask(tests);
         let suite = Suite::new("the screen".to_owned(), points, study)?;
         let known = Known::of(&suite, study, runs)?;
         let seats = Seats::of(study)?;

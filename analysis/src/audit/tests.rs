@@ -1,0 +1,141 @@
+//! Audits of small suites of the catalogue's scenarios.
+
+use super::runs::{gives_away, mutated};
+use super::*;
+use paracosm_campaign::Catalogue;
+use paracosm_space::{Domain, Values};
+use std::num::NonZeroUsize;
+
+fn study(scenario: &str, driver: &str, opened: &[&str]) -> Study {
+    let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+    let study = Study::of(catalogue.find(scenario).unwrap()).driver(driver);
+    opened.iter().fold(study, |study, name| study.open(name)).build().unwrap()
+}
+
+fn suite(text: &str, study: &Study) -> Suite {
+    Suite::of(&text.parse().unwrap(), study).unwrap()
+}
+
+fn runs(jobs: usize) -> Runs {
+    Runs { jobs: NonZeroUsize::new(jobs).unwrap(), ..Runs::default() }
+}
+
+fn report(study: &Study, suites: &[&str], mutants: usize, jobs: usize) -> Report {
+    let suites = suites.iter().map(|text| suite(text, study)).collect();
+    let screen = Screen::of(study, mutants, 16, &runs(jobs)).unwrap();
+    Audit::of(study, suites).unwrap().mutants(screen).runs(runs(jobs)).run(&mut Vec::new(), |_| Ok(())).unwrap()
+}
+
+#[test]
+fn the_hole_of_a_single_row_is_the_dispersion() {
+    let study = study("pedestrian-crossing", "aeb", &[]);
+    let audited = report(&study, &["halton:40"], 0, 1).suites.remove(0);
+    assert_eq!(audited.coverage.continuous.unwrap().bracket(Measure::DISPERSION), Some(audited.holes.largest()));
+    assert_eq!(audited.holes.rows.len(), 1);
+    assert!(audited.mutants.is_none_or(|score| score.all.mutants == 0));
+}
+
+#[test]
+fn each_row_of_discrete_values_has_a_hole_and_an_empty_row_is_a_hole_as_a_whole() {
+    let study = study("cut-in", "fsm", &["vehicle"]);
+    let space = study.space();
+    let points = suite("halton:60", &study).points.into_iter().filter(|point| point.discrete == [0]).collect();
+    let suite = Suite::new("one row".to_owned(), points, &study).unwrap();
+    let holes = Holes::of(&suite, &study, Deadline::never()).unwrap();
+    assert_eq!(holes.rows.len(), space.levels()[0]);
+    let (empty, tested): (Vec<_>, Vec<_>) = holes.rows.iter().partition(|hole| hole.tests == 0);
+    assert!(empty.iter().all(|hole| hole.volume.upper >= 1.0), "{empty:?}");
+    assert!(tested.len() == 1 && tested[0].volume.upper < 0.5, "{tested:?}");
+}
+
+#[test]
+fn a_witness_fails_in_a_box_that_no_test_has_entered() {
+    for (scenario, driver) in [("pedestrian-crossing", "planner"), ("cut-in", "fsm"), ("cut-out", "rss")] {
+        let study = study(scenario, driver, &[]);
+        let suite = suite("halton:40", &study);
+        let report = Audit::of(&study, vec![suite.clone()]).unwrap().run(&mut Vec::new(), |_| Ok(())).unwrap();
+        let witness = report.suites[0].witness.as_ref().unwrap_or_else(|| panic!("{scenario} has no witness"));
+        assert_eq!(witness.tests_inside, 0);
+        let active = |test: &Values| witness.mutant.is_active(test);
+        assert!(!suite.values(&study).iter().any(active) && active(&witness.test));
+        let blind = mutated(&study, witness.mutant.defect).unwrap();
+        let test = std::slice::from_ref(&witness.test);
+        let [given, trial] = [&study, &blind].map(|study| runs(1).of(study, test).unwrap().remove(0));
+        assert_eq!(gives_away(&given, &trial), Some(witness.requirement.as_str()));
+        assert!(witness.failing >= 1 && witness.failing <= witness.tried);
+        let [lower, upper] = witness.probability_interval;
+        assert!(lower <= witness.volume && witness.volume <= upper, "uniform distributions: {witness:?}");
+    }
+}
+
+#[test]
+fn each_mutant_of_a_screen_is_noticed_and_a_smaller_set_is_the_beginning() {
+    let study = study("pedestrian-crossing", "aeb", &[]);
+    let screen = Screen::of(&study, 60, 16, &runs(2)).unwrap();
+    assert_eq!(screen.mutants.len(), 60);
+    assert_eq!(Screen::of(&study, 25, 16, &runs(1)).unwrap().mutants, screen.mutants[..25]);
+    for noticed in &screen.mutants {
+        let test = std::slice::from_ref(&noticed.test.test);
+        assert!(noticed.mutant.is_active(&test[0]));
+        let with = mutated(&study, noticed.mutant.defect).unwrap();
+        let [given, trial] = [&study, &with].map(|study| runs(1).of(study, test).unwrap().remove(0));
+        assert_eq!(gives_away(&given, &trial), Some(noticed.test.requirement.as_str()), "{}", noticed.mutant);
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_jobs_or_on_an_interruption() {
+    let study = study("pedestrian-crossing", "aeb", &[]);
+    let whole = report(&study, &["halton:20", "grid:5x4"], 40, 1);
+    assert_eq!(whole, report(&study, &["halton:20", "grid:5x4"], 40, 2));
+    let suites = || ["halton:20", "grid:5x4"].map(|text| suite(text, &study)).to_vec();
+    let audit = || Audit::of(&study, suites()).unwrap().mutants(Screen::of(&study, 40, 16, &runs(2)).unwrap());
+    let mut tried = Vec::new();
+    let mut left = 17;
+    let cut = audit().run(&mut tried, |_| {
+        left -= 1;
+        if left == 0 { Err(Error::Interrupted) } else { Ok(()) }
+    });
+    assert!(cut.is_err() && tried.len() == 16);
+    assert_eq!(audit().run(&mut tried, |_| Ok(())).unwrap(), whole);
+}
+
+#[test]
+fn a_suite_that_meets_more_failures_of_the_screen_kills_more_mutants() {
+    let study = study("pedestrian-crossing", "aeb", &[]);
+    let report = report(&study, &["halton:4", "halton:200"], 100, 2);
+    let [few, many] = [0, 1].map(|at| report.suites[at].mutants.clone().unwrap());
+    assert!(few.all.killed < many.all.killed, "{few:?} {many:?}");
+    // Every test of the short suite is in the long one.
+    assert!(few.kinds.iter().zip(&many.kinds).all(|(few, many)| few.all.killed <= many.all.killed));
+    let sum = |score: &Score| score.kinds.iter().map(|kind| kind.all.killed).sum::<usize>();
+    assert_eq!((sum(&few), sum(&many)), (few.all.killed, many.all.killed));
+}
+
+#[test]
+fn the_listed_values_of_a_scenario_are_a_suite_of_the_open_intervals() {
+    let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+    let open = |over: Option<Vec<f64>>| {
+        let study = Study::of(catalogue.find("pedestrian-crossing").unwrap());
+        let listed = |values: Vec<f64>| Domain::Choice(values.into_iter().map(Into::into).collect());
+        let study = match over {
+            Some(values) => study.open_over("speed", listed(values)).open_over("distance", listed(vec![20.0, 40.0])),
+            None => study,
+        };
+        study.build().unwrap()
+    };
+    let (study, listed) = (open(None), open(Some(vec![1.0, 2.0, 5.0])));
+    let suite = Suite::stated(&listed, &study).unwrap();
+    assert_eq!(suite.points.len(), 6);
+    assert_eq!(suite.values(&study)[5].get("speed").and_then(paracosm_space::Value::number), Some(5.0));
+    assert!(Suite::stated(&study, &study).unwrap_err().to_string().contains("name a suite"));
+}
+
+#[test]
+fn what_has_no_driver_in_this_process_is_refused() {
+    let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+    let program = catalogue.find("pedestrian-crossing").unwrap();
+    let external = Study::of(program.clone()).driver("grpc://localhost:1").build().unwrap();
+    let flaw = Audit::of(&external, Vec::new()).unwrap_err();
+    assert!(matches!(flaw, AuditFlaw::External { .. }), "{flaw}");
+}

@@ -1,0 +1,73 @@
+//! `paracosm-fuzz audit`: a suite of tests on trial.
+
+use crate::common::{fuzz, refused, stdout, succeeds};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const FILES: [&str; 3] = ["audit.json", "audit-settings.json", "mutants.jsonl"];
+
+fn audit(dir: &Path, out: &str, more: &[&str]) -> Value {
+    let given = ["audit", "--tests", "halton:20", "--tests", "grid:5x4", "--mutants", "30", "--screen", "16", "-q", "--out", out];
+    let printed = stdout(&succeeds(fuzz(dir, &[&given, more].concat())));
+    serde_json::from_str(&printed).unwrap()
+}
+
+fn contents(dir: &Path, out: &str) -> Vec<Vec<u8>> {
+    FILES.iter().map(|file| fs::read(dir.join(out).join(file)).unwrap()).collect()
+}
+
+#[test]
+fn an_audit_is_the_same_with_any_number_of_jobs_and_after_a_cut() {
+    let dir = tempfile::tempdir().unwrap();
+    let report = audit(dir.path(), "one", &["--jobs", "1"]);
+    audit(dir.path(), "two", &["--jobs", "2"]);
+    let whole = contents(dir.path(), "one");
+    assert_eq!(whole, contents(dir.path(), "two"));
+    assert_eq!(report, serde_json::from_slice::<Value>(&whole[0]).unwrap());
+    // A kill while a line was written.
+    let tried = dir.path().join("two/mutants.jsonl");
+    let text = fs::read_to_string(&tried).unwrap();
+    for cut in [text.len() / 2, 1, 0] {
+        fs::write(&tried, &text[..cut]).unwrap();
+        fs::remove_file(dir.path().join("two/audit.json")).unwrap();
+        audit(dir.path(), "two", &["--resume"]);
+        assert_eq!(whole, contents(dir.path(), "two"), "cut at {cut}");
+    }
+}
+
+#[test]
+fn an_audit_shows_holes_a_witness_and_scores() {
+    let dir = tempfile::tempdir().unwrap();
+    let report = audit(dir.path(), "out", &["--driver", "planner"]);
+    for suite in report["suites"].as_array().unwrap() {
+        assert_eq!(suite["tests"], 20);
+        assert_eq!(suite["witness"]["tests_inside"], 0);
+        assert!(suite["witness"]["failing"].as_u64().unwrap() > 0);
+        assert_eq!(suite["mutants"]["mutants"], 30);
+    }
+    assert!(
+        report["suites"][0]["holes"]["rows"][0]["lower"].as_f64()
+            < report["suites"][1]["holes"]["rows"][0]["lower"].as_f64()
+    );
+    let given = ["audit", "--tests", "halton:20", "--mutants", "0", "--format", "table", "--out", "table"];
+    let table = stdout(&succeeds(fuzz(dir.path(), &given)));
+    assert!(table.contains("witness") && table.contains("fails in the box"), "{table}");
+}
+
+#[test]
+fn a_folder_with_another_audit_and_wrong_suites_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    audit(dir.path(), "out", &[]);
+    let run = |more: &[&str]| fuzz(dir.path(), &[&["audit", "--mutants", "5", "--screen", "8", "-q", "--out", "out"], more].concat());
+    refused(&run(&["--tests", "halton:20"]), &["out holds an audit already; --resume continues it"]);
+    refused(&run(&["--tests", "halton:20", "--resume"]), &["out holds another audit", "differs"]);
+    let new = |more: &[&str]| fuzz(dir.path(), &[&["audit", "-q", "--out", "new"], more].concat());
+    refused(&new(&[]), &["name a suite: --tests FILE.csv"]);
+    refused(&new(&["--tests", "halton:none"]), &["found `none` after `halton:`, expected a number of tests"]);
+    refused(&new(&["--tests", "grid:3"]), &["the grid has 1 size, expected 2", "speed, distance"]);
+    refused(&new(&["--tests", "absent.csv"]), &["absent.csv"]);
+    refused(&new(&["--tests", "cmaes:40"]), &["audit the folder of a campaign"]);
+    refused(&new(&["--tests", "halton:5", "--open", "friction:per-tick"]), &["`friction` is a signal"]);
+    assert!(!dir.path().join("new").exists());
+}
