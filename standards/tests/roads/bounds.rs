@@ -39,7 +39,7 @@ fn objects_and_signals_with_the_id_of_another_are_noted() {
     let notes: Vec<_> = map.notes.iter().map(in_file).collect();
     let says =
         |line: u32, name: &str| format!("x.xodr:{line}: the {name} has the id `7` of another {name}; both are read");
-    assert_eq!(notes, [says(6, "object") + "; and 1 object more", says(8, "signal")]);
+    assert_eq!(notes, [says(6, "object") + "; and 1 object more", says(9, "signal")]);
 }
 
 #[test]

@@ -166,7 +166,7 @@ fn siblings_of_the_storyboard_have_different_names() {
         (
             "</CatalogReference>\n        </ManeuverGroup>",
             "</CatalogReference>\n<CatalogReference catalogName=\"entities\" entryName=\"slow-down\"/></ManeuverGroup>",
-            "49: `entryName=\"slow-down\"` of <CatalogReference> is taken: the element in line 46 ",
+            "50: `entryName=\"slow-down\"` of <CatalogReference> is taken: the element in line 47 ",
         ),
         ("</Story>", "</Story><Story name=\"story\"/>", "`name=\"story\"` of <Story> is taken"),
     ] {
