@@ -1,6 +1,6 @@
 //! The elements of ASAM OpenDRIVE 1.4 to 1.8, and how each is supported.
 
-use crate::xml::{Row, Schema, Supported, no_effect, read, refused};
+use crate::xml::{Counts, Row, Schema, Supported, no_effect, read, refused};
 
 const FLAT: &str = "the world is flat";
 const RAILWAY: &str = "there are no railways";
@@ -139,7 +139,7 @@ const ONCE: &[&str] = &[
 
 /// Returns the table of all elements of OpenDRIVE.
 pub(super) fn schema() -> Schema {
-    Schema::new(ROWS, ONCE)
+    Schema::new(ROWS, Counts::Once(ONCE))
 }
 
 /// Returns all elements of OpenDRIVE, without the contents of elements that have no effect.

@@ -5,7 +5,8 @@ use super::map::Map;
 use super::note::Note;
 use super::read;
 use super::road::{Direction, LaneType, Road, Section};
-use crate::xml::{Document, ReadError};
+use crate::xml::{Document, Element, ReadError};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The distance in metres from which on differences between the pieces of a reference line are reported.
@@ -38,6 +39,8 @@ impl Map {
             notes.insert(0, Note::Old { minor });
         }
         notes.extend(map.flattened());
+        notes
+            .extend([("objects", "object"), ("signals", "signal")].into_iter().filter_map(|kind| same_ids(root, kind)));
         notes.extend(widest(map.roads.iter().flat_map(jumps)));
         notes.extend(widest(map.roads.iter().flat_map(lengths)));
         notes.extend(map.without_length());
@@ -74,6 +77,16 @@ impl Map {
     fn sections(&self) -> impl Iterator<Item = (&Road, &Section)> {
         self.roads.iter().flat_map(|road| road.sections.iter().map(move |section| (road, section)))
     }
+}
+
+/// Returns a note on the objects or signals with the identifier of another one.
+fn same_ids(root: Element<'_, '_>, (group, element): (&'static str, &'static str)) -> Option<Note> {
+    let mut known = BTreeSet::new();
+    let all = root.all("road").flat_map(|road| road.all(group)).flat_map(|all| all.all(element));
+    let with_ids = all.filter_map(|one| Some((one.text("id")?, one.line())));
+    let mut same = with_ids.filter(|(id, _)| !known.insert(*id));
+    let (id, line) = same.next()?;
+    Some(Note::SameId { line, element, id: id.to_owned(), count: 1 + same.count() })
 }
 
 /// Returns the differences in metres between the pieces of a reference line, and a note on each difference.

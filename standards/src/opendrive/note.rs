@@ -1,6 +1,6 @@
 //! Remarks on a file that was read: the parts without an effect, and everything that differs from the file.
 
-use crate::xml::NoEffect;
+use crate::xml::{NoEffect, short};
 use std::fmt;
 use std::path::Path;
 
@@ -45,6 +45,17 @@ pub enum Note {
         /// The distance between the middles of the two lanes of the first link, in metres.
         gap: f64,
         /// The number of links.
+        count: usize,
+    },
+    /// Objects, or signals, have the identifier of another one. They are read all the same.
+    SameId {
+        /// The line of the first such object in the file, from 1.
+        line: u32,
+        /// The name of its element: `object` or `signal`.
+        element: &'static str,
+        /// The identifier.
+        id: String,
+        /// The number of such objects.
         count: usize,
     },
     /// Reference lines of roads are not continuous.
@@ -99,6 +110,7 @@ impl Note {
             Self::NoEffect(NoEffect { line, .. })
             | Self::NoLane { line, .. }
             | Self::NoRoad { line, .. }
+            | Self::SameId { line, .. }
             | Self::Apart { line, .. } => Some(*line),
             _ => None,
         }
@@ -122,9 +134,9 @@ impl fmt::Display for Note {
                 )
             }
             Self::Flat { height, roll } => {
-                write!(f, "the world is flat: heights up to {height:.2} m")?;
+                write!(f, "the world is flat: heights up to {} m", short(*height, 2))?;
                 if *roll > 0.0 {
-                    write!(f, " and roll up to {roll:.3} rad")?;
+                    write!(f, " and roll up to {} rad", short(*roll, 3))?;
                 }
                 f.write_str(" are left out")
             }
@@ -141,6 +153,10 @@ impl fmt::Display for Note {
             Self::Apart { gap, count, .. } => {
                 write!(f, "the link joins lanes that are {gap:.3} m apart; cars do not use it")?;
                 others(f, *count, "link")
+            }
+            Self::SameId { element, id, count, .. } => {
+                write!(f, "the {element} has the id `{id}` of another {element}; both are read")?;
+                others(f, *count, element)
             }
             Self::Jump { road, s, gap, count } => {
                 write!(f, "the reference line of road `{road}` jumps by {gap:.3} m at s = {s:.3} m")?;

@@ -8,7 +8,7 @@ use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
 };
-use crate::xml::{Element, Flaw, ReadError};
+use crate::xml::{Element, Flaw, ReadError, rounded, short};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use std::ops::RangeInclusive;
@@ -25,6 +25,9 @@ const MOST_TURN: f64 = 1000.0;
 const MOST_ROADS: usize = 100_000;
 /// The greatest width of a road mark in metres.
 const WIDEST_MARK: f64 = 10.0;
+
+/// The greatest magnitude of a coordinate in metres: beyond it, a place has less than six decimals. A heading has the same one.
+const FARTHEST: f64 = 1e9;
 
 /// The tolerance in metres for places at the ends of a road.
 const CLOSE: f64 = 1e-3;
@@ -78,7 +81,7 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         traffic,
         predecessor,
         successor,
-        line: plan_view(element.child("planView")?)?,
+        line: plan_view(element.child("planView")?, length)?,
         offset,
         elevation: profile("elevationProfile", "elevation")?,
         superelevation: profile("lateralProfile", "superelevation")?,
@@ -129,11 +132,20 @@ fn numbers<const N: usize>(element: Element<'_, '_>, attributes: [&'static str; 
     Ok(numbers)
 }
 
-fn plan_view(element: Element<'_, '_>) -> Result<PlanView, ReadError> {
+/// Reads the reference line of a road of `road` metres.
+fn plan_view(element: Element<'_, '_>, road: f64) -> Result<PlanView, ReadError> {
     let (mut before, mut is_first) = (0.0, true);
     let geometry = |of: Element<'_, '_>| {
         let s = place(of, "s", &mut before)?;
+        if s > road + CLOSE {
+            return Err(of.unexpected("s", format!("at most {road}, the length of the road")));
+        }
         let [x, y, heading] = numbers(of, ["x", "y", "hdg"])?;
+        for (attribute, number) in [("x", x), ("y", y), ("hdg", heading)] {
+            if number.abs() > FARTHEST {
+                return Err(of.unexpected(attribute, format!("a magnitude of at most {FARTHEST}")));
+            }
+        }
         let length = of.length("length")?;
         if length > LONGEST {
             return Err(of.unexpected("length", format!("at most {LONGEST} m")));
@@ -202,7 +214,7 @@ fn curvature(element: Element<'_, '_>, attribute: &'static str, length: f64) -> 
     if curvature.abs() * length <= MOST_TURN {
         Ok(curvature)
     } else {
-        let most = MOST_TURN / length;
+        let most = rounded(MOST_TURN / length);
         Err(element.unexpected(attribute, format!("a magnitude of at most {most} 1/m for a length of {length} m")))
     }
 }
@@ -258,8 +270,7 @@ fn check(
     let Some(Extreme { piece, s, value }) = outside else { return Ok(()) };
     let element = parent.all(child).nth(piece).ok_or_else(|| parent.lacks(child))?;
     let [least, most] = [range.start(), range.end()];
-    let value = if value.abs() < 1e6 { format!("{value:.3}") } else { format!("{value:e}") };
-    let at = s - from;
+    let (at, value) = (s - from, short(value, 3));
     Err(element.unexpected("a", format!("values of {least} to {most} m; after {at:.3} m, the value is {value} m")))
 }
 
@@ -304,6 +315,11 @@ fn lane(element: Element<'_, '_>, number: i32, from: f64) -> Result<Lane, ReadEr
         )?,
     };
     let (width, border) = (cubics(element, "width", "sOffset", from)?, cubics(element, "border", "sOffset", from)?);
+    for name in ["width", "border"] {
+        if let Some(first) = element.first(name).filter(|first| first.number("sOffset").is_ok_and(|s| s > CLOSE)) {
+            return Err(first.unexpected("sOffset", format!("0 for the first <{name}> of a lane")));
+        }
+    }
     let extent = match (width.pieces(), border.pieces()) {
         ([], []) if number != 0 => return Err(element.lacks("width or border")),
         ([], [_, ..]) => Extent::Border(border),

@@ -6,7 +6,7 @@ use super::position::{Position, Route, Way};
 use super::profile::Profile;
 use super::scope::Node;
 use super::transition::{Dynamics, SHAPES, Shape};
-use crate::xml::ReadError;
+use crate::xml::{Flaw, ReadError};
 
 /// An action of one entity.
 #[derive(Debug, Clone, PartialEq)]
@@ -183,7 +183,10 @@ impl Action {
         let last =
             node.first("FinalSpeed").map(|speed| speed.choice("AbsoluteSpeed or RelativeSpeedToMaster")).transpose()?;
         let final_speed = match last {
-            Some(speed) if speed.name() == "AbsoluteSpeed" => Some(Target::Absolute(speed.length("value")?)),
+            Some(speed) if speed.name() == "AbsoluteSpeed" => {
+                speed.length("value")?;
+                Some(Target::Absolute(speed.speed("value")?))
+            }
             Some(speed) => Some(Target::relative(speed, master)?),
             None => None,
         };
@@ -192,7 +195,7 @@ impl Action {
             Some(steady) => Steady::Seconds(steady.length("time")?),
             None => Steady::Metres(0.0),
         };
-        let within = |name| if node.element.text(name).is_some() { node.length(name) } else { Ok(0.0) };
+        let within = |name| node.length_or(name, 0.0);
         Ok(Self::Synchronize(Box::new(Synchronization {
             master,
             master_target: Position::read(node.child("TargetPositionMaster")?, names)?,
@@ -225,9 +228,14 @@ impl Action {
                 Profile::read(node, other).map(Self::Profile)
             }
             "LongitudinalDistanceAction" => {
-                let gap = match node.optional("distance")? {
-                    Some(_) => Gap::Metres(node.length("distance")?),
-                    None => Gap::Seconds(node.length("timeGap")?),
+                let attributes = ["distance", "timeGap"];
+                let gap = match attributes.map(|name| node.element.text(name).is_some()) {
+                    [true, false] => Gap::Metres(node.length("distance")?),
+                    [false, true] => Gap::Seconds(node.length("timeGap")?),
+                    [both, _] => {
+                        let element = node.name().to_owned();
+                        return Err(node.error(Flaw::OneAttribute { element, attributes, both }));
+                    }
                 };
                 let ahead = match node.element.text("displacement") {
                     None => Some(false),
@@ -325,22 +333,22 @@ impl Action {
 
     fn trajectory(node: Node<'_>, given: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let timing = node.child("TimeReference")?.first("Timing").map(Timing::read).transpose()?;
-        let from = node.number_or("initialDistanceOffset", 0.0)?;
-        Ok(Self::Trajectory(Box::new(Trajectory { way: Way::read(given, names)?, timing, from })))
+        let from = node.length_or("initialDistanceOffset", 0.0)?;
+        Ok(Self::Trajectory(Box::new(Trajectory { way: Way::read(given, names, timing.is_some())?, timing, from })))
     }
 }
 
 /// Reads the greatest acceleration, deceleration and speed within an element; `None` if it has no limits.
 fn limits(node: Node<'_>) -> Result<Option<[f64; 3]>, ReadError> {
     let Some(limits) = node.first("DynamicConstraints") else { return Ok(None) };
-    let most = |name| if limits.element.text(name).is_some() { limits.length(name) } else { Ok(f64::INFINITY) };
+    let most = |name| if limits.element.text(name).is_some() { limits.limit(name) } else { Ok(f64::INFINITY) };
     Ok(Some([most("maxAcceleration")?, most("maxDeceleration")?, most("maxSpeed")?]))
 }
 
 impl Target {
     fn read(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         if node.name() != "RelativeTargetSpeed" {
-            return Ok(Self::Absolute(node.number("value")?));
+            return Ok(Self::Absolute(node.speed("value")?));
         }
         Self::relative(node, names.entity(node, "entityRef")?)
     }
@@ -349,7 +357,7 @@ impl Target {
     fn relative(node: Node<'_>, entity: usize) -> Result<Self, ReadError> {
         Ok(Self::Relative {
             entity,
-            value: node.number("value")?,
+            value: node.speed("value")?,
             is_factor: node.one_of("speedTargetValueType", &[("delta", false), ("factor", true)])?,
             continuous: node.truth_or("continuous", false)?,
         })

@@ -4,6 +4,7 @@ use super::elements::schema;
 use super::linked;
 use super::local::{Local, declare};
 use super::scope::Node;
+use super::version;
 use crate::xml::{Document, Element, Flaw, NoEffect, ReadError};
 use paracosm_space::nearest;
 use std::cell::{Cell, RefCell};
@@ -86,7 +87,11 @@ impl CatalogFiles {
                 let name = {
                     let tree = document.tree()?;
                     let root = document.root(&tree, "OpenSCENARIO")?;
-                    root.first("Catalog").map(|catalog| catalog.required("name").map(str::to_owned)).transpose()?
+                    let name = |catalog: Element<'_, '_>| {
+                        version::check(root)?;
+                        catalog.required("name").map(str::to_owned)
+                    };
+                    root.first("Catalog").map(name).transpose()?
                 };
                 if let Some(name) = name {
                     all.insert(name, document);
@@ -135,10 +140,13 @@ impl<'a> Catalogs<'a> {
         let known = self.all.get(catalog.as_ref()).copied();
         let catalog = known.ok_or_else(|| self.unknown(node, &catalog))?;
         let entry_name = node.required("entryName")?;
-        let entries = || catalog.elements().filter(|entry| kinds.contains(&entry.name()));
-        let entry = entries().find(|entry| entry.text("name") == Some(entry_name.as_ref())).ok_or_else(|| {
-            node.dangling("entryName", "entry of the catalog", entries().filter_map(|entry| entry.text("name")))
-        })?;
+        let is_named = |entry: &Element<'_, '_>| entry.text("name") == Some(entry_name.as_ref());
+        let mut named = catalog.elements().filter(|entry| kinds.contains(&entry.name())).filter(is_named);
+        let entry = named.next().ok_or_else(|| no_entry(node, catalog, kinds, &entry_name))?;
+        if let Some(second) = named.next() {
+            let (element, found) = (second.name().to_owned(), entry_name.clone().into_owned());
+            return Err(second.error(Flaw::Taken { element, attribute: "name", found, first: entry.line() }));
+        }
         let key = (entry_name.clone().into_owned(), entry.line());
         if self.open.borrow().contains(&key) {
             return Err(node.unexpected("entryName", &entry_name, "an entry that does not refer to itself"));
@@ -202,4 +210,14 @@ impl<'a> Catalogs<'a> {
     pub fn found(&self) -> Found {
         self.found.take()
     }
+}
+
+/// Makes the error that a catalog has no entry of the given kinds with a name.
+fn no_entry(reference: Node<'_>, catalog: Element<'_, '_>, kinds: &[&str], name: &str) -> ReadError {
+    if let Some(other) = catalog.elements().find(|entry| entry.text("name") == Some(name)) {
+        let (kinds, kind, file, line) = (kinds.join(" or "), other.name(), other.file().display(), other.line());
+        return reference.unexpected("entryName", name, format!("a {kinds}; the entry in {file}:{line} is a {kind}"));
+    }
+    let names = catalog.elements().filter(|entry| kinds.contains(&entry.name())).filter_map(|entry| entry.text("name"));
+    reference.dangling("entryName", "entry of the catalog", names)
 }

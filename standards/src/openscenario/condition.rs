@@ -92,11 +92,11 @@ impl Check {
                 let name = node.element.required("parameterRef")?;
                 let name = name.strip_prefix('$').unwrap_or(name);
                 let (found, wanted) = (node.scope.get(name).unwrap_or_default(), node.required("value")?);
-                let rule = Rule::read(node)?;
-                Ok(match (found.parse(), wanted.parse()) {
-                    (Ok(found), Ok(wanted)) => Self::single(Measure::Constant(found), rule, wanted),
-                    _ => Self::single(Measure::Constant(f64::from(u8::from(found == wanted))), rule, 1.0),
-                })
+                if let (Ok(found), Ok(wanted)) = (found.parse(), wanted.parse()) {
+                    return Ok(Self::single(Measure::Constant(found), Rule::read(node)?, wanted));
+                }
+                let is_equal = Measure::Constant(f64::from(u8::from(found == wanted)));
+                Ok(Self::single(is_equal, Rule::of_words(node, &wanted)?, 1.0))
             }
             _ => Err(node
                 .refused("use a SimulationTimeCondition, a StoryboardElementStateCondition or a ParameterCondition")),
@@ -104,10 +104,10 @@ impl Check {
     }
 
     fn variable(variable: usize, node: Node<'_>) -> Result<Self, ReadError> {
-        let rule = Rule::read(node)?;
-        Ok(match xml::Value::of(&node.required("value")?) {
-            xml::Value::Number(number) => Self::single(Measure::Variable(variable), rule, number),
-            other => Self::single(Measure::VariableIs(variable, other), rule, 1.0),
+        let wanted = node.required("value")?;
+        Ok(match xml::Value::of(&wanted) {
+            xml::Value::Number(number) => Self::single(Measure::Variable(variable), Rule::read(node)?, number),
+            other => Self::single(Measure::VariableIs(variable, other), Rule::of_words(node, &wanted)?, 1.0),
         })
     }
 

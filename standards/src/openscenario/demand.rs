@@ -39,8 +39,12 @@ impl Demand {
     pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
         let limit =
             |node: Node<'_>| Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned() });
-        let groups = node.all("ConstraintGroup").map(|group| group.all("ValueConstraint").map(limit).collect());
-        let (name, kind) = (node.element.required("name")?.to_owned(), Kind::read(node)?);
+        let group = |group: Node<'_>| {
+            let limits = group.all("ValueConstraint").map(limit).collect::<Result<Vec<_>, ReadError>>()?;
+            if limits.is_empty() { Err(group.element.lacks("ValueConstraint")) } else { Ok(limits) }
+        };
+        let groups = node.all("ConstraintGroup").map(group);
+        let (name, kind) = (node.element.required("name")?.to_owned(), Kind::read(node, "parameterType")?);
         let groups = groups.collect::<Result<_, ReadError>>()?;
         Ok(Self { name, kind, groups, place: (node.element.file().to_owned(), node.element.line()) })
     }

@@ -42,7 +42,7 @@ impl Distribution {
         let name = |node: Node<'_>| name(node, "parameterName", declared);
         if let Some(chances) = root.first("Stochastic") {
             let mut all: Vec<Opened> = Vec::new();
-            for node in chances.all("StochasticDistribution") {
+            for node in some(chances, "StochasticDistribution")? {
                 let (name, of) = name(node)?;
                 if all.iter().any(|other| other.names.contains(&name)) {
                     return Err(twice_distributed(node, &name));
@@ -58,7 +58,7 @@ impl Distribution {
                 "DistributionSet" => {
                     let (name, of) = name(node)?;
                     let mut levels: Vec<Vec<String>> = Vec::new();
-                    for element in kind.all("Element") {
+                    for element in some(kind, "Element")? {
                         let text = of.required(element, "value")?;
                         if levels.iter().flatten().any(|known| of.value(known) == of.value(&text)) {
                             return Err(element.unexpected("value", &text, "a value that the set does not have yet"));
@@ -104,7 +104,7 @@ impl Opened {
             }
             _ => {
                 let value = |element: Node<'_>| Ok(of.value(&of.required(element, "value")?));
-                let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
+                let levels = some(kind, "Element")?.map(value).collect::<Result<_, ReadError>>()?;
                 let weights = kind.all("Element").map(|element| element.length("weight")).collect::<Result<_, _>>()?;
                 (Domain::Choice(levels), space::Distribution::Weights(weights))
             }
@@ -207,6 +207,12 @@ fn name(node: Node<'_>, attribute: &'static str, declared: &[(String, Kind)]) ->
     known.ok_or_else(|| node.dangling(attribute, "parameter", declared.iter().map(|(known, _)| known.as_str())))
 }
 
+/// Returns the children with a name, of which there is at least one.
+fn some<'a>(node: Node<'a>, child: &'static str) -> Result<impl Iterator<Item = Node<'a>>, ReadError> {
+    node.child(child)?;
+    Ok(node.all(child))
+}
+
 /// Makes the error that a parameter has a second distribution.
 fn twice_distributed(node: Node<'_>, name: &str) -> ReadError {
     node.unexpected("parameterName", name, "one distribution of each parameter")
@@ -247,23 +253,30 @@ fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
 fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, Vec<Kind>, Choices), ReadError> {
     let (mut names, mut kinds): (Vec<String>, Vec<Kind>) = Default::default();
     let mut levels = Vec::new();
-    for set in kind.all("ParameterValueSet") {
-        let mut level = Vec::new();
-        for (index, assignment) in set.all("ParameterAssignment").enumerate() {
+    for set in some(kind, "ParameterValueSet")? {
+        let mut level: Vec<(String, String)> = Vec::new();
+        for assignment in some(set, "ParameterAssignment")? {
             let (name, of) = name(assignment, "parameterRef", declared)?;
-            if levels.is_empty() {
-                names.push(name);
-                kinds.push(of);
-            } else if names.get(index).is_none_or(|known| *known != name) {
-                return Err(assignment.dangling("parameterRef", "parameter", names.iter().map(String::as_str)));
+            if level.iter().any(|(known, _)| *known == name) {
+                let expected = "a parameter to which the set has not assigned a value yet";
+                return Err(assignment.unexpected("parameterRef", &name, expected));
             }
-            level.push(of.required(assignment, "value")?.into_owned());
+            if levels.is_empty() {
+                names.push(name.clone());
+                kinds.push(of);
+            } else if !names.contains(&name) {
+                let expected = "a parameter of the first set";
+                let known = names.iter().map(String::as_str);
+                return Err(assignment.element.unexpected_value("parameterRef", &name, expected, known));
+            }
+            level.push((name, of.required(assignment, "value")?.into_owned()));
         }
-        if let Some(missing) = names.get(level.len()) {
-            let expected = format!("an assignment of `{missing}` as in the first set");
-            return Err(set.unexpected("parameterRef", "", expected));
-        }
-        levels.push(level);
+        let value = |name: &String| {
+            let own = level.iter().find(|(known, _)| known == name).map(|(_, value)| value.clone());
+            let expected = || format!("an assignment of `{name}` as in the first set");
+            own.ok_or_else(|| set.unexpected("parameterRef", "", expected()))
+        };
+        levels.push(names.iter().map(value).collect::<Result<Vec<_>, ReadError>>()?);
     }
     Ok((names, kinds, Choices::Tuples(levels)))
 }

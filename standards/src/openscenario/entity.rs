@@ -2,7 +2,8 @@
 
 use super::catalogs::Catalogs;
 use super::scope::Node;
-use crate::xml::{Flaw, ReadError};
+use super::taken::Taken;
+use crate::xml::ReadError;
 use nalgebra::Vector2;
 use paracosm_engine::object::{Body, Class};
 
@@ -51,30 +52,31 @@ pub(super) struct Limits {
 impl Entity {
     /// Reads all entities of a scenario, and the selections of entities with the indices of their members.
     pub fn all(entities: Node<'_>, catalogs: &Catalogs<'_>) -> Result<(Vec<Self>, Vec<Selection>), ReadError> {
-        let mut read: Vec<(Self, u32)> = Vec::new();
+        let mut all: Vec<Self> = Vec::new();
+        let mut taken = Taken::default();
         for object in entities.elements() {
             if object.name() == "EntitySelection" {
                 continue;
             }
-            let name = object.required("name")?.into_owned();
-            if let Some((_, first)) = read.iter().find(|(other, _)| other.name == name) {
-                let (element, attribute, first) = (object.name().to_owned(), "name", *first);
-                return Err(object.error(Flaw::Taken { element, attribute, found: name, first }));
-            }
+            let name = object.label_required()?.into_owned();
+            taken.claim(object, &name)?;
             let is_controlled = object.first("ObjectController").is_some();
             let kind = object.choice("Vehicle, Pedestrian, MiscObject or CatalogReference")?;
             let entity = catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| {
                 Self::one(node, name.clone(), is_controlled)
             })?;
-            read.push((entity, object.element.line()));
+            all.push(entity);
         }
-        let all: Vec<Self> = read.into_iter().map(|(entity, _)| entity).collect();
-        let selections = entities.all("EntitySelection").map(|selection| Self::selection(selection, &all));
-        let selections = selections.collect::<Result<_, ReadError>>()?;
+        let selection = |selection: Node<'_>| {
+            let name = selection.label_required()?.into_owned();
+            taken.claim(selection, &name)?;
+            Ok((name, Self::members(selection, &all)?))
+        };
+        let selections = entities.all("EntitySelection").map(selection).collect::<Result<_, ReadError>>()?;
         Ok((all, selections))
     }
 
-    fn selection(selection: Node<'_>, all: &[Self]) -> Result<Selection, ReadError> {
+    fn members(selection: Node<'_>, all: &[Self]) -> Result<Vec<usize>, ReadError> {
         let mut members = Vec::new();
         for member in selection.child("Members")?.elements() {
             if member.name() == "EntityRef" {
@@ -87,7 +89,7 @@ impl Entity {
                 members.extend((0..all.len()).filter(|index| all[*index].object_type() == wanted));
             }
         }
-        Ok((selection.required("name")?.into_owned(), members))
+        Ok(members)
     }
 
     /// Returns the type of the entity.
@@ -153,10 +155,10 @@ const VEHICLES: [(&str, Class); 10] = [
 impl Limits {
     fn read(vehicle: Node<'_>) -> Result<Self, ReadError> {
         let performance = vehicle.child("Performance")?;
-        performance.length("maxSpeed")?;
+        performance.limit("maxSpeed")?;
         Ok(Self {
-            acceleration: performance.length("maxAcceleration")?,
-            deceleration: performance.length("maxDeceleration")?,
+            acceleration: performance.limit("maxAcceleration")?,
+            deceleration: performance.limit("maxDeceleration")?,
         })
     }
 }

@@ -29,9 +29,9 @@ const KINDS: [(&str, Kind); 8] = [
 ];
 
 impl Kind {
-    /// Reads the attribute `parameterType`.
-    pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
-        node.element.one_of("parameterType", &KINDS)
+    /// Reads the attribute with the type of a parameter or a variable.
+    pub fn read(node: Node<'_>, attribute: &'static str) -> Result<Self, ReadError> {
+        node.element.one_of(attribute, &KINDS)
     }
 
     /// Returns `true` if a text is a value of the type. A whole number may have decimals if they are 0, because expressions

@@ -14,11 +14,24 @@ pub(super) fn file(node: Node<'_>, attribute: &'static str, folder: &Path) -> Re
     if path.is_file() {
         return Ok(path);
     }
-    let entries = std::fs::read_dir(path.parent().unwrap_or(folder)).into_iter().flatten().flatten();
-    let of_kind = entries.map(|entry| entry.path()).filter(|entry| entry.extension() == path.extension());
+    if path.is_dir() {
+        return Err(node.unexpected(
+            attribute,
+            &text,
+            format!("a file that exists, and {} is a folder", path.display()),
+        ));
+    }
+    // The parent of a plain name is an empty path.
+    let beside = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(beside).into_iter().flatten().flatten();
+    let mut others: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(|entry| entry.is_file()).collect();
+    // A file of the same kind is meant, unless the mistake is in the ending.
+    if others.iter().any(|other| other.extension() == path.extension()) {
+        others.retain(|other| other.extension() == path.extension());
+    }
     let start = text.rfind('/').map_or("", |at| &text[..=at]);
-    let mut names: Vec<String> =
-        of_kind.filter_map(|entry| Some(format!("{start}{}", entry.file_name()?.to_str()?))).collect();
+    let named = |other: &PathBuf| Some(format!("{start}{}", other.file_name()?.to_str()?));
+    let mut names: Vec<String> = others.iter().filter_map(named).collect();
     names.sort();
     let expected = format!("a file that exists, and there is no {}", path.display());
     Err(node.element.unexpected_value(attribute, &text, expected, names.iter().map(String::as_str)))
@@ -37,7 +50,8 @@ pub(super) fn within(node: Node<'_>, attribute: &'static str, folder: &Path) -> 
     if is_near {
         return Ok(path);
     }
-    let expected = "a path in the folder of the scenario or in a folder near it, which does not lead to the root";
+    let expected =
+        "a path in the folder of the scenario, or a relative path that does not lead up to the root of the file system";
     Err(node.unexpected(attribute, &text, expected))
 }
 

@@ -175,6 +175,8 @@ impl Measure {
     /// Reads a condition of an entity: the measure, the rule, and the value that the measure is compared with.
     pub fn read(node: Node<'_>, entity: usize, names: Names<'_>) -> Result<(Self, Rule, f64), ReadError> {
         let ruled = |measure| Ok((measure, Rule::read(node)?, node.number("value")?));
+        // No distance and no time to something is negative.
+        let apart = |measure| Ok((measure, Rule::read(node)?, node.length("value")?));
         let other = || names.entity(node, "entityRef");
         match node.name() {
             "SpeedCondition" => ruled(Self::Speed { entity, direction: Direction::read(node)? }),
@@ -197,15 +199,15 @@ impl Measure {
             }
             "DistanceCondition" => {
                 let to = Goal::Place(Position::read(node.child("Position")?, names)?);
-                ruled(Self::Distance { entity, to, how: Metric::read(node, MetricKind::Straight)? })
+                apart(Self::Distance { entity, to, how: Metric::read(node, MetricKind::Straight)? })
             }
             "RelativeDistanceCondition" => {
                 let to = Goal::Entity(other()?);
-                ruled(Self::Distance { entity, to, how: Metric::read(node, MetricKind::Straight)? })
+                apart(Self::Distance { entity, to, how: Metric::read(node, MetricKind::Straight)? })
             }
             "TimeHeadwayCondition" => {
                 let how = Metric::read(node, MetricKind::Longitudinal)?;
-                ruled(Self::Headway { entity, to: other()?, how })
+                apart(Self::Headway { entity, to: other()?, how })
             }
             "TimeToCollisionCondition" => {
                 let target = node.child("TimeToCollisionConditionTarget")?.choice("EntityRef or Position")?;
@@ -213,7 +215,7 @@ impl Measure {
                     "EntityRef" => Goal::Entity(names.entity(target, "entityRef")?),
                     _ => Goal::Place(Position::read(target, names)?),
                 };
-                ruled(Self::TimeToCollision { entity, to, how: Metric::read(node, MetricKind::Longitudinal)? })
+                apart(Self::TimeToCollision { entity, to, how: Metric::read(node, MetricKind::Longitudinal)? })
             }
             "CollisionCondition" => {
                 let other = node.choice("EntityRef or ByType")?;
@@ -269,7 +271,7 @@ impl Clearance {
             Ok([end("from", f64::NEG_INFINITY)?, end("to", f64::INFINITY)?])
         };
         let others = node.all("EntityRef").map(|other| names.entity(other, "entityRef"));
-        let metres = |name| if node.element.text(name).is_some() { node.length(name) } else { Ok(0.0) };
+        let metres = |name| node.length_or(name, 0.0);
         Ok(Self {
             entity,
             others: others.collect::<Result<_, _>>()?,

@@ -34,9 +34,11 @@ mod scope;
 mod state;
 mod story;
 mod sun;
+mod taken;
 mod transition;
 mod unique;
 mod variable;
+mod version;
 mod weather;
 
 pub use concrete::Concrete;

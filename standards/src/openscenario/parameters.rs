@@ -203,7 +203,7 @@ impl Parameters {
 pub(super) fn declared_kinds(root: Node<'_>) -> Result<Vec<(String, Kind)>, ReadError> {
     let one = |element| {
         let node = Node { element, ..root };
-        Ok((element.required("name")?.to_owned(), Kind::read(node)?))
+        Ok((element.required("name")?.to_owned(), Kind::read(node, "parameterType")?))
     };
     declarations(root.element).map(one).collect()
 }

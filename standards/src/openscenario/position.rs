@@ -5,7 +5,7 @@ use super::clothoid::Clothoid;
 use super::names::Names;
 use super::nurbs::Nurbs;
 use super::scope::Node;
-use crate::xml::ReadError;
+use crate::xml::{Flaw, ReadError};
 
 /// A position, in the ways in which a file describes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -137,7 +137,7 @@ impl Position {
             }
             "TrajectoryPosition" => {
                 let given = kind.child("TrajectoryRef")?.choice("Trajectory or CatalogReference")?;
-                let way = names.catalogs.resolved(given, &["Trajectory"], |given| Way::read(given, names))?;
+                let way = names.catalogs.resolved(given, &["Trajectory"], |given| Way::read(given, names, false))?;
                 let (s, t) = (kind.number("s")?, kind.number_or("t", 0.0)?);
                 Self::Along { way: Box::new(way), s, t, turn: Turn::read(kind)? }
             }
@@ -166,9 +166,7 @@ impl Route {
         names.catalogs.resolved(given, &["Route"], |route| {
             let waypoint = |waypoint: Node<'_>| Position::read(waypoint.child("Position")?, names);
             let mut waypoints = route.all("Waypoint").map(waypoint).collect::<Result<Vec<_>, ReadError>>()?;
-            if waypoints.len() < 2 {
-                return Err(route.element.lacks("Waypoint"));
-            }
+            at_least_two(route, "waypoint", waypoints.len())?;
             if route.truth_or("closed", false)? {
                 waypoints.push(waypoints[0].clone());
             }
@@ -178,18 +176,22 @@ impl Route {
 }
 
 impl Way {
-    /// Reads an element `Trajectory`.
-    pub fn read(trajectory: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+    /// Reads an element `Trajectory`. The vertices of a polyline need times if an entity is there `on_time`.
+    pub fn read(trajectory: Node<'_>, names: Names<'_>, on_time: bool) -> Result<Self, ReadError> {
         let shape = trajectory.child("Shape")?.choice("Polyline")?;
         let vertex = |vertex: Node<'_>| {
             let given = vertex.child("Position")?;
             let faces =
                 given.elements().any(|kind| kind.first("Orientation").is_some() || kind.element.text("h").is_some());
-            Ok(Vertex { position: Position::read(given, names)?, time: vertex.number_or("time", 0.0)?, faces })
+            Ok(Vertex { position: Position::read(given, names)?, time: vertex.length_or("time", 0.0)?, faces })
         };
         match shape.name() {
             "Polyline" => {
-                let vertices = shape.all("Vertex").map(vertex).collect::<Result<_, ReadError>>()?;
+                let vertices = shape.all("Vertex").map(vertex).collect::<Result<Vec<_>, ReadError>>()?;
+                at_least_two(shape, "point", vertices.len())?;
+                if on_time {
+                    rising(shape)?;
+                }
                 Ok(Self::Polyline { vertices, closed: trajectory.truth_or("closed", false)? })
             }
             "Clothoid" => {
@@ -220,4 +222,24 @@ impl Way {
             _ => Err(shape.refused("use a Polyline, a Clothoid, a ClothoidSpline or a Nurbs")),
         }
     }
+}
+
+/// Checks the number of the places that a route or a polyline leads through.
+fn at_least_two(node: Node<'_>, child: &'static str, found: usize) -> Result<(), ReadError> {
+    let element = node.name().to_owned();
+    if found >= 2 { Ok(()) } else { Err(node.error(Flaw::TooFew { element, child, found, least: 2 })) }
+}
+
+/// Checks that all vertices of a polyline have times, and that the times do not fall.
+fn rising(polyline: Node<'_>) -> Result<(), ReadError> {
+    let mut before = 0.0;
+    for vertex in polyline.all("Vertex") {
+        let time = vertex.length("time")?;
+        if time < before {
+            let expected = format!("at least {before}, the time of the vertex before");
+            return Err(vertex.unexpected("time", &vertex.required("time")?, expected));
+        }
+        before = time;
+    }
+    Ok(())
 }

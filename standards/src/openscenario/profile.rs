@@ -39,7 +39,7 @@ impl Profile {
     pub fn read(node: Node<'_>, relative_to: Option<usize>) -> Result<Self, ReadError> {
         let entry = |entry: Node<'_>| {
             let time = entry.element.text("time").map(|_| entry.length("time")).transpose()?;
-            Ok((time, entry.number("speed")?))
+            Ok((time, entry.speed("speed")?))
         };
         let entries = node.all("SpeedProfileEntry").map(entry).collect::<Result<Vec<_>, ReadError>>()?;
         if entries.is_empty() {

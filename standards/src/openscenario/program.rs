@@ -12,6 +12,7 @@ use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
 use super::play::Stage;
 use super::scope::{Node, Scope};
 use super::story::Storyboard;
+use super::version;
 use super::weather;
 use crate::opendrive::{Map, Thing};
 use crate::xml::{Document, Flaw, NoEffect, ReadError};
@@ -107,6 +108,7 @@ impl Xosc {
             let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
+                version::check(root.element)?;
                 let notes = in_file(&schema().check(root.element)?, file);
                 let file = linked::file(node.child("ScenarioFile")?, "filepath", &folder)?;
                 let scenario = Document::open(&file)?;
@@ -137,6 +139,7 @@ impl Xosc {
         let (catalogs, parameters) = {
             let tree = document.tree()?;
             let root = document.root(&tree, ROOT)?;
+            version::check(root)?;
             notes.extend(in_file(&schema().check(root)?, root.file()));
             let none = Scope::default();
             let parameters = Parameters::read(Node { element: root, scope: &none }, distribution)?;

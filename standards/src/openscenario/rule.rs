@@ -33,6 +33,16 @@ impl Rule {
         node.one_of("rule", &RULES)
     }
 
+    /// Reads the attribute `rule` of an element that compares with a word. Words have no order.
+    pub fn of_words(node: Node<'_>, word: &str) -> Result<Self, ReadError> {
+        let rule = Self::read(node)?;
+        if matches!(rule, Self::Equal | Self::NotEqual) {
+            return Ok(rule);
+        }
+        let expected = format!("equalTo or notEqualTo, because `{word}` is no number");
+        Err(node.unexpected("rule", &node.required("rule")?, expected))
+    }
+
     /// Returns `true` if a value fulfils the rule. Words have no order.
     pub fn holds(self, value: &Value, limit: &Value) -> bool {
         let order = match (value, limit) {

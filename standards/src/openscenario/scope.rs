@@ -5,6 +5,11 @@ use paracosm_space::nearest;
 use std::borrow::Cow;
 use std::sync::Arc;
 
+/// The greatest magnitude of a number: beyond it, a place in metres has less than six decimals.
+const GREATEST: f64 = 1e9;
+/// The greatest speed of a target in m/s.
+const FASTEST: f64 = 1e6;
+
 /// The values of the parameters that an element sees. Later parameters hide earlier parameters with the same name. The parameters
 /// of the whole scenario come first.
 #[derive(Debug, Clone, Default)]
@@ -184,13 +189,33 @@ impl<'a> Node<'a> {
 
     /// Returns the value of an attribute, which must exist.
     pub fn required(self, attribute: &'static str) -> Result<Cow<'a, str>, ReadError> {
-        let missing = || self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute });
-        self.text(attribute)?.ok_or_else(missing)
+        self.text(attribute)?.ok_or_else(|| self.element.missing(attribute))
+    }
+
+    /// Returns the name of the element; `None` if it has none. A name is a part of messages and of signals, so it has no line breaks.
+    pub fn label(self) -> Result<Option<Cow<'a, str>>, ReadError> {
+        match self.text("name")? {
+            Some(name) if name.contains(char::is_control) => {
+                let shown = name.escape_debug().to_string();
+                Err(self.unexpected("name", &shown, "a name without line breaks and other control characters"))
+            }
+            name => Ok(name),
+        }
+    }
+
+    /// Returns the name of the element, which must have one.
+    pub fn label_required(self) -> Result<Cow<'a, str>, ReadError> {
+        self.label()?.ok_or_else(|| self.element.missing("name"))
     }
 
     /// Returns the number in an attribute, which must exist and be finite.
     pub fn number(self, attribute: &'static str) -> Result<f64, ReadError> {
-        self.parsed(attribute, "a finite number", |text| text.parse().ok().filter(|number: &f64| number.is_finite()))
+        self.bounded(attribute, ("a finite number", |_| true), GREATEST)
+    }
+
+    /// Returns the speed in an attribute in m/s, which must exist.
+    pub fn speed(self, attribute: &'static str) -> Result<f64, ReadError> {
+        self.bounded(attribute, ("a finite number", |_| true), FASTEST)
     }
 
     /// Returns the number in an attribute; `default` if the attribute is absent.
@@ -205,8 +230,17 @@ impl<'a> Node<'a> {
 
     /// Returns the number in an attribute, which must exist and must not be negative.
     pub fn length(self, attribute: &'static str) -> Result<f64, ReadError> {
-        let sound = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
-        self.parsed(attribute, "a number that is not negative", sound)
+        self.bounded(attribute, ("a number that is not negative", |number| number >= 0.0), GREATEST)
+    }
+
+    /// Returns the number in an attribute, which must not be negative; `default` if the attribute is absent.
+    pub fn length_or(self, attribute: &'static str, default: f64) -> Result<f64, ReadError> {
+        if self.element.text(attribute).is_some() { self.length(attribute) } else { Ok(default) }
+    }
+
+    /// Returns the greatest allowed value in an attribute, which must exist and must not be negative. A very great one has no effect.
+    pub fn limit(self, attribute: &'static str) -> Result<f64, ReadError> {
+        self.bounded(attribute, ("a number that is not negative", |number| number >= 0.0), f64::MAX)
     }
 
     /// Returns the number in an attribute, which must exist and must be above 0.
@@ -258,6 +292,21 @@ impl<'a> Node<'a> {
     ) -> ReadError {
         let found = self.text(attribute).ok().flatten().unwrap_or_default();
         self.element.dangling_value(attribute, &found, kind, names)
+    }
+
+    /// Returns the number in an attribute, which must exist, be sound, and have a magnitude of at most `most`.
+    fn bounded(
+        self,
+        attribute: &'static str,
+        (expected, is_sound): (&'static str, fn(f64) -> bool),
+        most: f64,
+    ) -> Result<f64, ReadError> {
+        let sound = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite() && is_sound(*number));
+        let number = self.parsed(attribute, expected, sound)?;
+        if number.abs() <= most {
+            return Ok(number);
+        }
+        Err(self.unexpected(attribute, &self.required(attribute)?, format!("a magnitude of at most {most}")))
     }
 
     fn parsed<T>(

@@ -10,8 +10,10 @@ use super::names::Names;
 use super::position::Position;
 use super::reference::{Named, References};
 use super::scope::Node;
+use super::taken::Taken;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
+use std::collections::BTreeMap;
 
 /// The storyboard of a scenario, with the entities that act in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,6 +97,8 @@ impl Kind {
 struct Reader<'a> {
     names: Names<'a>,
     items: Vec<Item>,
+    /// The names of the elements within each element, and of the stories.
+    taken: BTreeMap<Option<usize>, Taken>,
 }
 
 impl Storyboard {
@@ -140,7 +144,7 @@ impl Storyboard {
                 _ => return Err(actor.refused("use a Private or a GlobalAction")),
             }
         }
-        let mut reader = Reader { names, items: Vec::new() };
+        let mut reader = Reader { names, items: Vec::new(), taken: BTreeMap::new() };
         for story in board.all("Story") {
             reader.story(story)?;
         }
@@ -218,7 +222,11 @@ fn global(node: Node<'_>, names: Names<'_>) -> Result<Kind, ReadError> {
 
 impl Reader<'_> {
     fn push(&mut self, node: Node<'_>, kind: Kind, parent: Option<usize>) -> Result<usize, ReadError> {
-        let name = node.text("name")?.unwrap_or_default().into_owned();
+        let name = node.label()?.unwrap_or_default().into_owned();
+        // The name of a maneuver may be that of the entry of a catalog.
+        if !matches!(kind, Kind::Maneuver) {
+            self.claim(node, "name", parent)?;
+        }
         let most_runs = match node.element.text("maximumExecutionCount") {
             None => 1,
             Some(_) => node.positive_count("maximumExecutionCount")?,
@@ -230,6 +238,13 @@ impl Reader<'_> {
         let start = start.filter(|start| !start.is_empty());
         self.items.push(Item { name, kind, parent, start, stop, most_runs });
         Ok(self.items.len() - 1)
+    }
+
+    /// Takes the name in an attribute of an element within the element `parent`. Conditions could not tell two elements with the same
+    /// name there.
+    fn claim(&mut self, node: Node<'_>, attribute: &'static str, parent: Option<usize>) -> Result<(), ReadError> {
+        let Some(name) = node.text(attribute)? else { return Ok(()) };
+        self.taken.entry(parent).or_default().claim_in(node, attribute, &name)
     }
 
     fn story(&mut self, node: Node<'_>) -> Result<(), ReadError> {
@@ -255,6 +270,8 @@ impl Reader<'_> {
         let actors = actors.collect::<Result<Vec<_>, _>>()?.concat();
         let catalogs = self.names.catalogs;
         for maneuver in node.elements().filter(|node| ["Maneuver", "CatalogReference"].contains(&node.name())) {
+            let attribute = if maneuver.name() == "Maneuver" { "name" } else { "entryName" };
+            self.claim(maneuver, attribute, Some(group))?;
             catalogs.resolved(maneuver, &["Maneuver"], |node| self.maneuver(node, group, &actors))?;
         }
         Ok(())

@@ -1,7 +1,9 @@
 //! Variables of a scenario: values that actions change during a run, and that conditions read.
 
+use super::kind::Kind;
 use super::names::Names;
 use super::scope::Node;
+use super::taken::Taken;
 use crate::xml::{ReadError, Value};
 
 /// A variable with its value.
@@ -24,9 +26,16 @@ impl Variable {
     pub fn all(root: Node<'_>) -> Result<Vec<Self>, ReadError> {
         let declarations = root.first("VariableDeclarations");
         let declared = declarations.into_iter().flat_map(|all| all.all("VariableDeclaration"));
+        let mut taken = Taken::default();
         let read = |declaration: Node<'_>| {
-            let value = Value::of(&declaration.text("value")?.unwrap_or_default());
-            Ok(Self { name: declaration.required("name")?.into_owned(), value })
+            let name = declaration.label_required()?.into_owned();
+            taken.claim(declaration, &name)?;
+            let kind = Kind::read(declaration, "variableType")?;
+            let value = declaration.text("value")?.unwrap_or_default();
+            if !kind.takes(&value) {
+                return Err(declaration.unexpected("value", &value, kind.expected()));
+            }
+            Ok(Self { name, value: Value::of(&value) })
         };
         let parameters = root
             .scope

@@ -109,8 +109,15 @@ impl<'a, 'i> Element<'a, 'i> {
 
     /// Returns the value of an attribute, which must exist.
     pub fn required(self, attribute: &'static str) -> Result<&'a str, ReadError> {
-        let missing = || self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute });
-        self.text(attribute).ok_or_else(missing)
+        self.text(attribute).ok_or_else(|| self.missing(attribute))
+    }
+
+    /// Makes the error that an attribute is absent or empty.
+    pub fn missing(self, attribute: &'static str) -> ReadError {
+        match self.node.attribute(attribute) {
+            Some(_) => self.unexpected(attribute, "a value"),
+            None => self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute }),
+        }
     }
 
     /// Makes the error that the value of an attribute is not allowed.

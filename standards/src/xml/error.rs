@@ -83,6 +83,16 @@ pub enum Flaw {
         /// The name of the element that contains it.
         parent: String,
     },
+    /// An element contains two elements where the standard wants one of several.
+    #[error("<{parent}> has <{element}> beside <{first}>, expected only one of them")]
+    Chosen {
+        /// The name of the second element.
+        element: String,
+        /// The name of the element that contains both.
+        parent: String,
+        /// The name of the first element.
+        first: String,
+    },
     /// An element lacks a required attribute.
     #[error("<{element}> has no attribute `{attribute}`, which the standard requires")]
     MissingAttribute {
@@ -90,6 +100,19 @@ pub enum Flaw {
         element: String,
         /// The name of the missing attribute.
         attribute: &'static str,
+    },
+    /// An element has none or both of two attributes.
+    #[error(
+        "<{element}> has {} `{}` {} `{}`, expected one of them",
+        if *both { "both" } else { "neither" }, attributes[0], if *both { "and" } else { "nor" }, attributes[1]
+    )]
+    OneAttribute {
+        /// The name of the element.
+        element: String,
+        /// The names of the attributes.
+        attributes: [&'static str; 2],
+        /// `true` if the element has both attributes, `false` if it has none.
+        both: bool,
     },
     /// An element lacks a required child.
     #[error("<{element}> contains no <{child}>, expected at least one")]
@@ -159,7 +182,7 @@ pub enum Flaw {
         error: io::Error,
     },
     /// The values and the chances of a parameter do not fit.
-    #[error("the distribution makes no parameter: {0}")]
+    #[error("the parameter cannot have these values and chances: {0}")]
     Parameter(#[source] SpaceError),
     /// The roads of a map form no network.
     #[error("the map has no roads to drive on: {0}")]

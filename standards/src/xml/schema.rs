@@ -31,6 +31,8 @@ pub(crate) struct Row {
     /// The names of the attributes of the element, with spaces between them.
     pub attributes: &'static str,
     pub support: Support,
+    /// `true` if a parent can contain several of these elements.
+    pub repeats: bool,
 }
 
 /// An element of a standard within another element, and how it is supported.
@@ -44,7 +46,31 @@ pub struct Supported {
     pub support: Support,
 }
 
+/// The numbers of elements that a parent can contain.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Counts {
+    /// The elements with these names occur at most once within their parent, all others any number of times.
+    Once(&'static [&'static str]),
+    /// Elements occur at most once within their parent, unless their row says that they [repeat](Row::several). Of the elements of a
+    /// choice, a parent has one in all.
+    OnceExcept(&'static [Choice]),
+}
+
+/// Elements that contain one of several elements.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Choice {
+    /// The names of the elements, with `|` between them.
+    pub parents: &'static str,
+    /// The names of the elements within that do not belong to the choice, with `|` between them.
+    pub beside: &'static str,
+}
+
 impl Row {
+    /// Returns the same row of elements of which a parent can contain several.
+    pub const fn several(self) -> Self {
+        Self { repeats: true, ..self }
+    }
+
     /// Returns each element of the row within each of its parents.
     pub fn each(&self) -> impl Iterator<Item = Supported> + use<'_> {
         let Self { names, support, .. } = *self;
@@ -55,24 +81,23 @@ impl Row {
 
 /// Describes an element that is read.
 pub(crate) const fn read(parents: &'static str, names: &'static str, attributes: &'static str) -> Row {
-    Row { parents, names, attributes, support: Support::Read }
+    Row { parents, names, attributes, support: Support::Read, repeats: false }
 }
 
 /// Describes an element that has no effect.
 pub(crate) const fn no_effect(parents: &'static str, names: &'static str, reason: &'static str) -> Row {
-    Row { parents, names, attributes: "", support: Support::NoEffect(reason) }
+    Row { parents, names, attributes: "", support: Support::NoEffect(reason), repeats: false }
 }
 
 /// Describes an element that is refused.
 pub(crate) const fn refused(parents: &'static str, names: &'static str, reason: &'static str) -> Row {
-    Row { parents, names, attributes: "", support: Support::Refused(reason) }
+    Row { parents, names, attributes: "", support: Support::Refused(reason), repeats: false }
 }
 
 /// The elements of a standard by their parents.
 #[derive(Debug)]
 pub(crate) struct Schema {
-    /// The elements that occur at most once within their parent.
-    once: &'static [&'static str],
+    counts: Counts,
     children: BTreeMap<&'static str, BTreeMap<&'static str, &'static Row>>,
 }
 
@@ -109,8 +134,8 @@ const ANYWHERE: &str = "*";
 const NOT_IN_STANDARD: &str = "the standard does not have this attribute";
 
 impl Schema {
-    /// Makes the table of a standard. The elements in `once` occur at most once within their parent.
-    pub fn new(rows: &'static [Row], once: &'static [&'static str]) -> Self {
+    /// Makes the table of a standard.
+    pub fn new(rows: &'static [Row], counts: Counts) -> Self {
         let mut children: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
         for row in rows {
             for parent in row.parents.split('|') {
@@ -119,7 +144,7 @@ impl Schema {
                 }
             }
         }
-        Self { once, children }
+        Self { counts, children }
     }
 
     /// Checks an element and all that it contains. Returns the parts that have no effect.
@@ -128,16 +153,10 @@ impl Schema {
         // A stack of our own: a file may nest elements deeply.
         let mut open = vec![root];
         while let Some(parent) = open.pop() {
-            let mut seen = Vec::new();
+            let mut seen = Seen::default();
             for element in parent.elements() {
-                if let Some(name) = self.once.iter().find(|name| **name == element.name()) {
-                    if seen.contains(name) {
-                        let [element_name, parent] = [element, parent].map(|of| of.name().to_owned());
-                        return Err(element.error(Flaw::Repeated { element: element_name, parent }));
-                    }
-                    seen.push(name);
-                }
                 let row = self.row(parent, element)?;
+                self.count(parent, element, row, &mut seen)?;
                 match row.support {
                     Support::Read => {
                         self.check_attributes(row, element, &mut found);
@@ -154,6 +173,35 @@ impl Schema {
         let mut found: Vec<_> = found.into_values().collect();
         found.sort_by_key(|note| note.line);
         Ok(found)
+    }
+
+    /// Counts an element within its parent.
+    fn count<'a>(
+        &self,
+        parent: Element<'a, '_>,
+        element: Element<'a, '_>,
+        row: &Row,
+        seen: &mut Seen<'a>,
+    ) -> Result<(), ReadError> {
+        let name = element.name();
+        let (is_single, choice) = match self.counts {
+            Counts::Once(names) => (names.contains(&name), None),
+            Counts::OnceExcept(choices) => (!row.repeats, choices.iter().find(|choice| choice.is_of(parent, name))),
+        };
+        let [element_name, parent_name] = [element, parent].map(|of| of.name().to_owned());
+        if (is_single || choice.is_some()) && seen.names.contains(&name) {
+            return Err(element.error(Flaw::Repeated { element: element_name, parent: parent_name }));
+        }
+        if let Some(first) = seen.chosen.filter(|_| choice.is_some()) {
+            let first = first.to_owned();
+            return Err(element.error(Flaw::Chosen { element: element_name, parent: parent_name, first }));
+        }
+        // Elements that repeat may be very many.
+        if is_single || choice.is_some() {
+            seen.names.push(name);
+        }
+        seen.chosen = seen.chosen.or(choice.map(|_| name));
+        Ok(())
     }
 
     /// Notes the attributes of an element that have no effect. In the table, their names begin with `@`.
@@ -180,6 +228,22 @@ impl Schema {
                 nearest: nearest(element.name(), names),
             })
         })
+    }
+}
+
+/// The elements of a parent that have been counted.
+#[derive(Default)]
+struct Seen<'a> {
+    /// The names of the elements that must not occur again.
+    names: Vec<&'a str>,
+    /// The element of the choice.
+    chosen: Option<&'a str>,
+}
+
+impl Choice {
+    /// Returns `true` if an element with a name is one of the choice within its parent.
+    fn is_of(&self, parent: Element<'_, '_>, name: &str) -> bool {
+        self.parents.split('|').any(|of| of == parent.name()) && !self.beside.split('|').any(|beside| beside == name)
     }
 }
 

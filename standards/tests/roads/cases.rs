@@ -15,7 +15,7 @@ fn read(name: &str) -> Map {
 }
 
 /// A file with one straight road, with texts in place of parts of it.
-fn with(changes: &[(&str, &str)]) -> String {
+pub fn with(changes: &[(&str, &str)]) -> String {
     let mut text = r#"<OpenDRIVE>
 <header revMajor="1" revMinor="6"/>
 <road id="1" length="50" junction="-1">
@@ -35,16 +35,16 @@ fn with(changes: &[(&str, &str)]) -> String {
     text
 }
 
-fn parse(text: String) -> Result<Map, String> {
+pub fn parse(text: String) -> Result<Map, String> {
     Map::parse("road.xodr".as_ref(), text).map_err(|error| error.to_string())
 }
 
-fn in_file(note: &Note) -> String {
+pub fn in_file(note: &Note) -> String {
     note.in_file("x.xodr".as_ref())
 }
 
 #[track_caller]
-fn refuses(changes: &[(&str, &str)], says: &str) {
+pub fn refuses(changes: &[(&str, &str)], says: &str) {
     let message = parse(with(changes)).expect_err("it was accepted");
     assert!(message.contains(says), "expected `{says}` in: {message}");
 }

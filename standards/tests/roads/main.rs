@@ -1,5 +1,6 @@
 //! Files of roads: our own small files, and published maps with the results of another program.
 
+mod bounds;
 mod cases;
 mod judge;
 mod lanes;

@@ -32,7 +32,7 @@ fn messages(found: &str, by: &str) -> String {
     messages_of("slow-leader.xosc", found, by)
 }
 
-fn messages_of(scenario: &str, found: &str, by: &str) -> String {
+pub fn messages_of(scenario: &str, found: &str, by: &str) -> String {
     let (folder, path) = changed_in(scenario, found, by);
     match Xosc::read(&path) {
         Err(error) => {
@@ -69,7 +69,11 @@ fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
         ),
         ("straight.xodr", "strait.xodr", "strait.xodr (did you mean `straight.xodr`?)"),
         ("straight.xodr", "/etc/hostname", "expected a path in the folder of the scenario"),
-        ("straight.xodr", "../../../../../../../../../../etc/hostname", "which does not lead to the root"),
+        (
+            "straight.xodr",
+            "../../../../../../../../../../etc/hostname",
+            "a relative path that does not lead up to the root",
+        ),
         ("Directory path=\"catalogs\"", "Directory path=\"/etc\"", "15: `path=\"/etc\"` of <Directory> is not allowed"),
         ("Directory path=\"catalogs\"", "Directory path=\"cats\"", "15: the folder "),
         ("maximumExecutionCount=\"1\"", "maximumExecutionCount=\"-1\"", "expected a whole number above 0"),
@@ -202,7 +206,9 @@ fn a_mistake_in_an_action_or_a_condition_is_reported() {
 
 /// Returns a file in which an element stands within all its ancestors.
 fn nested(path: &[&str]) -> String {
+    let header = "<FileHeader revMajor=\"1\" revMinor=\"3\"/>";
     let open: String = path.iter().map(|name| format!("<{name}>")).collect();
+    let open = open.replacen('>', &format!(">{header}"), 1);
     let close: String = path.iter().rev().map(|name| format!("</{name}>")).collect();
     open + &close
 }

@@ -10,6 +10,8 @@ mod others;
 mod page;
 mod parameters;
 mod semantics;
+mod strict;
+mod strict_values;
 mod things;
 mod weather;
 mod worlds;

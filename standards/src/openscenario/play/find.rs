@@ -7,6 +7,7 @@ use crate::openscenario::place::{Place, driving_turn};
 use crate::openscenario::position::{Position, Route, RoutePlace, Turn, Way};
 use crate::openscenario::project::project;
 use crate::openscenario::route::{Legs, Stop};
+use crate::xml::rounded;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -17,9 +18,9 @@ use thiserror::Error;
 pub(in crate::openscenario) enum Lost {
     #[error("the map has no road `{road}`{}", paracosm_space::did_you_mean(nearest))]
     NoRoad { road: String, nearest: Option<String> },
-    #[error("road `{road}` has no lane {lane} at s = {s} m, its lanes are {first} to {last}")]
+    #[error("road `{road}` has no lane {lane} at s = {} m, its lanes are {first} to {last}", rounded(*s))]
     NoLane { road: String, lane: i32, s: f64, first: i32, last: i32 },
-    #[error("road `{road}` has no place at s = {s} m, it is {length} m long")]
+    #[error("road `{road}` has no place at s = {} m, it is {} m long", rounded(*s), rounded(*length))]
     NoPlace { road: String, s: f64, length: f64 },
     #[error("`{entity}` is beside all roads or has no place yet, so it has no place on a lane")]
     OffRoad { entity: String },
