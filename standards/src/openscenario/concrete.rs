@@ -9,6 +9,7 @@ use super::parameters::EGO;
 use super::program::{ROOT, Xosc};
 use super::reference::{CONDITION, ELEMENT, within};
 use super::scope::{Node, Scope};
+use super::site::Sites;
 use super::story::Storyboard;
 use super::unique::Renamed;
 use crate::xml::{Edits, Element, ReadError, escaped};
@@ -70,7 +71,7 @@ impl Xosc {
         let scope = self.parameters.values(Node { element: root, scope: &Scope::default() }, test)?;
         let root = Node { element: root, scope: &scope };
         let map = self.roads_in(root.child("RoadNetwork")?.child("LogicFile")?)?.map;
-        let board = Storyboard::read(root, &catalogs)?;
+        let board = Storyboard::read(root, &catalogs, Sites { map: &map, with_test: true })?;
         let ego = test.get(EGO).map_or_else(|| board.entities[board.usual_ego()].name.clone(), ToString::to_string);
         let renamed = Renamed::of(&board);
         let notes = renamed.notes().collect();

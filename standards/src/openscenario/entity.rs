@@ -21,6 +21,8 @@ pub(super) struct Entity {
     pub vehicle: Option<Limits>,
     /// `true` if the scenario assigns a controller to the entity.
     pub is_controlled: bool,
+    /// The line of the `ScenarioObject`.
+    pub line: u32,
 }
 
 /// A name for entities, by their indices.
@@ -51,27 +53,24 @@ pub(super) struct Limits {
 impl Entity {
     /// Reads all entities of a scenario, and the selections of entities with the indices of their members.
     pub fn all(entities: Node<'_>, catalogs: &Catalogs<'_>) -> Result<(Vec<Self>, Vec<Selection>), ReadError> {
-        let mut read: Vec<(Self, u32)> = Vec::new();
+        let mut read: Vec<Self> = Vec::new();
         for object in entities.elements() {
             if object.name() == "EntitySelection" {
                 continue;
             }
             let name = object.required("name")?.into_owned();
-            if let Some((_, first)) = read.iter().find(|(other, _)| other.name == name) {
-                let (element, attribute, first) = (object.name().to_owned(), "name", *first);
+            if let Some(other) = read.iter().find(|other| other.name == name) {
+                let (element, attribute, first) = (object.name().to_owned(), "name", other.line);
                 return Err(object.error(Flaw::Taken { element, attribute, found: name, first }));
             }
-            let is_controlled = object.first("ObjectController").is_some();
+            let (is_controlled, line) = (object.first("ObjectController").is_some(), object.element.line());
             let kind = object.choice("Vehicle, Pedestrian, MiscObject or CatalogReference")?;
-            let entity = catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| {
-                Self::one(node, name.clone(), is_controlled)
-            })?;
-            read.push((entity, object.element.line()));
+            let entity = catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| Self::one(node, &name))?;
+            read.push(Self { is_controlled, line, ..entity });
         }
-        let all: Vec<Self> = read.into_iter().map(|(entity, _)| entity).collect();
-        let selections = entities.all("EntitySelection").map(|selection| Self::selection(selection, &all));
+        let selections = entities.all("EntitySelection").map(|selection| Self::selection(selection, &read));
         let selections = selections.collect::<Result<_, ReadError>>()?;
-        Ok((all, selections))
+        Ok((read, selections))
     }
 
     fn selection(selection: Node<'_>, all: &[Self]) -> Result<Selection, ReadError> {
@@ -106,7 +105,7 @@ impl Entity {
             .map_or(limits, |own| [acceleration.min(own.acceleration), deceleration.min(own.deceleration), speed])
     }
 
-    fn one(node: Node<'_>, name: String, is_controlled: bool) -> Result<Self, ReadError> {
+    fn one(node: Node<'_>, name: &str) -> Result<Self, ReadError> {
         let class = match node.name() {
             "Vehicle" => node.one_of("vehicleCategory", &VEHICLES)?,
             "Pedestrian" => Class::Pedestrian,
@@ -124,12 +123,13 @@ impl Entity {
         // Files give things no extent where none matters; a body has some.
         let [length, width, height] = [length, width, height].map(|metres| metres.max(LEAST_EXTENT));
         Ok(Self {
-            name,
+            name: name.to_owned(),
             body: Body::block(class, length, width, height),
             middle: Vector2::new(centre.number("x")?, centre.number("y")?),
             half: Vector2::new(0.5 * length, 0.5 * width),
             vehicle,
-            is_controlled,
+            is_controlled: false,
+            line: 0,
         })
     }
 }

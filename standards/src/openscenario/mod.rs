@@ -31,6 +31,7 @@ mod reference;
 mod route;
 mod rule;
 mod scope;
+mod site;
 mod state;
 mod story;
 mod sun;

@@ -5,12 +5,14 @@ use super::condition::{Check, Condition};
 use super::constraints::{constraint, of_scenario};
 use super::distribution::Distribution;
 use super::elements::schema;
+use super::entity::Entity;
 use super::linked;
 use super::local::Local;
 use super::measure::Measure;
 use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
-use super::play::Stage;
+use super::play::{Stage, Unplayable};
 use super::scope::{Node, Scope};
+use super::site::Sites;
 use super::story::Storyboard;
 use super::weather;
 use crate::opendrive::{Map, Thing};
@@ -34,6 +36,8 @@ const BEYOND: f64 = 1.0;
 const LATEST: f64 = 3600.0;
 /// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
 const ONWARD: f64 = 5000.0;
+/// The names of objects of the world that come before the entities, with what they are.
+const BEFORE: [(&str, &str); 2] = [("car", "the ego vehicle"), ("storyboard", "the storyboard")];
 /// The outermost element of a file.
 pub(super) const ROOT: &str = "OpenSCENARIO";
 
@@ -146,7 +150,7 @@ impl Xosc {
         };
         let constraints = of_scenario(&parameters)?;
         let read = Self { name, folder, document, catalogs, parameters, constraints, notes, roads: Mutex::default() };
-        read.board(&mut declared_values)?;
+        read.board(&mut declared_values, false)?;
         Ok(read)
     }
 
@@ -156,12 +160,12 @@ impl Xosc {
     }
 
     fn build(&self, s: &mut Scenario) {
-        let Read { board, roads, constraints, found } = match self.board(&mut |root| self.parameters.declared(root, s))
+        let Read { board, roads, constraints, found } = match self.board(&mut |root| self.parameters.declared(root, s), true)
         {
             Ok(read) => read,
             Err(error) => return s.refuse(&error.to_string()),
         };
-        s.note(|| [&self.notes, &found.notes(), &roads.notes[..]].concat());
+        s.note(|| [&self.notes, &self.notes_on(&board), &found.notes(), &roads.notes[..]].concat());
         for constraint in self.constraints.iter().cloned().chain(constraints) {
             s.constrain(constraint);
         }
@@ -171,6 +175,13 @@ impl Xosc {
         parameter.default = Some(usual.as_str().into());
         let chosen = s.parameter(Declared { open: false, ..Declared::open(parameter) }).value();
         let ego = board.entities.iter().position(|entity| chosen == entity.name.as_str().into()).unwrap_or_default();
+        if !board.places(ego) {
+            let Entity { name, line, .. } = &board.entities[ego];
+            return s.refuse(&format!(
+                "{}:{line}: the ego vehicle `{name}` has no place at the beginning, expected a TeleportAction of `{name}` in Init",
+                self.document.file().display()
+            ));
+        }
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
@@ -200,6 +211,21 @@ impl Xosc {
         s.monitor(Monitor::no_collision(&car));
     }
 
+    /// Describes entities whose place or whose signals may surprise.
+    fn notes_on(&self, board: &Storyboard) -> Vec<String> {
+        let file = self.document.file().display();
+        let unplaced = board.unplaced().map(|Entity { name, line, .. }| {
+            format!("{file}:{line}: `{name}` begins at the place (0, 0), because no initial action gives it a place")
+        });
+        let named = board.entities.iter().filter_map(|Entity { name, line, .. }| {
+            let (_, other) = BEFORE.iter().find(|(taken, _)| taken == name)?;
+            Some(format!(
+                "{file}:{line}: the signals of the entity `{name}` are `{name}-2.*`, because `{name}` is {other}"
+            ))
+        });
+        unplaced.chain(named).collect()
+    }
+
     fn show(&self, s: &mut Scenario, stage: &Rc<RefCell<Stage>>, index: usize, has_body: bool) {
         let actor = stage.borrow().cast.actors[index].clone();
         let mut draft = s.object(&actor.entity.name);
@@ -218,8 +244,13 @@ impl Xosc {
         draft.geometric(shown);
     }
 
-    /// Reads the storyboard and the roads, with the values of parameters that `values` gives.
-    fn board(&self, values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>) -> Result<Read, ReadError> {
+    /// Reads the storyboard and the roads, with the values of parameters that `values` gives. `with_test` is `true` if these are the
+    /// values of a test.
+    fn board(
+        &self,
+        values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>,
+        with_test: bool,
+    ) -> Result<Read, ReadError> {
         let tree = self.document.tree()?;
         let root = self.document.root(&tree, ROOT)?;
         let trees = self.catalogs.trees()?;
@@ -228,7 +259,7 @@ impl Xosc {
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;
         let roads = self.roads_in(logic)?;
-        let board = Storyboard::read(root, &catalogs)?;
+        let board = Storyboard::read(root, &catalogs, Sites { map: &roads.map, with_test })?;
         let found = catalogs.found();
         let stated = |local: &Local| constraint(&self.parameters, &local.scope, local.scope.len() - 1, &local.demand);
         let constraints =
@@ -334,8 +365,8 @@ impl Geometric for Director {
             *truth = tick.get(input) == Some(true);
         }
         let played = self.stage.borrow_mut().play(&self.truths, tick.dt());
-        played.map_err(|(action, lost)| InputError::Impossible {
-            object: "storyboard".to_owned(),
+        played.map_err(|Unplayable { file, line, action, lost }| InputError::Impossible {
+            object: format!("{}:{line}", file.display()),
             action,
             reason: lost.to_string(),
         })

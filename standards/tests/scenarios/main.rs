@@ -9,6 +9,7 @@ mod golden;
 mod others;
 mod page;
 mod parameters;
+mod places;
 mod semantics;
 mod things;
 mod weather;
