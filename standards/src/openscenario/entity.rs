@@ -65,7 +65,8 @@ impl Entity {
             }
             let (is_controlled, line) = (object.first("ObjectController").is_some(), object.element.line());
             let kind = object.choice("Vehicle, Pedestrian, MiscObject or CatalogReference")?;
-            let entity = catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| Self::one(node, &name))?;
+            let entity =
+                catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| Self::one(node, &name))?;
             read.push(Self { is_controlled, line, ..entity });
         }
         let selections = entities.all("EntitySelection").map(|selection| Self::selection(selection, &read));

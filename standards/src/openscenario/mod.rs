@@ -42,6 +42,6 @@ mod weather;
 
 pub use concrete::Concrete;
 pub use elements::elements;
-pub use export::{EgoAs, Export};
+pub use export::{EgoAs, Export, Original};
 pub use parameters::EGO;
 pub use program::Xosc;

@@ -160,11 +160,11 @@ impl Xosc {
     }
 
     fn build(&self, s: &mut Scenario) {
-        let Read { board, roads, constraints, found } = match self.board(&mut |root| self.parameters.declared(root, s), true)
-        {
-            Ok(read) => read,
-            Err(error) => return s.refuse(&error.to_string()),
-        };
+        let Read { board, roads, constraints, found } =
+            match self.board(&mut |root| self.parameters.declared(root, s), true) {
+                Ok(read) => read,
+                Err(error) => return s.refuse(&error.to_string()),
+            };
         s.note(|| [&self.notes, &self.notes_on(&board), &found.notes(), &roads.notes[..]].concat());
         for constraint in self.constraints.iter().cloned().chain(constraints) {
             s.constrain(constraint);

@@ -496,7 +496,9 @@ fn more_than_a_hundred_thousand_roads_are_refused() {
 #[test]
 fn a_curve_that_is_longer_than_any_road_is_refused_with_its_line() {
     let curve = |d: &str| {
-        let shape = format!("<paramPoly3 aU=\"0\" bU=\"50\" cU=\"0\" dU=\"0\" aV=\"0\" bV=\"0\" cV=\"0\" dV=\"{d}\" pRange=\"normalized\"/>");
+        let shape = format!(
+            "<paramPoly3 aU=\"0\" bU=\"50\" cU=\"0\" dU=\"0\" aV=\"0\" bV=\"0\" cV=\"0\" dV=\"{d}\" pRange=\"normalized\"/>"
+        );
         with(&[("<line/>", &shape)])
     };
     let message = parse(curve("1e9")).expect_err("it was accepted");

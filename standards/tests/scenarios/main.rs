@@ -12,5 +12,6 @@ mod parameters;
 mod places;
 mod semantics;
 mod things;
+mod trajectories;
 mod weather;
 mod worlds;

@@ -114,7 +114,11 @@ fn a_place_that_depends_on_the_test_is_checked_with_the_values_of_the_test() {
 #[test]
 fn the_value_of_a_declaration_that_no_test_has_may_name_no_place() {
     // The tests have the gaps of the distribution.
-    let (folder, path) = changed_in("slow-leader.xosc", "name=\"gap\" parameterType=\"double\" value=\"50\"", "name=\"gap\" parameterType=\"double\" value=\"5000\"");
+    let (folder, path) = changed_in(
+        "slow-leader.xosc",
+        "name=\"gap\" parameterType=\"double\" value=\"50\"",
+        "name=\"gap\" parameterType=\"double\" value=\"5000\"",
+    );
     let text = std::fs::read_to_string(super::worlds::file("slow-leader-variation.xosc")).unwrap();
     let variation = folder.path().join("variation.xosc");
     std::fs::write(&variation, text.replace("slow-leader.xosc", "bad.xosc")).unwrap();
@@ -188,7 +192,8 @@ fn an_entity_without_a_place_at_the_beginning_is_noted_with_its_line() {
 fn the_ego_vehicle_needs_a_place_at_the_beginning() {
     let of_ego = OF_LEADER.replace("$start", "10");
     let message = messages_of("slow-leader.xosc", &of_ego, "");
-    let expected = "bad.xosc:19: the ego vehicle `Ego` has no place at the beginning, expected a TeleportAction of `Ego` in Init";
+    let expected =
+        "bad.xosc:19: the ego vehicle `Ego` has no place at the beginning, expected a TeleportAction of `Ego` in Init";
     assert!(message.contains(expected), "{message}");
 }
 
@@ -230,7 +235,8 @@ fn a_set_of_very_many_values_is_read_soon() {
     let (folder, _) = changed_in("slow-leader.xosc", "", "");
     std::fs::copy(super::worlds::file("slow-leader.xosc"), folder.path().join("slow-leader.xosc")).unwrap();
     let text = std::fs::read_to_string(super::worlds::file("slow-leader-variation.xosc")).unwrap();
-    let all: String = (0..100_000).map(|number| format!("<Element value=\"{}\"/>\n", 1000.0 + 0.001 * f64::from(number))).collect();
+    let all: String =
+        (0..100_000).map(|number| format!("<Element value=\"{}\"/>\n", 1000.0 + 0.001 * f64::from(number))).collect();
     let path = folder.path().join("variation.xosc");
     std::fs::write(&path, text.replacen("<DistributionSet>", &format!("<DistributionSet>{all}"), 1)).unwrap();
     let begin = std::time::Instant::now();
