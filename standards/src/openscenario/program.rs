@@ -36,8 +36,6 @@ const BEYOND: f64 = 1.0;
 const LATEST: f64 = 3600.0;
 /// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
 const ONWARD: f64 = 5000.0;
-/// The names of objects of the world that come before the entities, with what they are.
-const BEFORE: [(&str, &str); 2] = [("car", "the ego vehicle"), ("storyboard", "the storyboard")];
 /// The outermost element of a file.
 pub(super) const ROOT: &str = "OpenSCENARIO";
 
@@ -165,7 +163,7 @@ impl Xosc {
                 Ok(read) => read,
                 Err(error) => return s.refuse(&error.to_string()),
             };
-        s.note(|| [&self.notes, &self.notes_on(&board), &found.notes(), &roads.notes[..]].concat());
+        s.note(|| [&self.notes, &board.remarks(self.document.file()), &found.notes(), &roads.notes[..]].concat());
         for constraint in self.constraints.iter().cloned().chain(constraints) {
             s.constrain(constraint);
         }
@@ -209,21 +207,6 @@ impl Xosc {
             s.premise(&end);
         }
         s.monitor(Monitor::no_collision(&car));
-    }
-
-    /// Describes entities whose place or whose signals may surprise.
-    fn notes_on(&self, board: &Storyboard) -> Vec<String> {
-        let file = self.document.file().display();
-        let unplaced = board.unplaced().map(|Entity { name, line, .. }| {
-            format!("{file}:{line}: `{name}` begins at the place (0, 0), because no initial action gives it a place")
-        });
-        let named = board.entities.iter().filter_map(|Entity { name, line, .. }| {
-            let (_, other) = BEFORE.iter().find(|(taken, _)| taken == name)?;
-            Some(format!(
-                "{file}:{line}: the signals of the entity `{name}` are `{name}-2.*`, because `{name}` is {other}"
-            ))
-        });
-        unplaced.chain(named).collect()
     }
 
     fn show(&self, s: &mut Scenario, stage: &Rc<RefCell<Stage>>, index: usize, has_body: bool) {

@@ -13,8 +13,10 @@ use super::scope::Node;
 use super::site::Sites;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+/// The names of objects of the world that come before the entities, with what they are.
+const BEFORE: [(&str, &str); 2] = [("car", "the ego vehicle"), ("storyboard", "the storyboard")];
 /// The storyboard of a scenario, with the entities that act in it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Storyboard {
@@ -196,13 +198,28 @@ impl Storyboard {
     }
 
     /// Returns the entities that are in the world from the beginning on although no initial action gives them a place.
-    pub fn unplaced(&self) -> impl Iterator<Item = &Entity> {
+    fn unplaced(&self) -> impl Iterator<Item = &Entity> {
         let is_added = |entity: usize| {
             let adds = |item: &Item| matches!(&item.kind, Kind::Action(of, Action::Add(_)) if of.contains(&entity));
             self.items.iter().any(adds)
         };
         let unplaced = (0..self.entities.len()).filter(move |entity| !self.places(*entity) && !is_added(*entity));
         unplaced.map(|entity| &self.entities[entity])
+    }
+
+    /// Describes entities whose place or whose signals may surprise.
+    pub fn remarks(&self, file: &Path) -> Vec<String> {
+        let file = file.display();
+        let unplaced = self.unplaced().map(|Entity { name, line, .. }| {
+            format!("{file}:{line}: `{name}` begins at the place (0, 0), because no initial action gives it a place")
+        });
+        let named = self.entities.iter().filter_map(|Entity { name, line, .. }| {
+            let (_, other) = BEFORE.iter().find(|(taken, _)| taken == name)?;
+            Some(format!(
+                "{file}:{line}: the signals of the entity `{name}` are `{name}-2.*`, because `{name}` is {other}"
+            ))
+        });
+        unplaced.chain(named).collect()
     }
 
     /// Returns `true` if the weather can change during a run.
