@@ -74,7 +74,7 @@ impl Options {
         }
         let (files, notes) = match file_of(study)? {
             Some(file) if self.ego_as == Ego::Controller => storyboard(&file, &study.complete(&logged.test))?,
-            _ => self.trajectories(&log, logged)?,
+            file => self.trajectories(&log, logged, file.as_deref())?,
         };
         create_folder(&self.out)?;
         for (name, text) in [SCENARIO, ROADS].iter().zip(files) {
@@ -85,8 +85,9 @@ impl Options {
         Ok(Status::Nothing)
     }
 
-    /// Returns the texts of the scenario and of its roads if everything follows the trajectories of the test, with notes.
-    fn trajectories(&self, log: &Log, logged: &Trial) -> Result<Written, Failure> {
+    /// Returns the texts of the scenario and of its roads if everything follows the trajectories of the test, with notes. `file` is
+    /// the file of the scenario.
+    fn trajectories(&self, log: &Log, logged: &Trial, file: Option<&Path>) -> Result<Written, Failure> {
         let study = log.study();
         let recording = Worker::new(study)?.record(logged)?;
         let about = format!("{}, test {}", study.title(), self.index);
@@ -98,7 +99,12 @@ impl Options {
             Ego::Trajectory => EgoAs::Trajectory,
             Ego::Controller => EgoAs::Controller,
         };
-        let export = Export { about: &about, date: DATE, roads: ROADS, map: &map, motion: &recording.motion, ego };
+        let originals = match file {
+            Some(file) => Xosc::read(file)?.originals(&study.complete(&logged.test))?,
+            None => Vec::new(),
+        };
+        let motion = &recording.motion;
+        let export = Export { about: &about, date: DATE, roads: ROADS, map: &map, motion, originals: &originals, ego };
         let mut notes = Vec::new();
         let missing: Vec<&str> = export.never_there().collect();
         if !missing.is_empty() {

@@ -100,6 +100,9 @@ fn exported_tests_are_read_back_with_the_same_motion() {
         assert!(far <= CLOSE, "{name}: {far} m");
         eprintln!("{name}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
     }
+    // The entities of a file keep their boxes and names, so their reference points move as recorded.
+    let text = fs::read_to_string(dir.path().join("leader-case/scenario.xosc")).expect("it is there");
+    assert!(text.contains("<ScenarioObject name=\"Leader\">") && text.contains("<Center x=\"1.4\""), "{text}");
 }
 
 #[test]

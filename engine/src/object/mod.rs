@@ -96,7 +96,7 @@ pub enum InputError {
     /// The object cannot do what it is told.
     #[error("{object}: `{action}` is impossible: {reason}")]
     Impossible {
-        /// The name of the object.
+        /// The name of the object, or the place of the action in a file.
         object: String,
         /// The name of the action.
         action: String,

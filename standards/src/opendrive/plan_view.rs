@@ -214,10 +214,9 @@ impl Polynomials {
         pair
     }
 
-    /// Returns `true` if the curve has a finite length that is not zero.
-    pub(super) fn has_length(&self) -> bool {
-        let length = self.knots[KNOTS];
-        length > 0.0 && length.is_finite()
+    /// Returns the length of the curve in metres, which need not be finite.
+    pub(super) fn length(&self) -> f64 {
+        self.knots[KNOTS]
     }
 
     /// Returns the coefficients a, b, c and d of u(p) and of v(p).

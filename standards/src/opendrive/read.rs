@@ -189,9 +189,22 @@ fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
             };
             let u = numbers(element, ["aU", "bU", "cU", "dU"])?;
             let v = numbers(element, ["aV", "bV", "cV", "dV"])?;
-            polynomials(element, "bU", length, Polynomials::new(u, v, [end, length]))?
+            let pair = Polynomials::new(u, v, [end, length]);
+            if pair.length() > LONGEST {
+                return Err(too_long(element, pair.length()));
+            }
+            polynomials(element, "bU", length, pair)?
         }
     })
+}
+
+/// Makes the error that a curve is longer than any road. It names the coefficient with the greatest magnitude.
+fn too_long(element: Element<'_, '_>, metres: f64) -> ReadError {
+    let magnitude = |name: &str| element.text(name).and_then(|text| text.parse().ok()).map_or(0.0, f64::abs);
+    let names = ["bU", "cU", "dU", "bV", "cV", "dV"].into_iter();
+    let greatest = names.max_by(|a, b| magnitude(a).total_cmp(&magnitude(b))).unwrap_or("bU");
+    let expected = format!("coefficients of a curve that is at most {LONGEST} m long, and this one has {metres:.0} m");
+    element.unexpected(greatest, expected)
 }
 
 /// Checks that a curve of polynomials has a length. `attribute` is the coefficient that usually gives it.
@@ -201,7 +214,7 @@ fn polynomials(
     length: f64,
     pair: Polynomials,
 ) -> Result<Shape, ReadError> {
-    if length == 0.0 || pair.has_length() {
+    if length == 0.0 || pair.length() > 0.0 && pair.length().is_finite() {
         Ok(Shape::Polynomials(pair))
     } else {
         Err(element.unexpected(attribute, format!("coefficients of a curve that is about {length} m long")))

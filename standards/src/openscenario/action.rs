@@ -269,7 +269,10 @@ impl Action {
                     "RelativeTargetLane" => {
                         Lane::Relative { entity: names.entity(target, "entityRef")?, lanes: target.whole("value")? }
                     }
-                    _ => Lane::Absolute(target.lane("value")?),
+                    _ => {
+                        names.sites.check_lane(target, "value")?;
+                        Lane::Absolute(target.lane("value")?)
+                    }
                 };
                 let dynamics = Dynamics::read(node.child("LaneChangeActionDynamics")?)?;
                 Ok(Self::LaneChange { dynamics, lane, offset: node.number_or("targetLaneOffset", 0.0)? })

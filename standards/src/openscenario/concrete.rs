@@ -9,8 +9,10 @@ use super::parameters::EGO;
 use super::program::{ROOT, Xosc};
 use super::reference::{CONDITION, ELEMENT, within};
 use super::scope::{Node, Scope};
+use super::site::Sites;
 use super::story::Storyboard;
 use super::unique::Renamed;
+use crate::opendrive::Map;
 use crate::xml::{Edits, Element, ReadError, escaped};
 use paracosm_space::Values;
 use std::sync::Arc;
@@ -63,19 +65,48 @@ impl Xosc {
     /// # Errors
     /// The scenario cannot be read with these values.
     pub fn concrete(&self, test: &Values, roads: &str) -> Result<Concrete, ReadError> {
+        self.valued(test, |valued| valued.written(roads))
+    }
+
+    /// Reads the scenario with the values of a test, and calls a function with it.
+    pub(super) fn valued<T>(
+        &self,
+        test: &Values,
+        then: impl FnOnce(Valued<'_>) -> Result<T, ReadError>,
+    ) -> Result<T, ReadError> {
         let tree = self.document.tree()?;
         let root = self.document.root(&tree, ROOT)?;
         let trees = self.catalogs.trees()?;
-        let catalogs = self.catalogs.catalogs(&trees)?;
+        let catalogs = &self.catalogs.catalogs(&trees)?;
         let scope = self.parameters.values(Node { element: root, scope: &Scope::default() }, test)?;
         let root = Node { element: root, scope: &scope };
         let map = self.roads_in(root.child("RoadNetwork")?.child("LogicFile")?)?.map;
-        let board = Storyboard::read(root, &catalogs)?;
-        let ego = test.get(EGO).map_or_else(|| board.entities[board.usual_ego()].name.clone(), ToString::to_string);
+        let board = Storyboard::read(root, catalogs, Sites { map: &map, with_test: true })?;
+        let chosen = test.get(EGO).map(ToString::to_string);
+        let chosen = chosen.and_then(|name| board.entities.iter().position(|entity| entity.name == name));
+        let ego = chosen.unwrap_or_else(|| board.usual_ego());
+        then(Valued { root, catalogs, map, board, ego })
+    }
+}
+
+/// A scenario with the values of a test.
+pub(super) struct Valued<'v> {
+    pub root: Node<'v>,
+    pub catalogs: &'v Catalogs<'v>,
+    pub map: Arc<Map>,
+    pub board: Storyboard,
+    /// The index of the ego vehicle.
+    pub ego: usize,
+}
+
+impl Valued<'_> {
+    fn written(self, roads: &str) -> Result<Concrete, ReadError> {
+        let Self { root, catalogs, map, board, ego } = self;
+        let ego = board.entities[ego].name.clone();
         let renamed = Renamed::of(&board);
         let notes = renamed.notes().collect();
-        let mut writing = Writing { catalogs: &catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
-        let mut edits = writing.edits(root.element, &scope, "", &[])?;
+        let mut writing = Writing { catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
+        let mut edits = writing.edits(root.element, root.scope, "", &[])?;
         if !board.activates(&ego) {
             let is_first_version = root.child("FileHeader")?.element.text("revMinor") == Some("0");
             let [begin, end] = if is_first_version { ["", ""] } else { ["<ControllerAction>", "</ControllerAction>"] };

@@ -5,6 +5,7 @@ use super::scope::Node;
 use crate::xml::{Flaw, ReadError};
 use paracosm_engine::Declared;
 use paracosm_space::{self as space, Domain, Parameter, Space, Value};
+use std::collections::BTreeSet;
 
 /// The greatest number of values that a range with a step may list.
 const MOST_LEVELS: f64 = 10_000.0;
@@ -57,10 +58,15 @@ impl Distribution {
             let (names, kinds, values) = match kind.name() {
                 "DistributionSet" => {
                     let (name, of) = name(node)?;
-                    let mut levels: Vec<Vec<String>> = Vec::new();
+                    let (mut levels, mut known): (Vec<Vec<String>>, _) = (Vec::new(), BTreeSet::new());
                     for element in some(kind, "Element")? {
                         let text = of.required(element, "value")?;
-                        if levels.iter().flatten().any(|known| of.value(known) == of.value(&text)) {
+                        // A zero with a sign is a zero.
+                        let written = match of.value(&text) {
+                            Value::Number(number) => (number + 0.0).to_string(),
+                            other => other.to_string(),
+                        };
+                        if !known.insert(written) {
                             return Err(element.unexpected("value", &text, "a value that the set does not have yet"));
                         }
                         levels.push(vec![text.into_owned()]);

@@ -22,6 +22,8 @@ pub(super) struct Entity {
     pub vehicle: Option<Limits>,
     /// `true` if the scenario assigns a controller to the entity.
     pub is_controlled: bool,
+    /// The line of the `ScenarioObject`.
+    pub line: u32,
 }
 
 /// A name for entities, by their indices.
@@ -52,7 +54,7 @@ pub(super) struct Limits {
 impl Entity {
     /// Reads all entities of a scenario, and the selections of entities with the indices of their members.
     pub fn all(entities: Node<'_>, catalogs: &Catalogs<'_>) -> Result<(Vec<Self>, Vec<Selection>), ReadError> {
-        let mut all: Vec<Self> = Vec::new();
+        let mut read: Vec<Self> = Vec::new();
         let mut taken = Taken::default();
         for object in entities.elements() {
             if object.name() == "EntitySelection" {
@@ -60,20 +62,19 @@ impl Entity {
             }
             let name = object.label_required()?.into_owned();
             taken.claim(object, &name)?;
-            let is_controlled = object.first("ObjectController").is_some();
+            let (is_controlled, line) = (object.first("ObjectController").is_some(), object.element.line());
             let kind = object.choice("Vehicle, Pedestrian, MiscObject or CatalogReference")?;
-            let entity = catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| {
-                Self::one(node, name.clone(), is_controlled)
-            })?;
-            all.push(entity);
+            let entity =
+                catalogs.resolved(kind, &["Vehicle", "Pedestrian", "MiscObject"], |node| Self::one(node, &name))?;
+            read.push(Self { is_controlled, line, ..entity });
         }
         let selection = |selection: Node<'_>| {
             let name = selection.label_required()?.into_owned();
             taken.claim(selection, &name)?;
-            Ok((name, Self::members(selection, &all)?))
+            Ok((name, Self::members(selection, &read)?))
         };
         let selections = entities.all("EntitySelection").map(selection).collect::<Result<_, ReadError>>()?;
-        Ok((all, selections))
+        Ok((read, selections))
     }
 
     fn members(selection: Node<'_>, all: &[Self]) -> Result<Vec<usize>, ReadError> {
@@ -108,7 +109,7 @@ impl Entity {
             .map_or(limits, |own| [acceleration.min(own.acceleration), deceleration.min(own.deceleration), speed])
     }
 
-    fn one(node: Node<'_>, name: String, is_controlled: bool) -> Result<Self, ReadError> {
+    fn one(node: Node<'_>, name: &str) -> Result<Self, ReadError> {
         let class = match node.name() {
             "Vehicle" => node.one_of("vehicleCategory", &VEHICLES)?,
             "Pedestrian" => Class::Pedestrian,
@@ -126,12 +127,13 @@ impl Entity {
         // Files give things no extent where none matters; a body has some.
         let [length, width, height] = [length, width, height].map(|metres| metres.max(LEAST_EXTENT));
         Ok(Self {
-            name,
+            name: name.to_owned(),
             body: Body::block(class, length, width, height),
             middle: Vector2::new(centre.number("x")?, centre.number("y")?),
             half: Vector2::new(0.5 * length, 0.5 * width),
             vehicle,
-            is_controlled,
+            is_controlled: false,
+            line: 0,
         })
     }
 }

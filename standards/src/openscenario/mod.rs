@@ -31,6 +31,7 @@ mod reference;
 mod route;
 mod rule;
 mod scope;
+mod site;
 mod state;
 mod story;
 mod sun;
@@ -43,6 +44,6 @@ mod weather;
 
 pub use concrete::Concrete;
 pub use elements::elements;
-pub use export::{EgoAs, Export};
+pub use export::{EgoAs, Export, Original};
 pub use parameters::EGO;
 pub use program::Xosc;

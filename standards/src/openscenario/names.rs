@@ -4,6 +4,7 @@ use super::catalogs::Catalogs;
 use super::entity::ObjectType;
 use super::reference::References;
 use super::scope::Node;
+use super::site::Sites;
 use crate::xml::ReadError;
 
 /// The names that a scenario declares, in their order, and its catalogs.
@@ -19,6 +20,7 @@ pub(super) struct Names<'a> {
     /// The number of variables without the parameters.
     pub declared: usize,
     pub catalogs: &'a Catalogs<'a>,
+    pub sites: Sites<'a>,
     /// The references to elements of the storyboard, which are resolved later.
     pub references: &'a References,
 }

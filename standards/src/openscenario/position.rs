@@ -97,19 +97,25 @@ impl Position {
             "WorldPosition" => {
                 Self::World { x: kind.number("x")?, y: kind.number("y")?, heading: kind.number_or("h", 0.0)? }
             }
-            "LanePosition" => Self::Lane {
-                road: kind.required("roadId")?.into_owned(),
-                lane: kind.lane("laneId")?,
-                s: kind.number("s")?,
-                offset: kind.number_or("offset", 0.0)?,
-                turn: Turn::read(kind)?,
-            },
-            "RoadPosition" => Self::Road {
-                road: kind.required("roadId")?.into_owned(),
-                s: kind.number("s")?,
-                t: kind.number("t")?,
-                turn: Turn::read(kind)?,
-            },
+            "LanePosition" => {
+                names.sites.check_place(kind)?;
+                Self::Lane {
+                    road: kind.required("roadId")?.into_owned(),
+                    lane: kind.lane("laneId")?,
+                    s: kind.number("s")?,
+                    offset: kind.number_or("offset", 0.0)?,
+                    turn: Turn::read(kind)?,
+                }
+            }
+            "RoadPosition" => {
+                names.sites.check_place(kind)?;
+                Self::Road {
+                    road: kind.required("roadId")?.into_owned(),
+                    s: kind.number("s")?,
+                    t: kind.number("t")?,
+                    turn: Turn::read(kind)?,
+                }
+            }
             "RelativeLanePosition" => {
                 let along_lane = kind.element.text("dsLane").is_some();
                 Self::RelativeLane {
@@ -145,11 +151,14 @@ impl Position {
                 let given = kind.child("RouteRef")?.choice("Route or CatalogReference")?;
                 let place = kind.child("InRoutePosition")?.choice("FromRoadCoordinates or FromLaneCoordinates")?;
                 let place = match place.name() {
-                    "FromLaneCoordinates" => RoutePlace::Lane {
-                        s: place.length("pathS")?,
-                        lane: place.lane("laneId")?,
-                        offset: place.number_or("laneOffset", 0.0)?,
-                    },
+                    "FromLaneCoordinates" => {
+                        names.sites.check_lane(place, "laneId")?;
+                        RoutePlace::Lane {
+                            s: place.length("pathS")?,
+                            lane: place.lane("laneId")?,
+                            offset: place.number_or("laneOffset", 0.0)?,
+                        }
+                    }
                     "FromRoadCoordinates" => RoutePlace::Road { s: place.length("pathS")?, t: place.number("t")? },
                     _ => RoutePlace::Entity(names.entity(place, "entityRef")?),
                 };
@@ -200,7 +209,7 @@ impl Way {
                 let segment = Clothoid {
                     curvature: shape.number("curvature")?,
                     rate: shape.number(prime)?,
-                    length: shape.length("length")?,
+                    length: Clothoid::length(shape, 0.0)?,
                     turn: 0.0,
                     time: shape.number_or("startTime", 0.0)?,
                 };
@@ -210,9 +219,13 @@ impl Way {
             "ClothoidSpline" => {
                 let first = shape.first("ClothoidSplineSegment").and_then(|segment| segment.first("PositionStart"));
                 let start = first.map(|position| Position::read(position, names)).transpose()?.map(Box::new);
-                let segments = shape.all("ClothoidSplineSegment").enumerate();
-                let segments = segments.map(|(index, segment)| Clothoid::read(segment, index == 0));
-                let segments = segments.collect::<Result<_, ReadError>>()?;
+                let mut segments: Vec<Clothoid> = Vec::new();
+                let mut before = 0.0;
+                for segment in shape.all("ClothoidSplineSegment") {
+                    let segment = Clothoid::read(segment, segments.is_empty(), before)?;
+                    before += segment.length;
+                    segments.push(segment);
+                }
                 Ok(Self::Clothoids { start, segments, end: shape.number_or("timeEnd", 0.0)? })
             }
             "Nurbs" => {

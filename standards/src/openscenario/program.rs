@@ -5,12 +5,14 @@ use super::condition::{Check, Condition};
 use super::constraints::{constraint, of_scenario};
 use super::distribution::Distribution;
 use super::elements::schema;
+use super::entity::Entity;
 use super::linked;
 use super::local::Local;
 use super::measure::Measure;
 use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
-use super::play::Stage;
+use super::play::{Stage, Unplayable};
 use super::scope::{Node, Scope};
+use super::site::Sites;
 use super::story::Storyboard;
 use super::version;
 use super::weather;
@@ -149,7 +151,7 @@ impl Xosc {
         };
         let constraints = of_scenario(&parameters)?;
         let read = Self { name, folder, document, catalogs, parameters, constraints, notes, roads: Mutex::default() };
-        read.board(&mut declared_values)?;
+        read.board(&mut declared_values, false)?;
         Ok(read)
     }
 
@@ -159,12 +161,12 @@ impl Xosc {
     }
 
     fn build(&self, s: &mut Scenario) {
-        let Read { board, roads, constraints, found } = match self.board(&mut |root| self.parameters.declared(root, s))
-        {
-            Ok(read) => read,
-            Err(error) => return s.refuse(&error.to_string()),
-        };
-        s.note(|| [&self.notes, &found.notes(), &roads.notes[..]].concat());
+        let Read { board, roads, constraints, found } =
+            match self.board(&mut |root| self.parameters.declared(root, s), true) {
+                Ok(read) => read,
+                Err(error) => return s.refuse(&error.to_string()),
+            };
+        s.note(|| [&self.notes, &board.remarks(self.document.file()), &found.notes(), &roads.notes[..]].concat());
         for constraint in self.constraints.iter().cloned().chain(constraints) {
             s.constrain(constraint);
         }
@@ -174,6 +176,13 @@ impl Xosc {
         parameter.default = Some(usual.as_str().into());
         let chosen = s.parameter(Declared { open: false, ..Declared::open(parameter) }).value();
         let ego = board.entities.iter().position(|entity| chosen == entity.name.as_str().into()).unwrap_or_default();
+        if !board.places(ego) {
+            let Entity { name, line, .. } = &board.entities[ego];
+            return s.refuse(&format!(
+                "{}:{line}: the ego vehicle `{name}` has no place at the beginning, expected a TeleportAction of `{name}` in Init",
+                self.document.file().display()
+            ));
+        }
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
@@ -221,8 +230,13 @@ impl Xosc {
         draft.geometric(shown);
     }
 
-    /// Reads the storyboard and the roads, with the values of parameters that `values` gives.
-    fn board(&self, values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>) -> Result<Read, ReadError> {
+    /// Reads the storyboard and the roads, with the values of parameters that `values` gives. `with_test` is `true` if these are the
+    /// values of a test.
+    fn board(
+        &self,
+        values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>,
+        with_test: bool,
+    ) -> Result<Read, ReadError> {
         let tree = self.document.tree()?;
         let root = self.document.root(&tree, ROOT)?;
         let trees = self.catalogs.trees()?;
@@ -231,7 +245,7 @@ impl Xosc {
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;
         let roads = self.roads_in(logic)?;
-        let board = Storyboard::read(root, &catalogs)?;
+        let board = Storyboard::read(root, &catalogs, Sites { map: &roads.map, with_test })?;
         let found = catalogs.found();
         let stated = |local: &Local| constraint(&self.parameters, &local.scope, local.scope.len() - 1, &local.demand);
         let constraints =
@@ -337,8 +351,8 @@ impl Geometric for Director {
             *truth = tick.get(input) == Some(true);
         }
         let played = self.stage.borrow_mut().play(&self.truths, tick.dt());
-        played.map_err(|(action, lost)| InputError::Impossible {
-            object: "storyboard".to_owned(),
+        played.map_err(|Unplayable { file, line, action, lost }| InputError::Impossible {
+            object: format!("{}:{line}", file.display()),
             action,
             reason: lost.to_string(),
         })

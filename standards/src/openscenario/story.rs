@@ -10,11 +10,15 @@ use super::names::Names;
 use super::position::Position;
 use super::reference::{Named, References};
 use super::scope::Node;
+use super::site::Sites;
 use super::taken::Taken;
 use super::variable::{Change, Variable};
 use crate::xml::ReadError;
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
+/// The names of objects of the world that come before the entities, with what they are.
+const BEFORE: [(&str, &str); 2] = [("car", "the ego vehicle"), ("storyboard", "the storyboard")];
 /// The storyboard of a scenario, with the entities that act in it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Storyboard {
@@ -34,6 +38,8 @@ pub(super) struct Storyboard {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Item {
     pub name: String,
+    /// The path of the file and the line of the element.
+    pub origin: (PathBuf, u32),
     pub kind: Kind,
     /// The index of the element that contains this one; `None` for a story.
     pub parent: Option<usize>,
@@ -102,8 +108,8 @@ struct Reader<'a> {
 }
 
 impl Storyboard {
-    /// Reads the entities and the storyboard of a scenario.
-    pub fn read(root: Node<'_>, catalogs: &Catalogs<'_>) -> Result<Self, ReadError> {
+    /// Reads the entities and the storyboard of a scenario on a map.
+    pub fn read(root: Node<'_>, catalogs: &Catalogs<'_>, sites: Sites<'_>) -> Result<Self, ReadError> {
         let (entities, selections) = Entity::all(root.child("Entities")?, catalogs)?;
         let mut variables = Variable::all(root)?;
         let entity_names: Vec<_> = entities.iter().map(|entity| entity.name.clone()).collect();
@@ -118,6 +124,7 @@ impl Storyboard {
             variables: &variable_names,
             declared,
             catalogs,
+            sites,
             references: &references,
         };
         let board = root.child("Storyboard")?;
@@ -188,6 +195,37 @@ impl Storyboard {
         index.is_some_and(|index| self.controls(index)) || self.init.iter().any(at_first)
     }
 
+    /// Returns `true` if an initial action gives an entity a place.
+    pub fn places(&self, entity: usize) -> bool {
+        let puts = |action: &Action| matches!(action, Action::Teleport(_) | Action::Add(_) | Action::Trajectory(_));
+        self.init.iter().any(|(of, action, _)| *of == entity && puts(action))
+    }
+
+    /// Returns the entities that are in the world from the beginning on although no initial action gives them a place.
+    fn unplaced(&self) -> impl Iterator<Item = &Entity> {
+        let is_added = |entity: usize| {
+            let adds = |item: &Item| matches!(&item.kind, Kind::Action(of, Action::Add(_)) if of.contains(&entity));
+            self.items.iter().any(adds)
+        };
+        let unplaced = (0..self.entities.len()).filter(move |entity| !self.places(*entity) && !is_added(*entity));
+        unplaced.map(|entity| &self.entities[entity])
+    }
+
+    /// Describes entities whose place or whose signals may surprise.
+    pub fn remarks(&self, file: &Path) -> Vec<String> {
+        let file = file.display();
+        let unplaced = self.unplaced().map(|Entity { name, line, .. }| {
+            format!("{file}:{line}: `{name}` begins at the place (0, 0), because no initial action gives it a place")
+        });
+        let named = self.entities.iter().filter_map(|Entity { name, line, .. }| {
+            let (_, other) = BEFORE.iter().find(|(taken, _)| taken == name)?;
+            Some(format!(
+                "{file}:{line}: the signals of the entity `{name}` are `{name}-2.*`, because `{name}` is {other}"
+            ))
+        });
+        unplaced.chain(named).collect()
+    }
+
     /// Returns `true` if the weather can change during a run.
     pub fn weather_changes(&self) -> bool {
         self.surroundings.moves() || self.items.iter().any(|item| matches!(item.kind, Kind::Environment(_)))
@@ -236,7 +274,8 @@ impl Reader<'_> {
         let (start, stop) = (read("StartTrigger")?, read("StopTrigger")?);
         // Without conditions, an element starts at once, and nothing stops it.
         let start = start.filter(|start| !start.is_empty());
-        self.items.push(Item { name, kind, parent, start, stop, most_runs });
+        let origin = (node.element.file().to_owned(), node.element.line());
+        self.items.push(Item { name, origin, kind, parent, start, stop, most_runs });
         Ok(self.items.len() - 1)
     }
 

@@ -492,3 +492,20 @@ fn more_than_a_hundred_thousand_roads_are_refused() {
     let message = parse(text).expect_err("they are too many");
     assert_eq!(message, "road.xodr:1: <OpenDRIVE> has 100001 roads, expected at most 100000");
 }
+
+#[test]
+fn a_curve_that_is_longer_than_any_road_is_refused_with_its_line() {
+    let curve = |d: &str| {
+        let shape = format!(
+            "<paramPoly3 aU=\"0\" bU=\"50\" cU=\"0\" dU=\"0\" aV=\"0\" bV=\"0\" cV=\"0\" dV=\"{d}\" pRange=\"normalized\"/>"
+        );
+        with(&[("<line/>", &shape)])
+    };
+    let message = parse(curve("1e9")).expect_err("it was accepted");
+    let says = "road.xodr:5: `dV=\"1e9\"` of <paramPoly3> is not allowed, expected coefficients of a curve that is at most 100000 m long";
+    assert!(message.contains(says), "{message}");
+    // The longest curve makes a network within the patience of a user.
+    let begin = std::time::Instant::now();
+    parse(curve("99000")).unwrap().network().unwrap();
+    assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
+}

@@ -1,6 +1,6 @@
 //! Files with mistakes: each is refused with its file, its line and what to do.
 
-use super::worlds::{file, led};
+use super::worlds::file;
 use paracosm_standards::openscenario::{Xosc, elements};
 use paracosm_standards::{Flaw, Support};
 use std::collections::BTreeMap;
@@ -9,11 +9,6 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// Writes a scenario in which a text is replaced by another text, with its catalog and its road. Returns the folder and the file.
-fn changed(found: &str, by: &str) -> (TempDir, PathBuf) {
-    changed_in("slow-leader.xosc", found, by)
-}
-
-/// Does the same with another scenario.
 pub fn changed_in(scenario: &str, found: &str, by: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("catalogs")).unwrap();
@@ -128,10 +123,10 @@ fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
         (
             "roadId=\"1\" laneId=\"-1\" s=\"10\"",
             "roadId=\"7\" laneId=\"-1\" s=\"10\"",
-            "bad.xosc:29: an initial action of `Ego` cannot begin: the map has no road `7`",
+            "29: `roadId=\"7\"` of <LanePosition> is not allowed, expected a road of the map: 1",
         ),
-        ("laneId=\"-1\" s=\"10\"", "laneId=\"-3\" s=\"10\"", "has no lane -3 at s = 10 m, its lanes are -2 to 2"),
-        ("laneId=\"-1\" s=\"10\"", "laneId=\"-1\" s=\"2000\"", "no place at s = 2000 m, it is 1000 m long"),
+        ("laneId=\"-1\" s=\"10\"", "laneId=\"-3\" s=\"10\"", "expected a lane of road `1` at s = 10 m: -2, -1, 1, 2"),
+        ("laneId=\"-1\" s=\"10\"", "laneId=\"-1\" s=\"2000\"", "expected a place on road `1`, which is 1000 m long"),
         ("<SpeedAction>", "<SpedAction/><SpeedAction>", "did you mean `SpeedAction`?"),
         ("dynamicsShape=\"step\"", "dynamicsShape=\"stepp\"", "did you mean `step`?"),
         ("priority=\"override\"", "", "has no attribute `priority`"),
@@ -190,7 +185,7 @@ fn a_mistake_in_an_action_or_a_condition_is_reported() {
             "routes.xosc",
             "roadId=\"3\" laneId=\"-1\" s=\"50\"",
             "roadId=\"2\" laneId=\"-1\" s=\"500\"",
-            "no place at s = 500 m",
+            "`s=\"500\"` of <LanePosition> is not allowed, expected a place on road `2`",
         ),
         (
             "routes.xosc",
@@ -278,20 +273,6 @@ fn a_parameter_has_one_distribution_and_a_set_has_all_parameters() {
 fn the_name_of_the_parameter_of_the_ego_vehicle_is_taken() {
     let message = messages("name=\"start\"", "name=\"ego\"");
     assert!(message.contains("chooses the ego vehicle"), "{message}");
-}
-
-#[test]
-fn an_action_that_cannot_begin_ends_the_run_with_an_error() {
-    let (_folder, path) = changed(
-        "<ControllerAction>\n                <ActivateControllerAction lateral=\"true\" longitudinal=\"true\"/>\n              </ControllerAction>",
-        r#"<LateralAction><LaneChangeAction>
-             <LaneChangeActionDynamics dynamicsShape="linear" dynamicsDimension="time" value="3"/>
-             <LaneChangeTarget><AbsoluteTargetLane value="-7"/></LaneChangeTarget>
-           </LaneChangeAction></LateralAction>"#,
-    );
-    let program = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program();
-    let ending = format!("{:?}", led(&program).unwrap().ending);
-    assert!(ending.contains("has no lane -7 at s = ") && ending.contains("activation"), "{ending}");
 }
 
 #[test]

@@ -21,7 +21,8 @@ fn track(name: &str, body: Body, at: impl Fn(f64) -> Option<[f64; 3]>) -> Track 
 /// Writes motions as a scenario, reads the scenario and plays it.
 fn played(motion: &Motion) -> Motion {
     let (map, date) = (&Map::read(&file("straight.xodr")).unwrap(), "2026-01-01T00:00:00");
-    let export = Export { about: "a test", date, roads: "straight.xodr", map, motion, ego: EgoAs::Trajectory };
+    let export =
+        Export { about: "a test", date, roads: "straight.xodr", map, motion, originals: &[], ego: EgoAs::Trajectory };
     let folder = tempfile::tempdir().unwrap();
     fs::copy(file("straight.xodr"), folder.path().join("straight.xodr")).unwrap();
     let case = folder.path().join("case.xosc");

@@ -55,7 +55,7 @@ fn a_polyline_has_two_points_and_times_that_do_not_fall() {
 
 #[test]
 fn a_route_has_two_waypoints() {
-    let second = "<Waypoint routeStrategy=\"shortest\"><Position><LanePosition roadId=\"3\" laneId=\"-1\" s=\"50\"/></Position></Waypoint>";
+    let second = "<Waypoint routeStrategy=\"shortest\"><Position><LanePosition roadId=\"1\" laneId=\"-1\" s=\"50\"/></Position></Waypoint>";
     let route = "<AssignRouteAction><Route name=\"a\" closed=\"false\">";
     let actor = "<TeleportAction>";
     let one = format!(
@@ -124,7 +124,12 @@ fn absurd_magnitudes_are_refused() {
 #[test]
 fn a_place_in_a_message_has_few_digits() {
     let by = "value=\"${$gap * 1.1 + 1000.3}\"";
-    refuses(LEADER, "value=\"${$gap + 10}\"", by, "has no place at s = 1055.3 m, it is 1000 m long");
+    refuses(
+        LEADER,
+        "value=\"${$gap + 10}\"",
+        by,
+        "`s=\"1055.3\"` of <LanePosition> is not allowed, expected a place on road `1`, which is 1000 m long",
+    );
 }
 
 #[test]

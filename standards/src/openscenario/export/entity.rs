@@ -1,7 +1,9 @@
 //! The entities of an exported scenario: their boxes, and the stays of their bodies in the world.
 
+use super::original::Original;
 use crate::opendrive::Map;
 use crate::xml::Writer;
+use nalgebra::Vector2;
 use paracosm_engine::object::Class;
 use paracosm_engine::{Motion, Track};
 use std::collections::BTreeMap;
@@ -24,6 +26,8 @@ const DENSITY: f64 = 150.0;
 const FASTEST: f64 = 100.0;
 /// The greatest acceleration of a vehicle of the file in m/s². It bounds no recorded motion.
 const STRONGEST: f64 = 20.0;
+/// The least excess in m/s of the speed at which an entity jumps over its speed before and after.
+const JUMP: f64 = 0.5;
 /// The name of the ego vehicle in the file.
 const EGO: &str = "Ego";
 
@@ -31,11 +35,13 @@ const EGO: &str = "Ego";
 pub(super) struct Entity<'a> {
     pub name: String,
     pub track: &'a Track,
-    /// The ticks of each stay in the world.
+    /// The ticks of each stay in the world. A stay of an entity of a file ends where the entity jumps to another place, too.
     pub stays: Vec<Range<usize>>,
     pub is_ego: bool,
-    /// The distance in metres from the reference point to the middle of the body.
-    pub ahead: f64,
+    /// The middle of the body as seen from the reference point, in metres ahead and to the left.
+    pub middle: Vector2<f64>,
+    /// The entity of the file of the scenario; `None` if the scenario is a program.
+    pub original: Option<&'a Original>,
     /// The length and the width in metres.
     size: [f64; 2],
 }
@@ -49,22 +55,29 @@ enum Kind {
 
 impl<'a> Entity<'a> {
     /// Returns the entities of all bodies that are in the world during the run, without those of the map. Their names are all
-    /// different.
-    pub fn all(motion: &'a Motion, map: &Map) -> Vec<Self> {
+    /// different. `originals` are the entities of the first bodies, if the scenario is a file.
+    pub fn all(motion: &'a Motion, map: &Map, originals: &'a [Original]) -> Vec<Self> {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         let mut entities = Vec::new();
         for (index, track) in motion.tracks.iter().enumerate() {
-            let stays = stays(track);
-            if stays.is_empty() || is_of_map(track, map) {
+            let mut stays = stays(track);
+            let original = originals.get(index);
+            if original.is_some() {
+                stays = stays.into_iter().flat_map(|stay| without_jumps(stay, track, motion.dt)).collect();
+            }
+            if stays.is_empty() || original.is_none() && is_of_map(track, map) {
                 continue;
             }
-            let base = if index == 0 { EGO } else { &track.name };
+            let usual = if index == 0 { EGO } else { &track.name };
+            let base = original.map_or(usual, |original| &original.name);
             let count = counts.entry(base).and_modify(|count| *count += 1).or_insert(1);
             let name = if *count == 1 { base.to_owned() } else { format!("{base} ({count})") };
             let half = track.body.outline.half_extent();
             let size = [2.0 * half.x, 2.0 * half.y];
-            let ahead = if matches!(kind(track.body.class), Kind::Vehicle(_)) { REAR * size[0] } else { 0.0 };
-            entities.push(Self { name, track, stays, is_ego: index == 0, ahead, size });
+            let is_vehicle = matches!(kind(track.body.class), Kind::Vehicle(_));
+            let usual = if is_vehicle { Vector2::new(REAR * size[0], 0.0) } else { Vector2::zeros() };
+            let middle = original.map_or(usual, |original| original.middle);
+            entities.push(Self { name, track, stays, is_ego: index == 0, middle, original, size });
         }
         entities
     }
@@ -73,6 +86,9 @@ impl<'a> Entity<'a> {
     pub fn write(&self, xml: &mut Writer) {
         let ([length, width], height) = (self.size, self.track.body.height);
         let mass = (DENSITY * length * width * height).round().max(1.0);
+        if let Some(original) = self.original {
+            return xml.within("ScenarioObject", &[("name", &self.name)], |xml| original.element.write(xml));
+        }
         xml.within("ScenarioObject", &[("name", &self.name)], |xml| match kind(self.track.body.class) {
             Kind::Vehicle(category) => {
                 let attributes: &[(&str, &dyn Display)] =
@@ -119,7 +135,7 @@ impl<'a> Entity<'a> {
     fn bounding_box(&self, xml: &mut Writer) {
         let ([length, width], height) = (self.size, self.track.body.height);
         xml.within("BoundingBox", &[], |xml| {
-            xml.empty("Center", &[("x", &self.ahead), ("y", &0), ("z", &(0.5 * height))]);
+            xml.empty("Center", &[("x", &self.middle.x), ("y", &self.middle.y), ("z", &(0.5 * height))]);
             xml.empty("Dimensions", &[("width", &width), ("length", &length), ("height", &height)]);
         });
     }
@@ -141,6 +157,20 @@ pub(super) fn stays(track: &Track) -> Vec<Range<usize>> {
         }
     }
     stays
+}
+
+/// Divides a stay where the body jumps to another place: there it is faster than just before and just after.
+fn without_jumps(stay: Range<usize>, track: &Track, dt: f64) -> Vec<Range<usize>> {
+    let place = |tick: usize| track.poses.get(tick).copied().flatten().map(|pose| pose.position);
+    let fast = |tick: usize| Some((place(tick)? - place(tick.checked_sub(1)?)?).norm() / dt);
+    let jumps = |tick: &usize| {
+        let others = [tick.checked_sub(1).and_then(fast), fast(tick + 1)];
+        let excess = |other: Option<f64>| Some(fast(*tick)? - other?);
+        others.iter().any(Option::is_some) && others.into_iter().filter_map(excess).all(|excess| excess > JUMP)
+    };
+    let borders: Vec<usize> = (stay.start + 1..stay.end).filter(jumps).chain([stay.end]).collect();
+    let starts = [stay.start].into_iter().chain(borders.iter().copied());
+    starts.zip(&borders).map(|(start, end)| start..*end).collect()
 }
 
 fn kind(class: Class) -> Kind {

@@ -1,6 +1,7 @@
 //! Recorded runs as concrete scenarios of OpenSCENARIO XML 1.2, which other simulators play.
 
 mod entity;
+mod original;
 
 use super::polyline::simplified;
 use crate::opendrive::Map;
@@ -10,9 +11,16 @@ use paracosm_engine::{Motion, Pose};
 use std::fmt::Display;
 use std::ops::Range;
 
+pub use original::Original;
+
 /// The seconds between a trigger and the moment at which a body enters or leaves the world: a tick and a half. An action has its
 /// effect at the end of the tick in which it begins, and ticks are sums of rounded numbers.
 const BEFOREHAND: f64 = 0.015;
+/// The seconds of a tick of a scenario of a file.
+const TICK: f64 = 0.01;
+
+/// The greatest difference in m/s between the recorded speed of an entity of a file and the speed on its trajectory.
+const SPEED: f64 = 0.005;
 
 /// The motion of the ego vehicle in an exported scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +44,8 @@ pub struct Export<'a> {
     pub map: &'a Map,
     /// The recorded run.
     pub motion: &'a Motion,
+    /// The entities of the scenario, if it is a file; empty if it is a program.
+    pub originals: &'a [Original],
     /// The motion of the ego vehicle.
     pub ego: EgoAs,
 }
@@ -44,6 +54,8 @@ pub struct Export<'a> {
 enum Act {
     /// The entity enters the world.
     Enter(Pose),
+    /// The entity, which is in the world, is at another place at once.
+    Jump(Pose),
     /// The entity gets the speed at the beginning of poses.
     Speed(Vec<(f64, Pose)>),
     /// The entity follows vertices with times.
@@ -56,6 +68,7 @@ impl Act {
     fn words(&self) -> &'static str {
         match self {
             Self::Enter(_) => "enters",
+            Self::Jump(_) => "jumps",
             Self::Speed(_) => "has its speed",
             Self::Follow(_) => "moves",
             Self::Leave => "leaves",
@@ -67,7 +80,7 @@ impl<'a> Export<'a> {
     /// Returns the text of the scenario. Each body is in the world while it is there in the recorded run. Bodies that are
     /// [never](Self::never_there) there are left out.
     pub fn text(&self) -> String {
-        let entities = Entity::all(self.motion, self.map);
+        let entities = Entity::all(self.motion, self.map, self.originals);
         let mut xml = Writer::new();
         xml.within("OpenSCENARIO", &[], |xml| {
             let header: &[(&str, &dyn Display)] = &[
@@ -116,8 +129,8 @@ impl Entity<'_> {
     /// Returns the times and the poses of the reference point during a stay.
     fn poses(&self, stay: &Range<usize>, dt: f64) -> Vec<(f64, Pose)> {
         let reference = |Pose { position, heading }: Pose| {
-            let forward = Pose { position, heading }.forward();
-            Pose { position: position - forward * self.ahead, heading }
+            let pose = Pose { position, heading };
+            Pose { position: position - pose.turn_to_plane(self.middle), heading }
         };
         let poses = stay.clone().zip(self.track.poses[stay.clone()].iter().flatten());
         poses.map(|(tick, pose)| (tick as f64 * dt, reference(*pose))).collect()
@@ -130,8 +143,13 @@ impl Entity<'_> {
             xml.within("PrivateAction", &[], |xml| {
                 xml.within("TeleportAction", &[], |xml| position(xml, &poses[0].1));
             });
-            speed(&poses, dt, xml);
+            speed(self.original.map_or_else(|| first_speed(&poses, dt), |original| original.speed), xml);
         });
+    }
+
+    /// Returns the vertices of a trajectory through poses.
+    fn simplified(&self, poses: &[(f64, Pose)]) -> Vec<(f64, Pose)> {
+        simplified(poses, if self.original.is_some() { SPEED } else { f64::INFINITY })
     }
 
     /// Writes the group of maneuvers of the entity. With the duration of a tick, the entity follows its trajectory.
@@ -166,19 +184,21 @@ impl Entity<'_> {
     fn events(&self, stay: &Range<usize>, dt: f64) -> Vec<(f64, Vec<Act>)> {
         let at = |tick: usize| (tick as f64 * dt - BEFOREHAND).max(0.0);
         let poses = self.poses(stay, dt);
-        let vertices = simplified(&poses);
-        let mut first = Vec::new();
+        let vertices = self.simplified(&poses);
+        let is_there = |tick: Option<usize>| tick.is_some_and(|tick| self.track.poses[tick].is_some());
+        let mut events = Vec::new();
+        let mut begin = at(stay.start);
         if stay.start > 0 {
-            first.extend([Act::Enter(poses[0].1), Act::Speed(poses)]);
+            let place = poses[0].1;
+            let first = if is_there(stay.start.checked_sub(1)) { Act::Jump(place) } else { Act::Enter(place) };
+            events.push((begin, vec![first, Act::Speed(poses)]));
+            // The entity keeps its speed for this tick. An entity at the beginning of its trajectory has none.
+            begin += TICK;
         }
         if vertices.len() > 1 {
-            first.push(Act::Follow(vertices));
+            events.push((begin, vec![Act::Follow(vertices)]));
         }
-        let mut events = Vec::new();
-        if !first.is_empty() {
-            events.push((at(stay.start), first));
-        }
-        if stay.end < self.track.poses.len() {
+        if stay.end < self.track.poses.len() && !is_there(Some(stay.end)) {
             events.push((at(stay.end), vec![Act::Leave]));
         }
         events
@@ -190,8 +210,11 @@ impl Entity<'_> {
         };
         match action {
             Act::Enter(pose) => global(xml, &|xml| xml.within("AddEntityAction", &[], |xml| position(xml, pose))),
+            Act::Jump(pose) => xml.within("PrivateAction", &[], |xml| {
+                xml.within("TeleportAction", &[], |xml| position(xml, pose));
+            }),
             Act::Leave => global(xml, &|xml| xml.empty("DeleteEntityAction", &[])),
-            Act::Speed(poses) => speed(poses, dt, xml),
+            Act::Speed(poses) => speed(first_speed(poses, dt), xml),
             Act::Follow(vertices) => xml.within("PrivateAction", &[], |xml| {
                 xml.within("RoutingAction", &[], |xml| self.follow(vertices, xml));
             }),
@@ -221,11 +244,15 @@ impl Entity<'_> {
     }
 }
 
-/// Writes the action that gives an entity its speed at the beginning of poses.
-fn speed(poses: &[(f64, Pose)], dt: f64, xml: &mut Writer) {
+/// Returns the speed at the beginning of poses.
+fn first_speed(poses: &[(f64, Pose)], dt: f64) -> f64 {
     let speed = poses.get(1).map_or(0.0, |(_, next)| (next.position - poses[0].1.position).norm() / dt);
     // An entity at rest has no trajectory, and would go on at a small speed.
-    let speed = if simplified(poses).len() > 1 { speed } else { 0.0 };
+    if simplified(poses, f64::INFINITY).len() > 1 { speed } else { 0.0 }
+}
+
+/// Writes the action that gives an entity its speed at once.
+fn speed(speed: f64, xml: &mut Writer) {
     xml.within("PrivateAction", &[], |xml| {
         xml.within("LongitudinalAction", &[], |xml| {
             xml.within("SpeedAction", &[], |xml| {

@@ -11,6 +11,7 @@ use crate::xml::rounded;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// The reason why a position has no place in the world.
@@ -40,6 +41,15 @@ pub(in crate::openscenario) enum Lost {
 pub(in crate::openscenario) struct Misplaced {
     pub line: u32,
     pub entity: String,
+    pub lost: Lost,
+}
+
+/// An action of a story that cannot begin, with its place in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::openscenario) struct Unplayable {
+    pub file: PathBuf,
+    pub line: u32,
+    pub action: String,
     pub lost: Lost,
 }
 
@@ -219,6 +229,8 @@ pub(super) fn check_lane(road: usize, lane: i32, s: f64, map: &Map) -> Result<()
         return Ok(());
     }
     let numbers = [section.lanes.last(), section.lanes.first()].map(|lane| lane.map_or(0, |lane| lane.number));
+    // Places are sums of rounded numbers, and nobody needs more than millimetres here.
+    let s = (1000.0 * s).round() / 1000.0;
     Err(Lost::NoLane { road: road.id.clone(), lane, s, first: numbers[0], last: numbers[1] })
 }
 

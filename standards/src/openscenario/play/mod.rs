@@ -11,4 +11,5 @@ mod synchronize;
 mod track;
 mod watch;
 
+pub(super) use find::Unplayable;
 pub(super) use stage::Stage;

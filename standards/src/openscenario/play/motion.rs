@@ -188,6 +188,10 @@ fn follow(track: &Track, s: &mut f64, timing: Option<(f64, f64)>, entity: usize,
     };
     *s = s.clamp(0.0, track.length());
     let pose = track.at(*s);
+    // The vertices may give a heading against the way.
+    if timing.is_some() && (pose.position - track.at(before).position).dot(&pose.forward()) < 0.0 {
+        actor.speed = -actor.speed;
+    }
     actor.step.pose = Some(pose);
     actor.on_track = (!over).then_some(*s);
     if over && let Some(place) = project(&pose, &cast.map) {

@@ -2,7 +2,7 @@
 
 use super::actor::{Actor, Step};
 use super::cast::Cast;
-use super::find::{Lost, Misplaced};
+use super::find::{Misplaced, Unplayable};
 use super::motion::Motion;
 use super::watch::{Question, Watch};
 use crate::opendrive::Map;
@@ -27,8 +27,8 @@ pub(in crate::openscenario) struct Stage {
     moment: u64,
     /// The numbers of transitions at the beginnings of the last tick and of the tick before it.
     began: [u64; 2],
-    /// The first action that could not begin, by its name, and the reason.
-    lost: Option<(String, Lost)>,
+    /// The first action that could not begin.
+    lost: Option<Unplayable>,
 }
 
 /// An element of the storyboard at play.
@@ -88,7 +88,8 @@ impl Stage {
         stage.stop = stop.map(|stop| Watch::new(&stop, &mut inputs));
         // The initial actions are an action of a story that has begun.
         let kind = Kind::Action(Vec::new(), Action::Nothing);
-        let item = Item { name: String::new(), kind, parent: None, start: None, stop: None, most_runs: 1 };
+        let (name, origin) = Default::default();
+        let item = Item { name, origin, kind, parent: None, start: None, stop: None, most_runs: 1 };
         let mut motions = Vec::new();
         // An entity that an action adds later is absent until then, unless an initial action gives it a place.
         for playing in &stage.items {
@@ -151,8 +152,8 @@ impl Stage {
     /// Plays a tick of `dt` seconds. `truths` are the values of all conditions at its beginning.
     ///
     /// # Errors
-    /// An action cannot begin: the name of the action, and the reason.
-    pub fn play(&mut self, truths: &[bool], dt: f64) -> Result<(), (String, Lost)> {
+    /// An action cannot begin.
+    pub fn play(&mut self, truths: &[bool], dt: f64) -> Result<(), Unplayable> {
         self.began = [self.moment, self.began[0]];
         let mut stop = self.stop.take();
         self.stopped |= self.check(&mut stop, truths) == Some(true);
@@ -261,8 +262,8 @@ impl Stage {
                         self.end_others(entity, (along, action == Action::Delete));
                     }
                     Err(lost) => {
-                        let name = self.items[index].item.name.clone();
-                        self.lost.get_or_insert((name, lost));
+                        let Item { name: action, origin: (file, line), .. } = self.items[index].item.clone();
+                        self.lost.get_or_insert(Unplayable { file, line, action, lost });
                     }
                 }
             }

@@ -14,13 +14,17 @@ pub(super) struct Track {
     curved: bool,
 }
 
-/// The distance in metres between two vertices of a clothoid.
+/// The least distance in metres between two vertices of a clothoid.
 const SPACING: f64 = 0.05;
+/// The greatest number of vertices of a clothoid.
+const MOST_VERTICES: f64 = 200_000.0;
 
 /// The distance in metres between two vertices of a curve through control points.
 const STRIDE: f64 = 1.0;
 /// The greatest number of strides of a curve.
 const MOST: f64 = 100_000.0;
+/// The greatest number of strides times control points.
+const MOST_FUNCTIONS: f64 = 10_000_000.0;
 /// The part of a stride after a vertex at which the influence of control points is read. The standard does not say where on the curve the
 /// time of a control point holds. With this number the places are those of esmini.
 const LATER: f64 = 0.3;
@@ -52,7 +56,7 @@ impl Track {
         for (index, Clothoid { curvature, rate, length, turn, time }) in segments.iter().enumerate() {
             here.heading += turn;
             let next = segments.get(index + 1).map_or(end, |next| next.time);
-            let (first, count) = (here.heading, (length / SPACING).ceil().max(1.0));
+            let (first, count) = (here.heading, (length / SPACING).ceil().clamp(1.0, MOST_VERTICES));
             let step = length / count;
             let heading = |s: f64| first + (curvature + 0.5 * rate * s) * s;
             for i in 0..count as usize {
@@ -73,7 +77,7 @@ impl Track {
     /// its greatest influence.
     pub fn nurbs(points: &[(Vector2<f64>, f64)], nurbs: &Nurbs) -> Self {
         let reach: f64 = points.windows(2).map(|pair| (pair[1].0 - pair[0].0).norm()).sum();
-        let count = 1 + (reach / STRIDE).min(MOST) as usize;
+        let count = 1 + (reach / STRIDE).min(MOST).min(MOST_FUNCTIONS / points.len() as f64) as usize;
         let u = |i: usize| i as f64 / count as f64;
         let functions: Vec<_> = (0..=count).map(|i| nurbs.functions(u(i) + LATER / count as f64)).collect();
         let peaks: Vec<(f64, f64)> = (0..points.len())
