@@ -8,7 +8,20 @@ use std::path::Path;
 const FILES: [&str; 3] = ["audit.json", "audit-settings.json", "mutants.jsonl"];
 
 fn audit(dir: &Path, out: &str, more: &[&str]) -> Value {
-    let given = ["audit", "--tests", "halton:20", "--tests", "grid:5x4", "--mutants", "30", "--screen", "16", "-q", "--out", out];
+    let given = [
+        "audit",
+        "--tests",
+        "halton:20",
+        "--tests",
+        "grid:5x4",
+        "--mutants",
+        "30",
+        "--screen",
+        "16",
+        "-q",
+        "--out",
+        out,
+    ];
     let printed = stdout(&succeeds(fuzz(dir, &[&given, more].concat())));
     serde_json::from_str(&printed).unwrap()
 }
@@ -59,7 +72,9 @@ fn an_audit_shows_holes_a_witness_and_scores() {
 fn a_folder_with_another_audit_and_wrong_suites_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     audit(dir.path(), "out", &[]);
-    let run = |more: &[&str]| fuzz(dir.path(), &[&["audit", "--mutants", "5", "--screen", "8", "-q", "--out", "out"], more].concat());
+    let run = |more: &[&str]| {
+        fuzz(dir.path(), &[&["audit", "--mutants", "5", "--screen", "8", "-q", "--out", "out"], more].concat())
+    };
     refused(&run(&["--tests", "halton:20"]), &["out holds an audit already; --resume continues it"]);
     refused(&run(&["--tests", "halton:20", "--resume"]), &["out holds another audit", "differs"]);
     let new = |more: &[&str]| fuzz(dir.path(), &[&["audit", "-q", "--out", "new"], more].concat());
