@@ -44,6 +44,8 @@ struct Entries {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     scenario: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
+    scenario_files: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
     vehicle: Option<VehicleModel>,
     #[serde(skip_serializing_if = "Resistance::is_none", default)]
     resistance: Resistance,
@@ -210,6 +212,7 @@ impl Entries {
             must_not("timeout", of, self.timeout.is_some())?;
             return Ok(Subject::Scenario(Box::new(Simulation {
                 scenario: self.scenario.take().ok_or(EntryFlaw::NoSubject)?,
+                files: self.scenario_files.take(),
                 vehicle: VehicleSetup { model: must("vehicle", of, self.vehicle)?, resistance: self.resistance },
                 fixed: must("fixed", of, self.fixed.take())?,
                 driver: must("driver", of, self.driver.take())?,
@@ -222,6 +225,7 @@ impl Entries {
             })));
         };
         must_not("scenario", of, self.scenario.is_some())?;
+        must_not("scenario_files", of, self.scenario_files.is_some())?;
         must_not("vehicle", of, self.vehicle.is_some())?;
         must_not("resistance", of, !self.resistance.is_none())?;
         must_not("fixed", of, self.fixed.is_some())?;
@@ -240,6 +244,7 @@ impl Entries {
         match subject.clone() {
             Subject::Scenario(simulation) => Self {
                 scenario: Some(simulation.scenario),
+                scenario_files: simulation.files,
                 vehicle: Some(simulation.vehicle.model),
                 resistance: simulation.vehicle.resistance,
                 fixed: Some(simulation.fixed),
@@ -312,6 +317,7 @@ impl From<StudyFile> for Entries {
             version: made_by.version,
             target: made_by.target,
             scenario: None,
+            scenario_files: None,
             vehicle: None,
             resistance: Resistance::default(),
             fixed: None,

@@ -35,7 +35,9 @@ pub struct Worker<'a> {
 
 /// The error that a test has another trace than in the log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("test {index} has another trace than in the log, because the driver or the software has changed since")]
+#[error(
+    "test {index} has another trace than in the log, because the driver, a file of the scenario or the software has changed since"
+)]
 pub struct OtherTrace {
     /// The index of the test.
     pub index: usize,

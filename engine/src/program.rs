@@ -29,6 +29,8 @@ pub struct Program {
     name: Cow<'static, str>,
     about: Cow<'static, str>,
     build: Build,
+    /// The hash of the files from which the program was made.
+    files: Option<String>,
 }
 
 /// The function of a program.
@@ -105,7 +107,7 @@ const MOST_TICKS: f64 = 1e7;
 impl Program {
     /// Makes a scenario from its name, its description in one line and the function that builds its world.
     pub const fn new(name: &'static str, about: &'static str, build: fn(&mut Scenario)) -> Self {
-        Self { name: Cow::Borrowed(name), about: Cow::Borrowed(about), build: Build::Function(build) }
+        Self { name: Cow::Borrowed(name), about: Cow::Borrowed(about), build: Build::Function(build), files: None }
     }
 
     /// Makes a scenario from a closure, which may hold data such as the contents of a file, or an interpreter.
@@ -115,7 +117,17 @@ impl Program {
         build: impl Fn(&mut Scenario) + Send + Sync + 'static,
     ) -> Self {
         let (name, about) = (Cow::Owned(name.into()), Cow::Owned(about.into()));
-        Self { name, about, build: Build::Shared(Arc::new(build)) }
+        Self { name, about, build: Build::Shared(Arc::new(build)), files: None }
+    }
+
+    /// Says the hash of the files from which the program was made, so that a campaign is not continued after a file has changed.
+    pub fn of_files(self, hash: String) -> Self {
+        Self { files: Some(hash), ..self }
+    }
+
+    /// Returns the hash of the files from which the program was made; `None` if it was made from none.
+    pub fn files_hash(&self) -> Option<&str> {
+        self.files.as_deref()
     }
 
     /// Returns the name of the scenario.

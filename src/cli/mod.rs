@@ -41,7 +41,7 @@ mod trust;
 use clap::Args;
 use interrupt::on_interrupt;
 use paracosm_campaign::executor::WORKER;
-use paracosm_campaign::{Error, Reason, SpaceFile};
+use paracosm_campaign::{Error, Log, Reason, SpaceFile, Study};
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -98,12 +98,20 @@ struct Strict {
 }
 
 impl Strict {
-    /// Reads the file of a space, and prints its notes.
+    /// Reads the file of a space, and prints its notes. The path may also be that of a scenario file or of the folder of a campaign,
+    /// whose open parameters are the space.
     ///
     /// # Errors
     /// The file cannot be read or is not valid; or the file has notes and `--strict` is given.
     fn read(self, path: &Path, verbosity: Verbosity) -> Result<SpaceFile, Error> {
-        let file = SpaceFile::read(path)?;
+        let catalogue = crate::catalogue();
+        let file = if path.is_dir() {
+            SpaceFile::from(Log::read(path, &catalogue)?.study().space().clone())
+        } else if let Some(name) = path.to_str().filter(|name| path.exists() && catalogue.knows(name)) {
+            SpaceFile::from(Study::of(catalogue.find(name)?).build()?.space().clone())
+        } else {
+            SpaceFile::read(path)?
+        };
         self.accept(&file.notes, "a file with notes; repair the file", verbosity)?;
         Ok(file)
     }

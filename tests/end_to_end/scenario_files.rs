@@ -1,6 +1,6 @@
 //! Scenarios of files (ASAM OpenSCENARIO): campaigns over their parameters, replays, descriptions, and files with mistakes.
 
-use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use crate::common::{cover, fuzz, refused, stderr, stdout, succeeds};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -69,6 +69,54 @@ fn a_campaign_on_a_file_is_resumed_with_the_same_bytes() {
         succeeds(fuzz(dir.path(), &[&arguments[..], &["--resume"]].concat()));
         assert_eq!(fs::read_to_string(&path).expect("a log"), whole, "{out}");
     }
+}
+
+#[test]
+fn a_campaign_is_not_resumed_after_a_file_of_its_scenario_has_changed() {
+    for (file, found, by) in [
+        ("slow-leader.xosc", "$gap + 10", "$gap + 11"),
+        ("catalogs/entities.xosc", "mass=\"1500\"", "mass=\"1501\""),
+        ("straight.xodr", "name=", " name="),
+    ] {
+        let dir = folder();
+        let run = |more: &[&str]| {
+            let given = ["slow-leader-variation.xosc", "--driver", "aeb", "--budget", "6", "--out", "c"];
+            fuzz(dir.path(), &[&given, more].concat())
+        };
+        succeeds(run(&[]));
+        succeeds(run(&["--resume"]));
+        let path = dir.path().join(file);
+        let text = fs::read_to_string(&path).expect("it is readable");
+        assert!(text.contains(found), "{file}");
+        fs::write(&path, text.replacen(found, by, 1)).expect("it is writable");
+        refused(&run(&["--resume"]), &["`scenario_files`"]);
+    }
+}
+
+#[test]
+fn the_space_of_a_scenario_file_or_of_a_campaign_is_planned_and_covered() {
+    let dir = folder();
+    let plan =
+        |space: &str| stdout(&succeeds(cover(dir.path(), &["plan", "--space", space, "--k", "2", "--format", "json"])));
+    assert!(plan("slow-leader-variation.xosc").contains("\"k\""));
+    succeeds(fuzz(dir.path(), &["slow-leader-variation.xosc", "--continuous", "--budget", "5", "--out", "c"]));
+    let tests = stdout(&succeeds(cover(dir.path(), &["generate", "--space", "c", "--budget", "12"])));
+    assert_eq!(tests.lines().count(), 13, "{tests}");
+    assert!(tests.starts_with("speed,"), "{tests}");
+}
+
+#[test]
+fn the_probability_of_failure_is_that_of_tests_that_keep_the_constraints() {
+    let dir = folder();
+    let given = ["likelihood", "slow-leader-variation.xosc", "--continuous", "--driver", "aeb", "--budget", "50"];
+    // The speed is at most 50 m/s by a constraint.
+    let narrow = [&given[..], &["--open", "speed=20..45", "--method", "qmc"]].concat();
+    let whole = stdout(&succeeds(fuzz(dir.path(), &narrow)));
+    assert!(!whole.contains("keep the constraints"), "{whole}");
+    let part = stdout(&succeeds(fuzz(dir.path(), &given)));
+    assert!(part.contains("the probability is that of tests that keep the constraints: 50 of "), "{part}");
+    let qmc = [&given[..], &["--method", "qmc"]].concat();
+    refused(&fuzz(dir.path(), &qmc), &["the method qmc needs the whole space"]);
 }
 
 #[test]

@@ -92,11 +92,20 @@ pub enum LikelihoodFlaw {
     /// No parameter is open (all have fixed values), so that there is no probability to estimate.
     #[error("no parameter is open, so there is no probability to estimate: leave at least one parameter open")]
     NothingOpen,
-    /// The space has constraints, so that the distribution of the tests is not known.
+    /// Constraints leave a part of the space, and the method needs the whole space.
     #[error(
-        "the space has constraints, expected none: distributions of parameters that depend on each other are not known"
+        "the constraints leave a part of the space, and the method {method} needs the whole space; the method monte-carlo does not"
     )]
-    Constraints,
+    Constraints {
+        /// The method that the user chose.
+        method: Method,
+    },
+    /// No random test keeps the constraints.
+    #[error("none of {drawn} random tests keeps the constraints")]
+    NoValidTest {
+        /// The number of random tests.
+        drawn: usize,
+    },
     /// No test could be judged, because each test broke, or its world could not be built.
     #[error(
         "no test could be judged{}", first.as_ref().map(|first| format!("; the problem of the first test: {first}")).unwrap_or_default()

@@ -21,6 +21,8 @@ pub enum Subject {
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(crate) scenario: String,
+    /// The hash of the files of the scenario; `None` if the scenario is not that of a file.
+    pub(crate) files: Option<String>,
     pub(crate) vehicle: VehicleSetup,
     pub(crate) fixed: Values,
     pub(crate) driver: DriverChoice,
@@ -121,6 +123,7 @@ impl Simulation {
         let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
         let simulation = Self {
             scenario: program.name().to_owned(),
+            files: program.files_hash().map(str::to_owned),
             vehicle: VehicleSetup::default(),
             fixed: fixed.collect(),
             driver: DriverChoice::usual(),

@@ -35,7 +35,7 @@ pub(super) struct Options {
     #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
     /// The space of the tests in a CSV; without a space the columns are in [0,1]
-    #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "strategy")]
+    #[arg(long, value_name = "SPACE.toml|MODEL.pict|FILE.xosc|DIR", conflicts_with = "strategy")]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,

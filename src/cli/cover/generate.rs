@@ -38,7 +38,7 @@ const BATCH: usize = 64;
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true).multiple(true))]
 pub(super) struct Options {
     /// The space of the tests
-    #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "dims", group = "of")]
+    #[arg(long, value_name = "SPACE.toml|MODEL.pict|FILE.xosc|DIR", conflicts_with = "dims", group = "of")]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,

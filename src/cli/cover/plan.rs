@@ -22,8 +22,8 @@ of these rows the continuous points leave no empty box of volume above epsilon."
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true))]
 pub(super) struct Options {
-    /// The space of the tests
-    #[arg(long, value_name = "SPACE.toml|MODEL.pict", group = "of")]
+    /// The space of the tests; of a scenario file or of the folder of a campaign, the open parameters
+    #[arg(long, value_name = "SPACE.toml|MODEL.pict|FILE.xosc|DIR", group = "of")]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,

@@ -64,6 +64,11 @@ impl Found {
 }
 
 impl CatalogFiles {
+    /// Returns the texts of the files, in the order of the names of the catalogs.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.all.values().map(Document::text)
+    }
+
     /// Reads all catalogs in the folders that a scenario names. `folder` is the folder of the scenario.
     pub fn read(locations: Option<Node<'_>>, folder: &Path) -> Result<Self, ReadError> {
         let (mut all, mut absent) = (BTreeMap::new(), None);

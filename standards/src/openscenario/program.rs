@@ -28,6 +28,7 @@ use std::collections::BTreeMap;
 use std::path::{Path as FilePath, PathBuf};
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
+use xxhash_rust::xxh3::Xxh3;
 
 /// The least duration in seconds of a scenario whose stop trigger does not come.
 const LONGEST: f64 = 60.0;
@@ -157,7 +158,20 @@ impl Xosc {
 
     /// Makes the program of the scenario. Its name is the path of the file.
     pub fn program(self) -> Program {
-        Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s))
+        let hash = self.files_hash();
+        Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s)).of_files(hash)
+    }
+
+    /// Returns the 128-bit XXH3 of the scenario, its catalogs and the roads that have been read.
+    fn files_hash(&self) -> String {
+        let roads = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut hash = Xxh3::new();
+        let maps = roads.values().map(|roads| &*roads.map.text);
+        for text in [self.document.text()].into_iter().chain(self.catalogs.texts()).chain(maps) {
+            hash.update(&(text.len() as u64).to_le_bytes());
+            hash.update(text.as_bytes());
+        }
+        format!("{:032x}", hash.digest128())
     }
 
     fn build(&self, s: &mut Scenario) {
