@@ -16,12 +16,12 @@ Examples:
   paracosm-fuzz export paracosm-out 17 --out case-17
   paracosm-fuzz export paracosm-out 17 --out case-17 --ego-as controller
 
-The folder of --out gets scenario.xosc (ASAM OpenSCENARIO XML 1.2) and roads.xodr (ASAM OpenDRIVE). Every road user follows the
-trajectory that the test had. With --ego-as controller, the ego vehicle begins at its place and with its speed, and the other
-simulator drives it from there on. If the scenario is a file, scenario.xosc is then its own storyboard with the values of the test.";
+The folder of --out gets a scenario with the name of the folder, such as case-17.xosc (ASAM OpenSCENARIO XML 1.2), and roads.xodr (ASAM
+OpenDRIVE). Every road user follows the trajectory that the test had. With --ego-as controller, the ego vehicle begins at its place and with its speed, and the other
+simulator drives it from there on. If the scenario is a file, the export is then its own storyboard with the values of the test.";
 
-/// The name of the file of the scenario.
-const SCENARIO: &str = "scenario.xosc";
+/// The name of the exported scenario, if its folder has no name.
+const SCENARIO: &str = "scenario";
 /// The ending of files of scenarios.
 const XOSC: &str = "xosc";
 /// The name of the file of the roads.
@@ -69,19 +69,21 @@ impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
         let (study, logged) = (log.study(), logged(&self.dir, &log, self.index)?);
-        for name in [SCENARIO, ROADS] {
-            is_new(&self.out.join(name), "an export")?;
+        let stem = self.out.file_name().and_then(|name| name.to_str()).unwrap_or(SCENARIO);
+        let files = [self.out.join(format!("{stem}.{XOSC}")), self.out.join(ROADS)];
+        for file in &files {
+            is_new(file, "an export")?;
         }
-        let (files, notes) = match file_of(study)? {
+        let (texts, notes) = match file_of(study)? {
             Some(file) if self.ego_as == Ego::Controller => storyboard(&file, &study.complete(&logged.test))?,
             file => self.trajectories(&log, logged, file.as_deref())?,
         };
         create_folder(&self.out)?;
-        for (name, text) in [SCENARIO, ROADS].iter().zip(files) {
-            write_whole_here(&self.out.join(name), text.as_bytes())?;
+        for (file, text) in files.iter().zip(texts) {
+            write_whole_here(file, text.as_bytes())?;
         }
         notes.iter().for_each(|note| verbosity.note(note));
-        print(&format!("{}\n{}\n", self.out.join(SCENARIO).display(), self.out.join(ROADS).display()))?;
+        print(&files.map(|file| format!("{}\n", file.display())).concat())?;
         Ok(Status::Nothing)
     }
 

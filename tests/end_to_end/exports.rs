@@ -95,13 +95,13 @@ fn exported_tests_are_read_back_with_the_same_motion() {
     let dir = exported();
     for (name, ..) in SCENARIOS {
         let log = dir.path().join(format!("{name}-log"));
-        let case = dir.path().join(format!("{name}-case/scenario.xosc"));
+        let case = dir.path().join(format!("{name}-case/{name}-case.xosc"));
         let far = distance(&recorded(&log, 1), &played(&case));
         assert!(far <= CLOSE, "{name}: {far} m");
         eprintln!("{name}: {far:.6} m, {} bytes", fs::metadata(&case).expect("it is there").len());
     }
     // The entities of a file keep their boxes and names, so their reference points move as recorded.
-    let text = fs::read_to_string(dir.path().join("leader-case/scenario.xosc")).expect("it is there");
+    let text = fs::read_to_string(dir.path().join("leader-case/leader-case.xosc")).expect("it is there");
     assert!(text.contains("<ScenarioObject name=\"Leader\">") && text.contains("<Center x=\"1.4\""), "{text}");
 }
 
@@ -114,14 +114,14 @@ fn the_storyboard_of_a_file_is_exported_with_the_values_of_the_test_and_gives_th
         let mut files: Vec<_> =
             fs::read_dir(&folder).expect("it is there").map(|file| file.expect("one").file_name()).collect();
         files.sort();
-        assert_eq!(files, ["roads.xodr", "scenario.xosc"]);
+        let scenario = format!("{name}-storyboard.xosc");
+        assert_eq!(files, [scenario.as_str(), "roads.xodr"]);
         // Nothing else is needed.
         let moved = tempfile::tempdir().expect("a folder");
         for file in files {
             fs::copy(folder.join(&file), moved.path().join(&file)).expect("it is there");
         }
-        let program =
-            Xosc::read(&moved.path().join("scenario.xosc")).unwrap_or_else(|error| panic!("{error}")).program();
+        let program = Xosc::read(&moved.path().join(&scenario)).unwrap_or_else(|error| panic!("{error}")).program();
         let descriptor = find(driver).expect("a driver");
         let mut driver = (descriptor.make)(&descriptor.settings(&[]).expect("no settings"));
         let nominal = program.declare().expect("it is sound").nominal();
@@ -137,9 +137,9 @@ fn an_export_replaces_nothing_and_leaves_the_ego_vehicle_to_a_controller() {
     let output = succeeds(fuzz(dir.path(), &["export", "log", "0", "--out", "case", "--ego-as", "controller"]));
     let says = stderr(&output);
     assert!(says.contains("except the ego vehicle") && says.contains("the scenario is a program"), "{says}");
-    let text = fs::read_to_string(dir.path().join("case/scenario.xosc")).expect("it was written");
+    let text = fs::read_to_string(dir.path().join("case/case.xosc")).expect("it was written");
     assert_eq!(text.matches("<FollowTrajectoryAction>").count(), 1, "{text}");
-    refused(&fuzz(dir.path(), &["export", "log", "0", "--out", "case"]), &["scenario.xosc exists"]);
+    refused(&fuzz(dir.path(), &["export", "log", "0", "--out", "case"]), &["case.xosc exists"]);
     refused(&fuzz(dir.path(), &["export", "log", "7", "--out", "other"]), &["7"]);
     assert!(!dir.path().join("other").exists());
 }
@@ -179,7 +179,7 @@ fn exports_pass_the_quality_checkers_of_asam() {
     let trajectories = SCENARIOS.map(|(name, ..)| format!("{name}-case"));
     for name in trajectories.into_iter().chain(["leader-storyboard", "actions-storyboard"].map(str::to_owned)) {
         let case = dir.path().join(&name);
-        let checked = report(&python, &case.join("scenario.xosc"), scenarios);
+        let checked = report(&python, &case.join(format!("{name}.xosc")), scenarios);
         assert!(checked.matches("status=\"completed\"").count() >= 5, "{name}: {checked}");
         assert!(!checked.contains("<Issue"), "{name}: {checked}");
         let checked = report(&python, &case.join("roads.xodr"), ["qc_opendrive", "xodrBundle"]);
@@ -187,7 +187,7 @@ fn exports_pass_the_quality_checkers_of_asam() {
     }
     // The checker finds what is wrong.
     let file = dir.path().join("crossing-case/wrong.xosc");
-    let text = fs::read_to_string(file.with_file_name("scenario.xosc")).expect("it was written");
+    let text = fs::read_to_string(file.with_file_name("crossing-case.xosc")).expect("it was written");
     fs::write(&file, text.replacen("<EntityRef entityRef=\"", "<EntityRef entityRef=\"No", 1)).expect("it is writable");
     assert!(report(&python, &file, scenarios).contains("<Issue"));
 }
