@@ -5,7 +5,7 @@
 //! keeps this CSV as `extended.csv`, so that the campaign can be measured when the original file is gone. A replay
 //! needs neither file.
 
-use crate::test_set::read_values;
+use crate::test_set::{read_values, tests_as_csv};
 use crate::{Error, Reason, Study};
 use paracosm_space::plural;
 use paracosm_space::{Point, Space, Values};
@@ -68,7 +68,7 @@ impl Extension {
     }
 
     fn of_values(path: &Path, space: &Space, values: Vec<Values>) -> Self {
-        let hash = format!("{:032x}", xxh3_128(&csv(space, &values)));
+        let hash = format!("{:032x}", xxh3_128(&tests_as_csv(space, &values)));
         let record = ExtensionRecord { name: path.display().to_string(), tests: values.len(), hash };
         Self { record, tests: Kept::Here(values) }
     }
@@ -97,7 +97,7 @@ impl Extension {
     /// # Errors
     /// The same errors as [`points`](Self::points).
     pub fn csv(&self, space: &Space) -> Result<Vec<u8>, Error> {
-        Ok(csv(space, &self.values(space)?))
+        Ok(tests_as_csv(space, &self.values(space)?))
     }
 
     fn values(&self, space: &Space) -> Result<Cow<'_, [Values]>, Error> {
@@ -112,15 +112,4 @@ impl Extension {
         }
         Ok(Cow::Owned(values))
     }
-}
-
-/// Writes tests as CSV, with a column for every coordinate.
-fn csv(space: &Space, tests: &[Values]) -> Vec<u8> {
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
-    write(space.coordinates().map(|coordinate| coordinate.name()).collect());
-    for test in tests {
-        write(test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string).collect());
-    }
-    csv.into_inner().expect("memory does not fail to flush")
 }

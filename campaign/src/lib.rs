@@ -81,7 +81,7 @@ pub use space_file::{SpaceFile, is_model};
 pub use steering::Steering;
 pub use study::{NamedCommand, Sampling, StatedRequirement, Study, StudyBuilder, Subject};
 pub use study_file::StudyFile;
-pub use test_set::{PartialRow, TestSet};
+pub use test_set::{PartialRow, TestSet, tests_as_csv};
 pub use trace_file::{read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};
 pub use trust::Trust;

@@ -200,6 +200,17 @@ fn is_open(text: &str, parameter: &Parameter) -> bool {
     text.trim().is_empty() && !takes_it()
 }
 
+/// Writes tests as CSV, with a column for every coordinate of the space.
+pub fn tests_as_csv(space: &Space, tests: &[Values]) -> Vec<u8> {
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
+    write(space.coordinates().map(|coordinate| coordinate.name()).collect());
+    for test in tests {
+        write(test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string).collect());
+    }
+    csv.into_inner().expect("memory does not fail to flush")
+}
+
 /// Reads tests from a CSV file as values of the parameters of a space. If a column has the name of a fixed parameter
 /// (which is not part of the space), the values in the column must be the fixed value.
 ///

@@ -6,10 +6,10 @@ use super::subject::Subject;
 use super::{Failure, Status, Verbosity, on_interrupt, print};
 use clap::Args;
 use paracosm_analysis::audit::{
-    Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Source, Suite, SuiteFlaw, Witness,
+    Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Source, Suite, SuiteFlaw, Witness,
 };
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Error, Study};
+use paracosm_campaign::{Artefact, Error, Study, tests_as_csv};
 use paracosm_space::Record;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -29,7 +29,10 @@ An audit says what a suite of tests would have missed:
              a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
              are fixed before: each is noticed in one of the random tests of --screen
 
-The audit writes audit.json and mutants.jsonl, which has a line for each mutant, to the folder --out.";
+  additions  few tests of the screen that kill the mutants which the suite misses
+
+The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and additions-1.csv for the first suite, and so
+on, to the folder --out.";
 
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
@@ -95,6 +98,12 @@ impl Options {
         for file in report.files() {
             write_whole_here(&self.out.join(file), &report.contents(file)?)?;
         }
+        for (number, suite) in (1..).zip(&report.suites) {
+            if let Some(additions) = suite.additions.as_ref().filter(|additions| !additions.tests.is_empty()) {
+                let tests = tests_as_csv(study.space(), &additions.tests);
+                write_whole_here(&self.out.join(additions_file(number)), &tests)?;
+            }
+        }
         verbosity.note(format_args!("written to {}", self.out.display()));
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&report),
@@ -123,9 +132,14 @@ impl Options {
     }
 }
 
+/// Returns the name of the file of the tests that a suite should have besides.
+fn additions_file(number: usize) -> String {
+    format!("additions-{number}.csv")
+}
+
 fn table(report: &Report) -> String {
     let mut table = Table::default();
-    for suite in &report.suites {
+    for (number, suite) in (1..).zip(&report.suites) {
         let left = if suite.left_out == 0 {
             String::new()
         } else {
@@ -144,6 +158,15 @@ fn table(report: &Report) -> String {
         if let Some(score) = &suite.mutants {
             let screen = report.screen.as_ref().expect("mutants come from a screen");
             self::score(&mut table, screen, score);
+            if let Some(Additions { missed, tests, at_least }) = suite.additions.as_ref().filter(|more| more.missed > 0)
+            {
+                let (tests, missed) = (plural(tests.len(), "test"), plural(*missed, "missed mutant"));
+                let file = additions_file(number);
+                table.row(
+                    "additions",
+                    &format!("{tests} of the screen (at least {at_least}) kill the {missed}: {file}"),
+                );
+            }
         }
     }
     if report.suites.len() > 1 {

@@ -69,6 +69,24 @@ fn an_audit_shows_holes_a_witness_and_scores() {
 }
 
 #[test]
+fn the_additions_to_a_suite_kill_the_mutants_that_it_misses() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |suite: &str, out: &str| {
+        let given = ["audit", "--tests", suite, "--mutants", "60", "--screen", "16", "-q", "--out", out];
+        succeeds(fuzz(dir.path(), &given));
+        let text = fs::read_to_string(dir.path().join(out).join("mutants.jsonl")).unwrap();
+        text.lines().map(|line| serde_json::from_str(line).unwrap()).collect::<Vec<Value>>()
+    };
+    let few = run("halton:4", "few");
+    let more = run("few/additions-1.csv", "more");
+    let missed: Vec<_> = few.iter().zip(&more).filter(|(few, _)| few["kills"][0].is_null()).collect();
+    assert!(missed.len() > 5, "{}", missed.len());
+    assert!(missed.iter().all(|(few, more)| few["mutant"] == more["mutant"] && !more["kills"][0].is_null()));
+    let tests = fs::read_to_string(dir.path().join("few/additions-1.csv")).unwrap().lines().count() - 1;
+    assert!(tests < missed.len(), "{tests} tests for {} mutants", missed.len());
+}
+
+#[test]
 fn a_folder_with_another_audit_and_wrong_suites_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     audit(dir.path(), "out", &[]);

@@ -75,7 +75,7 @@ fn what_cannot_be_planned_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let cases: [(&[&str], &[&str]); 6] = [
-        (&[], &["--space <SPACE.toml|MODEL.pict>|--dims <D>"]),
+        (&[], &["--space <SPACE.toml|MODEL.pict|FILE.xosc|DIR>|--dims <D>"]),
         (&["--dims", "0"], &["no parameters"]),
         (&["--dims", "2", "--k", "2"], &["--k is a number of discrete parameters"]),
         (&["--space", "SPACE.toml", "--k", "6"], &["k is 6", "has 5 parameters"]),

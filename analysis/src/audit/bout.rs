@@ -44,8 +44,10 @@ pub struct Found {
 pub struct Noticed {
     /// The mutant.
     pub mutant: Mutant,
-    /// The test.
+    /// The first test of the screen that notices it.
     pub test: Found,
+    /// All tests of the screen that notice it, by their positions.
+    pub tests: Vec<usize>,
 }
 
 /// The suites and the mutants of an audit.
@@ -111,7 +113,7 @@ impl Bout<'_> {
     }
 
     fn tried(&self, noticed: &Noticed, known: &[Known], seats: &Seats) -> Result<Tried, Error> {
-        let Noticed { mutant, test } = noticed;
+        let Noticed { mutant, test, .. } = noticed;
         let study = mutated(self.study, mutant.defect)?;
         let mut worker = seats.worker(&study);
         let kills = known.iter().map(|suite| suite.kills(mutant, &mut worker).next()).collect();

@@ -41,12 +41,9 @@ pub enum AuditFolderFlaw {
         /// The number of the mutant, from 0.
         index: usize,
     },
-    /// The file does not say what is audited.
-    #[error("the file does not say what is audited: {message}")]
-    Settings {
-        /// The error in the file.
-        message: String,
-    },
+    /// The file is not JSON, so it does not say what is audited.
+    #[error("the file is not the JSON that an audit writes")]
+    NoSettings,
 }
 
 impl Reason for AuditFolderFlaw {}
@@ -58,7 +55,7 @@ pub struct AuditFolder {
     tried: File,
 }
 
-/// What is audited.
+/// The study, the suites and the mutants of an audit, in the form of the file.
 #[derive(Serialize)]
 struct Settings {
     study: Value,
@@ -100,9 +97,8 @@ impl AuditFolder {
                 write_whole_here(&file, &text)?;
             }
             Some(there) => {
-                let wrong = |error: serde_json::Error| AuditFolderFlaw::Settings { message: error.to_string() };
-                let there: Value =
-                    serde_json::from_str(&there).map_err(|error| Error::in_file(&file, None, wrong(error)))?;
+                let there: Value = serde_json::from_str(&there)
+                    .map_err(|_| Error::in_file(&file, None, AuditFolderFlaw::NoSettings))?;
                 if let Some(key) = differing_key(&there, &settings) {
                     let (path, key) = (path.to_owned(), key.to_owned());
                     return Err(AuditFolderFlaw::Other { path, key }.into());

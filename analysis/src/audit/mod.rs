@@ -5,6 +5,7 @@
 //! driver of the study does, and fails in the hole. It counts how many *mutants* (drivers with defects of many kinds and sizes) the suite
 //! notices.
 
+mod additions;
 mod bout;
 mod folder;
 mod holes;
@@ -14,6 +15,7 @@ mod screen;
 mod suite;
 mod witness;
 
+pub use additions::Additions;
 pub use bout::{Found, Kill, Noticed, Tried};
 pub use folder::{AuditFolder, AuditFolderFlaw};
 pub use holes::{Holes, RowHole};
@@ -94,6 +96,8 @@ pub struct Audited {
     pub witness: Option<Witness>,
     /// The mutation score; `None` without mutants.
     pub mutants: Option<Score>,
+    /// Tests that kill the mutants which the suite misses; `None` without mutants.
+    pub additions: Option<Additions>,
 }
 
 /// The results of an audit.
@@ -158,9 +162,10 @@ impl<'a> Audit<'a> {
             tried.push(one);
             Ok(())
         })?;
-        if !mutants.is_empty() {
+        if let Some(screen) = self.screen.as_ref().filter(|_| !mutants.is_empty()) {
             for (position, suite) in suites.iter_mut().enumerate() {
                 suite.mutants = Some(Score::of(tried, position));
+                suite.additions = Some(Additions::of(screen, tried, position));
             }
         }
         Ok(Report { title: study.title(), screen: self.screen.clone(), suites })
@@ -180,7 +185,7 @@ impl<'a> Audit<'a> {
         let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs, defect };
         let witness = search.run()?;
         let (name, tests, left_out) = (suite.name.clone(), suite.points.len(), suite.left_out);
-        Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None })
+        Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None, additions: None })
     }
 }
 

@@ -77,7 +77,7 @@ impl Runs {
     }
 }
 
-/// What the workers of a study share.
+/// The darkroom that the workers of a study share, if its driver uses images.
 pub(super) struct Seats(Option<Arc<Darkroom>>);
 
 impl Seats {

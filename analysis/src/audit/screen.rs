@@ -12,6 +12,7 @@ use super::runs::{Runs, Seats, check, mutated};
 use paracosm_campaign::{Error, Sampling, Study};
 use paracosm_generators::Strategy;
 use paracosm_mutants::{ALL, Defect, Mutant, mutants_where};
+use paracosm_space::Values;
 use serde::Serialize;
 
 /// The seed of these tests, which no strategy has by default.
@@ -31,6 +32,9 @@ pub struct Screen {
     /// The mutants.
     #[serde(skip)]
     pub mutants: Vec<Noticed>,
+    /// The values of the tests.
+    #[serde(skip)]
+    pub values: Vec<Values>,
 }
 
 impl Screen {
@@ -64,8 +68,11 @@ impl Screen {
             &kills[place]
         };
         let noticed_in = |mutant: &Mutant| {
-            let kill = of(mutant.defect).iter().find(|kill| mutant.is_active(known.test(kill.test)))?;
-            Some(Found { test: known.test(kill.test).clone(), requirement: kill.requirement.clone() })
+            let kills = of(mutant.defect).iter().filter(|kill| mutant.is_active(known.test(kill.test)));
+            let kills: Vec<&Kill> = kills.collect();
+            let first = kills.first()?;
+            let test = Found { test: known.test(first.test).clone(), requirement: first.requirement.clone() };
+            Some(Noticed { mutant: mutant.clone(), test, tests: kills.iter().map(|kill| kill.test).collect() })
         };
         let mut screen = Self {
             tests: suite.points.len(),
@@ -73,6 +80,7 @@ impl Screen {
             noticed: kills.iter().filter(|kills| !kills.is_empty()).count(),
             equivalent_as_far_as_known: 0,
             mutants: Vec::new(),
+            values: suite.values(study),
         };
         // A longer set begins with the shorter one.
         let (mut asked, mut seen) = (count, 0);
@@ -83,7 +91,7 @@ impl Screen {
                     break;
                 }
                 match noticed_in(mutant) {
-                    Some(test) => screen.mutants.push(Noticed { mutant: mutant.clone(), test }),
+                    Some(noticed) => screen.mutants.push(noticed),
                     None => screen.equivalent_as_far_as_known += 1,
                 }
             }

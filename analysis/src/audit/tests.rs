@@ -108,6 +108,11 @@ fn a_suite_that_meets_more_failures_of_the_screen_kills_more_mutants() {
     assert!(few.all.killed < many.all.killed, "{few:?} {many:?}");
     // Every test of the short suite is in the long one.
     assert!(few.kinds.iter().zip(&many.kinds).all(|(few, many)| few.all.killed <= many.all.killed));
+    for (at, score) in [(0, &few), (1, &many)] {
+        let additions = report.suites[at].additions.clone().unwrap();
+        assert_eq!(additions.missed, 100 - score.all.killed);
+        assert!(additions.at_least <= additions.tests.len() && additions.tests.len() <= additions.missed);
+    }
     let sum = |score: &Score| score.kinds.iter().map(|kind| kind.all.killed).sum::<usize>();
     assert_eq!((sum(&few), sum(&many)), (few.all.killed, many.all.killed));
 }
