@@ -181,7 +181,7 @@ impl<'a> Audit<'a> {
         let half = self.limit.map(|limit| limit / 2);
         let coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, half)?;
         let holes = Holes::of(suite, self.study, half.map_or_else(Deadline::never, Deadline::after))?;
-        let defect = NO_BRAKES.clone();
+        let defect = NO_BRAKES;
         let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs, defect };
         let witness = search.run()?;
         let (name, tests, left_out) = (suite.name.clone(), suite.points.len(), suite.left_out);

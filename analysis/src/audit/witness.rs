@@ -93,7 +93,7 @@ impl Search<'_> {
     /// # Errors
     /// The audit was stopped, or the driver cannot be made.
     pub fn run(&self) -> Result<Option<Witness>, Error> {
-        let blind = mutated(self.study, self.defect.clone())?;
+        let blind = mutated(self.study, self.defect)?;
         for (rank, hole) in self.holes.rows.iter().take(MOST_ROWS).enumerate() {
             let place = Place {
                 levels: &hole.levels,
@@ -223,7 +223,7 @@ impl Search<'_> {
         let between =
             sides.iter().map(|(name, [lo, hi])| Condition::Between { parameter: name.to_owned(), lo: *lo, hi: *hi });
         let is = row.iter().map(|(name, value)| Condition::Is { parameter: name.to_owned(), value: value.clone() });
-        let mutant = Mutant { defect: self.defect.clone(), when: between.chain(is).collect() };
+        let mutant = Mutant { defect: self.defect, when: between.chain(is).collect() };
         let tests_inside = self.suite.points.iter().filter(|point| mutant.is_active(&space.decode(point))).count();
         let (inside, valid) = draws(space, &mutant);
         Ok(Witness {
