@@ -18,7 +18,7 @@ use std::time::Duration;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz audit pedestrian-crossing --tests my-tests.csv --driver planner
-  paracosm-fuzz audit cut-in --tests halton:40 --tests lhs:40 --tests grid:5x4x2
+  paracosm-fuzz audit cut-in --tests halton:40 --tests lhs:40 --tests grid:4x3x3x2
   paracosm-fuzz audit alks_4_4_1_variation.xosc --driver fsm --out audit        its own values are the suite
 
 An audit says what a suite of tests would have missed:
@@ -202,7 +202,7 @@ fn place(sides: &Record<[f64; 2]>, row: &Record<paracosm_space::Value>) -> Strin
 fn witness(table: &mut Table, witness: &Witness) {
     let Witness { tried, failing, test, requirement, robustness, probability, .. } = witness;
     let which = if witness.is_largest_hole { "the largest hole" } else { "an empty box" };
-    table.row("witness", &format!("{} within {which}, a box of {}", witness.mutant.defect, digits(witness.volume)));
+    table.row("witness", &format!("does not brake within {which}, a box of {}", digits(witness.volume)));
     table.row("  box", &place(&witness.sides, &witness.row));
     let tests = if witness.tests_inside == 0 { "no test".to_owned() } else { plural(witness.tests_inside, "test") };
     table.row("  on in the suite", &format!("in {tests}, so it gets every verdict of the given driver"));
