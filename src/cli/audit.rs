@@ -1,7 +1,9 @@
 //! `paracosm-fuzz audit`: puts a suite of tests on trial.
 
+use super::draw::FileKind;
 use super::output::{Format, Table, digits, json, percent, plural, short_bracket, value_words};
 use super::progress::bar;
+use super::replay::draw;
 use super::subject::Subject;
 use super::{Failure, Status, Verbosity, on_interrupt, print};
 use clap::Args;
@@ -9,7 +11,8 @@ use paracosm_analysis::audit::{
     Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Source, Suite, SuiteFlaw, Witness,
 };
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Error, Study, tests_as_csv};
+use paracosm_campaign::{Artefact, Error, Study, Worker, tests_as_csv};
+use paracosm_report::birds_eye::MotionRecord;
 use paracosm_space::Record;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -31,8 +34,8 @@ An audit says what a suite of tests would have missed:
 
   additions  few tests of the screen that kill the mutants which the suite misses
 
-The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and additions-1.csv for the first suite, and so
-on, to the folder --out.";
+The audit writes audit.json, mutants.jsonl, which has a line for each mutant, additions-1.csv and witness-1.gif for the
+first suite, and so on, to the folder --out.";
 
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
@@ -104,6 +107,11 @@ impl Options {
                 write_whole_here(&self.out.join(additions_file(number)), &tests)?;
             }
         }
+        for (number, suite) in (1..).zip(&report.suites) {
+            if let Some(witness) = &suite.witness {
+                write_whole_here(&self.out.join(film_file(number)), &film(witness, &study)?)?;
+            }
+        }
         verbosity.note(format_args!("written to {}", self.out.display()));
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&report),
@@ -132,6 +140,20 @@ impl Options {
     }
 }
 
+/// Returns the name of the film of a suite's witness.
+fn film_file(number: usize) -> String {
+    format!("witness-{number}.gif")
+}
+
+/// Returns a film of the test that the witness fails.
+fn film(witness: &Witness, study: &Study) -> Result<Vec<u8>, Failure> {
+    let blind = witness.study(study)?;
+    let mut record = MotionRecord::default();
+    let (trial, _) = Worker::new(&blind)?.watch(0, &witness.test, |run| record.see(run));
+    let caption = format!("{}, the witness: {}", study.subject().scenario()?.scenario(), trial.verdict);
+    draw(&record, FileKind::Gif, &caption)
+}
+
 /// Returns the name of the file of the tests that a suite should have besides.
 fn additions_file(number: usize) -> String {
     format!("additions-{number}.csv")
@@ -149,7 +171,7 @@ fn table(report: &Report) -> String {
         table.coverage(&suite.coverage);
         holes(&mut table, suite);
         match &suite.witness {
-            Some(witness) => self::witness(&mut table, witness),
+            Some(witness) => self::witness(&mut table, witness, number),
             None => table.row(
                 "witness",
                 "none: a driver that does not brake failed in no test that was tried outside of the suite",
@@ -199,7 +221,7 @@ fn place(sides: &Record<[f64; 2]>, row: &Record<paracosm_space::Value>) -> Strin
     sides.chain(row.iter().map(|(name, value)| format!("{name} {value}"))).collect::<Vec<_>>().join(", ")
 }
 
-fn witness(table: &mut Table, witness: &Witness) {
+fn witness(table: &mut Table, witness: &Witness, number: usize) {
     let Witness { tried, failing, test, requirement, robustness, probability, .. } = witness;
     let which = if witness.is_largest_hole { "the largest hole" } else { "an empty box" };
     table.row("witness", &format!("does not brake within {which}, a box of {}", digits(witness.volume)));
@@ -208,7 +230,7 @@ fn witness(table: &mut Table, witness: &Witness) {
     table.row("  on in the suite", &format!("in {tests}, so it gets every verdict of the given driver"));
     table.row("  fails in the box", &format!("{failing} of {}", plural(*tried, "test")));
     let values: Vec<String> = test.iter().map(|(name, value)| format!("{name} {}", value_words(value))).collect();
-    table.row("  fails with", &values.join(", "));
+    table.row("  fails with", &format!("{}; {}", values.join(", "), film_file(number)));
     let [with, without] = robustness.map(|number| number.map_or("undecided".to_owned(), digits));
     table.row(&format!("  {requirement}"), &format!("{with}, with the given driver {without}"));
     let [lo, hi] = witness.probability_interval.map(digits);

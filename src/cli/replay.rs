@@ -232,8 +232,8 @@ pub(super) fn logged<'a>(dir: &Path, log: &'a Log, index: usize) -> Result<&'a T
 /// Width of a film in pixels.
 const FILM: f64 = 800.0;
 
-/// The run from above.
-fn draw(record: &MotionRecord, kind: FileKind, caption: &str) -> Result<Vec<u8>, Failure> {
+/// Returns the picture of a run from above in the format of a file.
+pub(super) fn draw(record: &MotionRecord, kind: FileKind, caption: &str) -> Result<Vec<u8>, Failure> {
     let nothing = "the world of the test could not be built, so there is nothing to draw";
     let story = || record.story(caption).ok_or(nothing);
     match kind {

@@ -62,6 +62,16 @@ pub struct Witness {
     pub probability_interval: [f64; 2],
 }
 
+impl Witness {
+    /// Returns the study with the witness at the wheel, for the tests in its box.
+    ///
+    /// # Errors
+    /// The study does not test a driver in this process.
+    pub fn study(&self, of: &Study) -> Result<Study, Error> {
+        mutated(of, self.mutant.defect)
+    }
+}
+
 /// A search for the witness of a suite.
 pub(super) struct Search<'a> {
     pub study: &'a Study,
