@@ -21,6 +21,7 @@ pub mod audit;
 pub mod bench;
 pub mod blame;
 pub mod certificate;
+mod combinations;
 pub mod compare;
 pub mod estimate;
 pub mod explanation;

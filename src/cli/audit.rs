@@ -1,5 +1,6 @@
 //! `paracosm-fuzz audit`: puts a suite of tests on trial.
 
+use super::cover::time_limit;
 use super::draw::FileKind;
 use super::output::{Format, Table, digits, json, percent, plural, short_bracket, value_words};
 use super::progress::bar;
@@ -11,12 +12,12 @@ use paracosm_analysis::audit::{
     Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Source, Suite, SuiteFlaw, Witness,
 };
 use paracosm_campaign::files::write_whole_here;
+use paracosm_campaign::reasons::ParameterMisuse;
 use paracosm_campaign::{Artefact, Error, Study, Worker, tests_as_csv};
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_space::Record;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::Duration;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -31,7 +32,6 @@ An audit says what a suite of tests would have missed:
   mutants    drivers with defects of many kinds and sizes, always on or on under conditions. A suite kills a mutant if
              a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
              are fixed before: each is noticed in one of the random tests of --screen
-
   additions  few tests of the screen that kill the mutants which the suite misses
 
 The audit writes audit.json, mutants.jsonl, which has a line for each mutant, additions-1.csv and witness-1.gif for the
@@ -76,6 +76,8 @@ impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let sources = self.tests.iter().map(|text| text.parse()).collect::<Result<Vec<Source>, SuiteFlaw>>();
         let sources = sources.map_err(Error::from)?;
+        let limit = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
+        AuditFolder::check(&self.out, self.resume).map_err(Error::from)?;
         let (study, suites) = self.suites(&sources, verbosity)?;
         let mut runs = Runs::default();
         if let Some(jobs) = self.jobs {
@@ -83,11 +85,11 @@ impl Options {
         }
         on_interrupt(runs.stop.clone());
         let audit = Audit::of(&study, suites).map_err(Error::from)?;
-        let screen = Screen::of(&study, self.mutants, self.screen, &runs)?;
-        let mut audit = audit.mutants(screen).runs(runs);
-        if let Some(seconds) = self.time_limit {
-            audit = audit.time_limit(Duration::from_secs_f64(seconds));
+        let mut audit = limit.into_iter().fold(audit, Audit::time_limit);
+        if self.mutants > 0 {
+            audit = audit.mutants(Screen::of(&study, self.mutants, self.screen, &runs)?);
         }
+        let audit = audit.runs(runs);
         self.subject.note_before(&study, verbosity)?;
         let (mut folder, mut tried) = AuditFolder::open(&self.out, &audit, self.resume)?;
         let bar = bar(verbosity, self.mutants);
@@ -106,8 +108,6 @@ impl Options {
                 let tests = tests_as_csv(study.space(), &additions.tests);
                 write_whole_here(&self.out.join(additions_file(number)), &tests)?;
             }
-        }
-        for (number, suite) in (1..).zip(&report.suites) {
             if let Some(witness) = &suite.witness {
                 write_whole_here(&self.out.join(film_file(number)), &film(witness, &study)?)?;
             }
@@ -133,8 +133,11 @@ impl Options {
         if listed.space().dims() > 0 {
             return Err(SuiteFlaw::NoGrid.into());
         }
-        // Without an interval to open, the listed values are the whole space.
-        let study = builder.continuous().build().unwrap_or_else(|_| listed.clone());
+        let study = match builder.continuous().build() {
+            // Without an interval to open, the listed values are the whole space.
+            Err(error) if matches!(error.reason(), Some(ParameterMisuse::NoRange { .. })) => listed.clone(),
+            study => study?,
+        };
         let suite = Suite::stated(&listed, &study)?;
         Ok((study, vec![suite]))
     }
@@ -226,8 +229,7 @@ fn witness(table: &mut Table, witness: &Witness, number: usize) {
     let which = if witness.is_largest_hole { "the largest hole" } else { "an empty box" };
     table.row("witness", &format!("does not brake within {which}, a box of {}", digits(witness.volume)));
     table.row("  box", &place(&witness.sides, &witness.row));
-    let tests = if witness.tests_inside == 0 { "no test".to_owned() } else { plural(witness.tests_inside, "test") };
-    table.row("  on in the suite", &format!("in {tests}, so it gets every verdict of the given driver"));
+    table.row("  on in the suite", "in no test, so it gets every verdict of the given driver");
     table.row("  fails in the box", &format!("{failing} of {}", plural(*tried, "test")));
     let values: Vec<String> = test.iter().map(|(name, value)| format!("{name} {}", value_words(value))).collect();
     table.row("  fails with", &format!("{}; {}", values.join(", "), film_file(number)));

@@ -101,6 +101,7 @@ fn a_folder_with_another_audit_and_wrong_suites_are_refused() {
     refused(&new(&["--tests", "halton:none"]), &["found `none` after `halton:`, expected a number of tests"]);
     refused(&new(&["--tests", "grid:3"]), &["the grid has 1 size, expected 2", "speed, distance"]);
     refused(&new(&["--tests", "absent.csv"]), &["absent.csv"]);
+    refused(&new(&["--tests", "halton:5", "--time-limit=-1"]), &["--time-limit -1: expected a number of seconds"]);
     refused(&new(&["--tests", "cmaes:40"]), &["audit the folder of a campaign"]);
     refused(&new(&["--tests", "halton:5", "--open", "friction:per-tick"]), &["`friction` is a signal"]);
     assert!(!dir.path().join("new").exists());

@@ -108,7 +108,7 @@ impl Bout<'_> {
         let known = self.suites.iter().map(|suite| Known::of(suite, self.study, self.runs));
         let known = known.collect::<Result<Vec<_>, Error>>()?;
         let seats = Seats::of(self.study)?;
-        let try_one = |(): &mut (), index: usize| Some(self.tried(&self.mutants[index], &known, &seats));
+        let try_one = |(): &mut (), index: usize| self.tried(&self.mutants[index], &known, &seats);
         self.runs.each_into(tried..self.mutants.len(), || (), try_one, |one| sink(one?))
     }
 

@@ -8,7 +8,7 @@ use paracosm_mutants::Mutant;
 use serde::Serialize;
 use serde_json::Value;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_128;
@@ -79,22 +79,33 @@ impl AuditFolder {
     /// # Errors
     /// The folder cannot be written, holds an audit that is not to go on, or holds another audit.
     pub fn open(path: &Path, audit: &Audit, resume: bool) -> Result<(Self, Vec<Tried>), Error> {
+        Self::check(path, resume)?;
         create_folder(path)?;
         let settings = serde_json::to_value(audit.settings()).expect("what is audited is always JSON");
         let (file, tried) = (path.join(SETTINGS), path.join(TRIED));
         is_no_link(&tried)?;
+        let mut options = File::options();
+        let mut log = options.create(true).append(true).read(true).open(&tried).map_err(Error::io("write", &tried))?;
+        if let Err(TryLockError::WouldBlock) = log.try_lock() {
+            return Err(InUse { folder: path.to_owned(), holder: None }.into());
+        }
         let there = match fs::read_to_string(&file) {
-            Ok(_) if !resume => return Err(AuditFolderFlaw::Occupied { path: path.to_owned() }.into()),
             Ok(text) => Some(text),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(Error::io("read", &file)(error)),
         };
         let mut known = Vec::new();
         let mut text = String::new();
+        log.read_to_string(&mut text).map_err(Error::io("read", &tried))?;
+        // A last line without its end was cut off.
+        text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
         match there {
             None => {
-                let text = serde_json::to_vec_pretty(&settings).expect("JSON is always JSON");
-                write_whole_here(&file, &text)?;
+                text.clear();
+                write_whole_here(
+                    &file,
+                    &[&serde_json::to_vec_pretty(&settings).expect("it is JSON")[..], b"\n"].concat(),
+                )?;
             }
             Some(there) => {
                 let there: Value = serde_json::from_str(&there)
@@ -103,12 +114,6 @@ impl AuditFolder {
                     let (path, key) = (path.to_owned(), key.to_owned());
                     return Err(AuditFolderFlaw::Other { path, key }.into());
                 }
-                text = fs::read_to_string(&tried).or_else(|error| match error.kind() {
-                    io::ErrorKind::NotFound => Ok(String::new()),
-                    _ => Err(Error::io("read", &tried)(error)),
-                })?;
-                // A last line without its end was cut off.
-                text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
                 for (index, line) in text.lines().enumerate() {
                     let one = serde_json::from_str(line).ok().filter(|one: &Tried| audit.tries(index, one));
                     let flaw = || Error::in_file(&tried, Some(index + 1), AuditFolderFlaw::Line { index });
@@ -116,12 +121,17 @@ impl AuditFolder {
                 }
             }
         }
-        write_whole_here(&tried, text.as_bytes())?;
-        let log = File::options().append(true).open(&tried).map_err(Error::io("write", &tried))?;
-        if let Err(TryLockError::WouldBlock) = log.try_lock() {
-            return Err(InUse { folder: path.to_owned(), holder: None }.into());
-        }
+        log.set_len(text.len() as u64).map_err(Error::io("write", &tried))?;
         Ok((Self { path: path.to_owned(), tried: log }, known))
+    }
+
+    /// Checks that a new audit may use a folder, before slow work begins.
+    ///
+    /// # Errors
+    /// The folder holds an audit, which is not to go on.
+    pub fn check(path: &Path, resume: bool) -> Result<(), AuditFolderFlaw> {
+        let is_occupied = !resume && path.join(SETTINGS).exists();
+        if is_occupied { Err(AuditFolderFlaw::Occupied { path: path.to_owned() }) } else { Ok(()) }
     }
 
     /// Adds a mutant that has been tried.

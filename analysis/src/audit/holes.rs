@@ -1,6 +1,7 @@
 //! The holes of a suite: for each row of discrete values, the largest box of continuous values that no test has entered.
 
 use super::Suite;
+use crate::combinations::combinations;
 use paracosm_campaign::{Error, Study};
 use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_within};
 use paracosm_coverage::valid::{Effort, ValidPart, Validity};
@@ -130,16 +131,4 @@ pub(super) fn sides(axes: &[Coordinate], found: &LargestEmptyBox) -> Record<[f64
         .zip(ends)
         .map(|(axis, (&lo, &hi))| (axis.name(), [lo, hi].map(|u| axis.parameter.value_at(u))))
         .collect()
-}
-
-/// Iterates over all combinations of levels. The last parameter changes fastest.
-fn combinations(levels: &[usize]) -> impl Iterator<Item = Vec<usize>> {
-    let count: usize = levels.iter().product();
-    (0..count).map(move |mut index| {
-        let mut row = vec![0; levels.len()];
-        for (place, count) in row.iter_mut().zip(levels).rev() {
-            (*place, index) = (index % count, index / count);
-        }
-        row
-    })
 }

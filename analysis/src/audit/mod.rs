@@ -29,7 +29,6 @@ use crate::Coverage;
 use bout::Bout;
 use paracosm_campaign::{Error, JsonArtefact, Reason, Study, TestSet};
 use paracosm_coverage::{Deadline, Measure};
-use paracosm_mutants::NO_BRAKES;
 use serde::Serialize;
 use std::time::Duration;
 use thiserror::Error;
@@ -181,8 +180,7 @@ impl<'a> Audit<'a> {
         let half = self.limit.map(|limit| limit / 2);
         let coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, half)?;
         let holes = Holes::of(suite, self.study, half.map_or_else(Deadline::never, Deadline::after))?;
-        let defect = NO_BRAKES;
-        let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs, defect };
+        let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs };
         let witness = search.run()?;
         let (name, tests, left_out) = (suite.name.clone(), suite.points.len(), suite.left_out);
         Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None, additions: None })

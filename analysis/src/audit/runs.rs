@@ -31,7 +31,7 @@ impl Runs {
     /// Runs tests of a study. Returns a trial for each test.
     pub(super) fn of(&self, study: &Study, tests: &[Values]) -> Result<Vec<Trial>, Error> {
         let seats = Seats::of(study)?;
-        let run = |worker: &mut Worker, index: usize| Some(worker.run(index, &tests[index]).0);
+        let run = |worker: &mut Worker, index: usize| worker.run(index, &tests[index]).0;
         self.each(tests.len(), || seats.worker(study), run)
     }
 
@@ -40,7 +40,7 @@ impl Runs {
         &self,
         count: usize,
         hire: impl Fn() -> W + Sync,
-        work: impl Fn(&mut W, usize) -> Option<T> + Sync,
+        work: impl Fn(&mut W, usize) -> T + Sync,
     ) -> Result<Vec<T>, Error> {
         let mut done = Vec::new();
         self.each_into(0..count, hire, work, |result| {
@@ -55,14 +55,14 @@ impl Runs {
         &self,
         range: std::ops::Range<usize>,
         hire: impl Fn() -> W + Sync,
-        work: impl Fn(&mut W, usize) -> Option<T> + Sync,
+        work: impl Fn(&mut W, usize) -> T + Sync,
         mut sink: impl FnMut(T) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let expected = range.len();
         let mut done = 0;
         let unless_stopped = |worker: &mut W, index| {
-            let result = (!self.is_stopped()).then(|| work(worker, index))?;
-            // A test that was cut short has no result.
+            let result = (!self.is_stopped()).then(|| work(worker, index));
+            // Work that was cut short has no result.
             result.filter(|_| !self.is_stopped())
         };
         in_order(&pool(self.jobs.get().min(expected).max(1))?, range, hire, unless_stopped, |result| {

@@ -56,11 +56,9 @@ impl Screen {
         let defects: Vec<Defect> = ALL.iter().copied().flat_map(Defect::all_of).collect();
         let notice = |(): &mut (), index: usize| {
             let mutant = Mutant { defect: defects[index], when: Vec::new() };
-            let kills = mutated(study, mutant.defect).map(|study| {
-                let mut worker = seats.worker(&study);
-                known.kills(&mutant, &mut worker).collect::<Vec<Kill>>()
-            });
-            Some(kills)
+            let study = mutated(study, mutant.defect)?;
+            let mut worker = seats.worker(&study);
+            Ok(known.kills(&mutant, &mut worker).collect::<Vec<Kill>>())
         };
         let kills = runs.each(defects.len(), || (), notice)?.into_iter().collect::<Result<Vec<_>, Error>>()?;
         let of = |defect: Defect| {

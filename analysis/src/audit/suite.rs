@@ -1,5 +1,6 @@
 //! A test suite on trial: a set of tests of a study's space, from any source.
 
+use crate::combinations::combinations;
 use paracosm_campaign::{Error, Reason, Sampling, Study, TestSet};
 use paracosm_generators::Strategy;
 use paracosm_space::pict::Aliases;
@@ -158,9 +159,9 @@ impl Suite {
     /// of the space of `study`. `listed` is the same study with the listed values of parameters in place of their intervals.
     ///
     /// # Errors
-    /// The two studies have the same space, so that no values are listed; there are too many combinations; or none is valid.
+    /// `listed` has a continuous parameter, so that it lists no values; there are too many combinations; or none is valid.
     pub fn stated(listed: &Study, study: &Study) -> Result<Self, Error> {
-        if listed.space() == study.space() || listed.space().dims() > 0 {
+        if listed.space().dims() > 0 {
             return Err(SuiteFlaw::NoGrid.into());
         }
         let points = cross(&[], &listed.space().levels())?;
@@ -208,15 +209,11 @@ fn cross(sizes: &[usize], levels: &[usize]) -> Result<Vec<Point>, SuiteFlaw> {
     if tests > MOST_TESTS {
         return Err(SuiteFlaw::TooLarge { tests });
     }
-    let point = |mut index: u64| {
-        let mut places = vec![0; counts.len()];
-        for (place, count) in places.iter_mut().zip(&counts).rev() {
-            (*place, index) = ((index % *count as u64) as usize, index / *count as u64);
-        }
+    let point = |places: Vec<usize>| {
         let even = |(place, size): (&usize, &usize)| *place as f64 / (*size - 1) as f64;
         Point { continuous: places.iter().zip(sizes).map(even).collect(), discrete: places[sizes.len()..].to_vec() }
     };
-    Ok((0..tests).map(point).collect())
+    Ok(combinations(&counts).map(point).collect())
 }
 
 #[cfg(test)]

@@ -133,6 +133,11 @@ fn the_listed_values_of_a_scenario_are_a_suite_of_the_open_intervals() {
     let suite = Suite::stated(&listed, &study).unwrap();
     assert_eq!(suite.points.len(), 6);
     assert_eq!(suite.values(&study)[5].get("speed").and_then(paracosm_space::Value::number), Some(5.0));
+    // Where nothing but listed values is open, they are the whole space, and no hole is left for a witness.
+    let whole = Suite::stated(&listed, &listed).unwrap();
+    let audited = Audit::of(&listed, vec![whole]).unwrap().run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0);
+    assert_eq!((audited.tests, audited.holes.largest().upper), (6, 0.0));
+    assert!(audited.witness.is_none() && audited.mutants.is_none());
     assert!(Suite::stated(&study, &study).unwrap_err().to_string().contains("name a suite"));
 }
 

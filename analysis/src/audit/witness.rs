@@ -4,9 +4,9 @@
 //! the box, so all their verdicts stay as they are. A failing test in the box shows that the suite misses a real defect. So the volume
 //! of the largest such box has a meaning: it is the largest box-shaped defect that passes the suite.
 
+use super::Suite;
 use super::holes::{Holes, RowHole, sides};
 use super::runs::{Runs, gives_away, mutated};
-use super::{AuditFlaw, Suite};
 use crate::statistics::clopper_pearson;
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::{Error, Study, Trial};
@@ -14,7 +14,7 @@ use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::valid::{Effort, Validity};
 use paracosm_generators::{Request, Strategy};
-use paracosm_mutants::{Condition, Defect, Mutant};
+use paracosm_mutants::{Condition, Mutant, NO_BRAKES};
 use paracosm_space::{Coordinate, Point, Record, Space, Value, Values};
 use serde::Serialize;
 
@@ -40,7 +40,8 @@ pub struct Witness {
     /// The ends of the box along each continuous parameter, as values.
     #[serde(rename = "box")]
     pub sides: Record<[f64; 2]>,
-    /// The least volume of the box, as a share of the valid part of its row.
+    /// The volume of the box, as a share of the valid part of its row: at least so much if the box is the largest of its row, and at
+    /// most so much if it is another one.
     pub volume: f64,
     /// `true` if the box is the largest hole of the suite.
     pub is_largest_hole: bool,
@@ -78,7 +79,6 @@ pub(super) struct Search<'a> {
     pub suite: &'a Suite,
     pub holes: &'a Holes,
     pub runs: &'a Runs,
-    pub defect: Defect,
 }
 
 /// A box of a row in which the witness is to fail.
@@ -103,8 +103,10 @@ impl Search<'_> {
     /// # Errors
     /// The audit was stopped, or the driver cannot be made.
     pub fn run(&self) -> Result<Option<Witness>, Error> {
-        let blind = mutated(self.study, self.defect)?;
-        for (rank, hole) in self.holes.rows.iter().take(MOST_ROWS).enumerate() {
+        let blind = mutated(self.study, NO_BRAKES)?;
+        // A row without continuous parameters that has a test has no hole.
+        let holes = || self.holes.rows.iter().filter(|hole| hole.volume.lower > 0.0).take(MOST_ROWS);
+        for (rank, hole) in holes().enumerate() {
             let place = Place {
                 levels: &hole.levels,
                 found: hole.found.clone(),
@@ -116,7 +118,7 @@ impl Search<'_> {
                 return self.witness(&place, tests.len(), failing).map(Some);
             }
         }
-        for hole in self.holes.rows.iter().take(MOST_ROWS) {
+        for hole in holes() {
             if let Some(witness) = self.in_row(&blind, hole)? {
                 return Ok(Some(witness));
             }
@@ -227,13 +229,10 @@ impl Search<'_> {
             .zip(place.levels)
             .map(|(name, level)| (name.name(), name.parameter.levels().expect("it is discrete")[*level].clone()))
             .collect();
-        if let Some(signal) = space.parameters().iter().find(|parameter| parameter.signal.is_some()) {
-            return Err(AuditFlaw::Signal { name: signal.name.clone() }.into());
-        }
         let between =
             sides.iter().map(|(name, [lo, hi])| Condition::Between { parameter: name.to_owned(), lo: *lo, hi: *hi });
         let is = row.iter().map(|(name, value)| Condition::Is { parameter: name.to_owned(), value: value.clone() });
-        let mutant = Mutant { defect: self.defect, when: between.chain(is).collect() };
+        let mutant = Mutant { defect: NO_BRAKES, when: between.chain(is).collect() };
         let tests_inside = self.suite.points.iter().filter(|point| mutant.is_active(&space.decode(point))).count();
         let (inside, valid) = draws(space, &mutant);
         Ok(Witness {

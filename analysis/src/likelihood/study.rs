@@ -1,16 +1,17 @@
 //! Estimates the probability of failure of a study whose tests are drawn from the distributions of its parameters.
 
 use super::{Likelihood, LikelihoodFlaw, Method, Question, estimate};
+use crate::combinations::combinations;
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::{Campaign, Error, Learned, Problem, Scales, Study, Trial};
 use paracosm_oracles::Verdict;
-use paracosm_space::{Point, Space, Values};
+use paracosm_space::{Space, Values};
 
 /// The greatest number of rows of discrete values in which constraints are checked as a whole.
 const MOST_ROWS: usize = 4096;
 /// The greatest number of draws for one valid test.
 const MOST_DRAWS: usize = 100_000;
-/// Keeps further draws apart from those of the method.
+/// The number that makes the seed of further draws another one than the seed of the method.
 const APART: u64 = 0x6c69_6b65_6c69_686f;
 
 /// Draws tests that keep the constraints of a space, from the distributions of its parameters.
@@ -43,21 +44,11 @@ impl Draws<'_> {
 fn always_hold(space: &Space) -> bool {
     let levels = space.levels();
     let rows = levels.iter().try_fold(1_usize, |rows, levels| rows.checked_mul(*levels));
-    let Some(rows) = rows.filter(|rows| *rows <= MOST_ROWS) else { return space.constraints().is_empty() };
+    if rows.is_none_or(|rows| rows > MOST_ROWS) {
+        return space.constraints().is_empty();
+    }
     let (lower, upper) = (vec![0.0; space.dims()], vec![1.0; space.dims()]);
-    (0..rows).all(|mut index| {
-        let row: Vec<usize> = levels
-            .iter()
-            .map(|levels| {
-                let level = index % levels;
-                index /= levels;
-                level
-            })
-            .collect();
-        // The answer for a part counts constraints on levels, too.
-        space.allows_part(&row, &lower, &upper) == Some(true)
-            && space.allows(&Point { continuous: lower.clone(), discrete: row })
-    })
+    combinations(&levels).all(|row| space.allows_part(&row, &lower, &upper) == Some(true))
 }
 
 /// Estimates the probability that a test of a study fails, if the open parameters have the distributions of the space.

@@ -47,7 +47,7 @@ pub(crate) enum RowPoints {
         /// `true` if random points may stand in for those of the sequence.
         fills: bool,
     },
-    /// The points are those of sets that depend on their size.
+    /// The points come from sets that are made for a number of points.
     Sets { build: BuildSets, seed: Option<u64> },
 }
 

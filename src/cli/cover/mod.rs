@@ -73,7 +73,7 @@ impl Command {
 }
 
 /// Reads the number of seconds of an option.
-fn time_limit(option: &str, seconds: f64) -> Result<Duration, Error> {
+pub(super) fn time_limit(option: &str, seconds: f64) -> Result<Duration, Error> {
     Duration::try_from_secs_f64(seconds)
         .map_err(|_| usage(format!("{option} {seconds}: expected a number of seconds, 0 or more")))
 }

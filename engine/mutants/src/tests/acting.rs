@@ -3,7 +3,7 @@
 use super::*;
 use crate::{ALL, NO_BRAKES};
 
-/// What becomes of throttles that are wanted one after the other.
+/// Returns the throttles of a driver with a defect that wants these throttles, one after the other.
 fn throttled(kind: &str, size: f64, wanted: &[f64]) -> Vec<f64> {
     let done = done(defect(kind, size), &same(wanted.len(), &[]), &throttles(wanted));
     assert!(done.iter().all(|control| control.steering == 0.0), "{kind} {size}");
