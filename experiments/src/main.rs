@@ -4,6 +4,7 @@
 //! studies tests a system, which can also be tested from the command line.
 
 mod alks;
+mod audit;
 mod automatic_transmission;
 mod boundary;
 #[cfg(feature = "neural")]
@@ -74,6 +75,18 @@ const STUDIES: &[Study] = &[
         about: "drivers in all combinations of the parameters of UN R157, whose scenarios have to lie beside the repository",
         time: "20 min",
         run: alks::run,
+    },
+    Study {
+        name: "audit",
+        about: "what the grids of UN R157 and Euro NCAP cannot see: holes, witnesses, mutants, and smaller suites",
+        time: "30 min",
+        run: audit::run_stated,
+    },
+    Study {
+        name: "audit-strategies",
+        about: "whether suites of even strategies kill more mutants than random suites, in all scenarios",
+        time: "2 h",
+        run: audit::run_strategies,
     },
     Study {
         name: "automatic-transmission",

@@ -9,10 +9,10 @@ use super::subject::Subject;
 use super::{Failure, Status, Verbosity, on_interrupt, print};
 use clap::Args;
 use paracosm_analysis::audit::{
-    Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Source, Suite, SuiteFlaw, Witness,
+    Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Smaller, Source, Suite, SuiteFlaw,
+    Witness,
 };
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::reasons::ParameterMisuse;
 use paracosm_campaign::{Artefact, Error, Study, Worker, tests_as_csv};
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_space::Record;
@@ -32,10 +32,12 @@ An audit says what a suite of tests would have missed:
   mutants    drivers with defects of many kinds and sizes, always on or on under conditions. A suite kills a mutant if
              a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
              are fixed before: each is noticed in one of the random tests of --screen
-  additions  few tests of the screen that kill the mutants which the suite misses
+  additions  the fewest tests of the screen that kill the mutants which the suite misses, and a test that kills the witness
+  smaller    a suite with fewer tests and smaller holes that kills all mutants of this set, if one is found. Grade it with
+             other mutants: --seed 1
 
-The audit writes audit.json, mutants.jsonl, which has a line for each mutant, additions-1.csv and witness-1.gif for the
-first suite, and so on, to the folder --out.";
+The audit writes audit.json, mutants.jsonl, which has a line for each mutant, additions-1.csv, smaller-1.csv and
+witness-1.gif for the first suite, and so on, to the folder --out.";
 
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
@@ -55,6 +57,12 @@ pub(super) struct Options {
     /// The number of random tests of the screen: each mutant is noticed in one of them
     #[arg(long, value_name = "N", default_value_t = Screen::TESTS)]
     screen: usize,
+    /// The seed of the tests of the screen and of the mutants; another seed gives other mutants
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Compare the first suite with suites of as many tests, one by each strategy that does not learn from outcomes
+    #[arg(long)]
+    compare: bool,
     /// Limit the seconds for the coverage of each suite; holes are brackets if the time is too short [default: no limit]
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
@@ -78,7 +86,12 @@ impl Options {
         let sources = sources.map_err(Error::from)?;
         let limit = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
         AuditFolder::check(&self.out, self.resume).map_err(Error::from)?;
-        let (study, suites) = self.suites(&sources, verbosity)?;
+        let (study, mut suites) = self.suites(&sources, verbosity)?;
+        if self.compare {
+            let (others, refusals) = suites[0].rivals(&study);
+            refusals.iter().for_each(|refusal| verbosity.note(format_args!("not compared: {refusal}")));
+            suites.extend(others);
+        }
         let mut runs = Runs::default();
         if let Some(jobs) = self.jobs {
             runs.jobs = jobs;
@@ -87,7 +100,7 @@ impl Options {
         let audit = Audit::of(&study, suites).map_err(Error::from)?;
         let mut audit = limit.into_iter().fold(audit, Audit::time_limit);
         if self.mutants > 0 {
-            audit = audit.mutants(Screen::of(&study, self.mutants, self.screen, &runs)?);
+            audit = audit.mutants(Screen::of(&study, self.mutants, self.screen, self.seed, &runs)?);
         }
         let audit = audit.runs(runs);
         self.subject.note_before(&study, verbosity)?;
@@ -107,6 +120,9 @@ impl Options {
             if let Some(additions) = suite.additions.as_ref().filter(|additions| !additions.tests.is_empty()) {
                 let tests = tests_as_csv(study.space(), &additions.tests);
                 write_whole_here(&self.out.join(additions_file(number)), &tests)?;
+            }
+            if let Some(smaller) = &suite.smaller {
+                write_whole_here(&self.out.join(smaller_file(number)), &tests_as_csv(study.space(), &smaller.tests))?;
             }
             if let Some(witness) = &suite.witness {
                 write_whole_here(&self.out.join(film_file(number)), &film(witness, &study)?)?;
@@ -129,16 +145,7 @@ impl Options {
             let suites = sources.iter().map(|source| Suite::of(source, &study)).collect::<Result<_, Error>>()?;
             return Ok((study, suites));
         }
-        let listed = builder.clone().build()?;
-        if listed.space().dims() > 0 {
-            return Err(SuiteFlaw::NoGrid.into());
-        }
-        let study = match builder.continuous().build() {
-            // Without an interval to open, the listed values are the whole space.
-            Err(error) if matches!(error.reason(), Some(ParameterMisuse::NoRange { .. })) => listed.clone(),
-            study => study?,
-        };
-        let suite = Suite::stated(&listed, &study)?;
+        let (study, suite) = Suite::of_listed(&builder)?;
         Ok((study, vec![suite]))
     }
 }
@@ -162,6 +169,11 @@ fn additions_file(number: usize) -> String {
     format!("additions-{number}.csv")
 }
 
+/// Returns the name of the file of a smaller suite.
+fn smaller_file(number: usize) -> String {
+    format!("smaller-{number}.csv")
+}
+
 fn table(report: &Report) -> String {
     let mut table = Table::default();
     for (number, suite) in (1..).zip(&report.suites) {
@@ -183,15 +195,20 @@ fn table(report: &Report) -> String {
         if let Some(score) = &suite.mutants {
             let screen = report.screen.as_ref().expect("mutants come from a screen");
             self::score(&mut table, screen, score);
-            if let Some(Additions { missed, tests, at_least }) = suite.additions.as_ref().filter(|more| more.missed > 0)
-            {
-                let (tests, missed) = (plural(tests.len(), "test"), plural(*missed, "missed mutant"));
+            if let Some(additions) = suite.additions.as_ref().filter(|more| !more.tests.is_empty()) {
+                let Additions { missed, tests, at_least } = additions;
+                let witness = suite.witness.is_some();
+                let killing = plural(tests.len() - usize::from(witness), "test");
+                let last = if witness { ", and a test kills the witness" } else { "" };
+                let missed = plural(*missed, "missed mutant");
                 let file = additions_file(number);
-                table.row(
-                    "additions",
-                    &format!("{tests} of the screen (at least {at_least}) kill the {missed}: {file}"),
-                );
+                table.row("additions", &format!("{killing} (at least {at_least}) kill {missed}{last}: {file}"));
             }
+        }
+        if let Some(Smaller { tests, killing, largest_hole }) = &suite.smaller {
+            let kills = if *killing == 0 { String::new() } else { ", kills all mutants of this set".to_owned() };
+            let (tests, hole) = (plural(tests.len(), "test"), short_bracket(largest_hole));
+            table.row("smaller suite", &format!("{tests}, largest hole {hole}{kills}: {}", smaller_file(number)));
         }
     }
     if report.suites.len() > 1 {

@@ -83,7 +83,8 @@ fn the_additions_to_a_suite_kill_the_mutants_that_it_misses() {
     let missed: Vec<_> = few.iter().zip(&more).filter(|(few, _)| few["kills"][0].is_null()).collect();
     assert!(missed.len() > 5, "{}", missed.len());
     assert!(missed.iter().all(|(few, more)| few["mutant"] == more["mutant"] && !more["kills"][0].is_null()));
-    let tests = fs::read_to_string(dir.path().join("few/additions-1.csv")).unwrap().lines().count() - 1;
+    // The last test kills the witness.
+    let tests = fs::read_to_string(dir.path().join("few/additions-1.csv")).unwrap().lines().count() - 2;
     assert!(tests < missed.len(), "{tests} tests for {} mutants", missed.len());
 }
 
@@ -105,4 +106,34 @@ fn a_folder_with_another_audit_and_wrong_suites_are_refused() {
     refused(&new(&["--tests", "cmaes:40"]), &["audit the folder of a campaign"]);
     refused(&new(&["--tests", "halton:5", "--open", "friction:per-tick"]), &["`friction` is a signal"]);
     assert!(!dir.path().join("new").exists());
+}
+
+#[test]
+fn a_smaller_suite_is_graded_with_other_mutants() {
+    let dir = tempfile::tempdir().unwrap();
+    let given = ["--driver", "planner", "--mutants", "30", "--screen", "16", "-q"];
+    let run = |more: &[&str]| stdout(&succeeds(fuzz(dir.path(), &[&["audit"], &given[..], more].concat())));
+    run(&["--tests", "grid:9x9", "--out", "first"]);
+    let both = ["--tests", "first/smaller-1.csv", "--tests", "grid:9x9", "--seed", "1", "--out", "second"];
+    let report: Value = serde_json::from_str(&run(&both)).unwrap();
+    let [smaller, grid] = [0, 1].map(|at| &report["suites"][at]);
+    assert!(smaller["tests"].as_u64() < grid["tests"].as_u64());
+    let hole = |suite: &Value| suite["holes"]["rows"][0]["lower"].as_f64().unwrap();
+    assert!(hole(smaller) < hole(grid), "{report}");
+    let first: Value = serde_json::from_slice(&fs::read(dir.path().join("first/audit.json")).unwrap()).unwrap();
+    assert_eq!(
+        first["suites"][0]["smaller"]["largest_hole"]["upper"].as_f64(),
+        smaller["holes"]["rows"][0]["upper"].as_f64()
+    );
+}
+
+#[test]
+fn a_suite_is_compared_with_suites_of_its_size_by_other_strategies() {
+    let dir = tempfile::tempdir().unwrap();
+    let given = ["audit", "--tests", "grid:3x3", "--compare", "--mutants", "10", "--screen", "8", "-q"];
+    let report: Value = serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &given)))).unwrap();
+    let suites = report["suites"].as_array().unwrap();
+    let names: Vec<&str> = suites.iter().map(|suite| suite["suite"].as_str().unwrap()).collect();
+    assert!(names[0] == "grid:3x3" && names.contains(&"halton:9") && names.contains(&"greedy:9"), "{names:?}");
+    assert!(suites.iter().all(|suite| suite["tests"] == 9));
 }

@@ -2,6 +2,9 @@
 //!
 //! A suite *kills* a mutant if the mutant violates a requirement in a test of the suite that the driver of the study keeps in the same
 //! test. The mutation score of a suite is the share of mutants that it kills.
+//!
+//! Mutants with the same defect stand next to each other and are tried together. Whether a test notices an active mutant depends on the
+//! defect alone, so no test runs twice with the same defect.
 
 use super::Suite;
 use super::runs::{Runs, Seats, gives_away, mutated};
@@ -54,6 +57,7 @@ pub struct Noticed {
 pub(super) struct Bout<'a> {
     pub study: &'a Study,
     pub suites: &'a [Suite],
+    /// The mutants. Mutants with the same defect stand next to each other.
     pub mutants: &'a [Noticed],
     pub runs: &'a Runs,
 }
@@ -75,14 +79,36 @@ impl Known {
         Ok(Self { tests, given, order })
     }
 
-    /// Iterates over the tests that notice a mutant. `worker` has the driver with its defect.
-    pub fn kills(&self, mutant: &Mutant, worker: &mut Worker) -> impl Iterator<Item = Kill> {
-        let active = self.order.iter().copied().filter(|test| mutant.is_active(&self.tests[*test]));
-        active.filter_map(|test| {
-            let trial = worker.run(test, &self.tests[test]).0;
-            let requirement = gives_away(&self.given[test], &trial)?.to_owned();
-            Some(Kill { test, requirement })
-        })
+    /// Iterates over the tests that notice a defect that is always on. `worker` has the driver with the defect.
+    pub fn noticing(&self, worker: &mut Worker) -> impl Iterator<Item = Kill> {
+        self.order.iter().filter_map(|&test| self.noticed(test, worker))
+    }
+
+    /// Returns the first kill of each mutant; `None` if no test notices the mutant. All mutants have the defect of the driver of
+    /// `worker`, so one run of a test serves all mutants that are active in it.
+    fn kills(&self, mutants: &[&Mutant], worker: &mut Worker) -> Vec<Option<Kill>> {
+        let mut kills = vec![None; mutants.len()];
+        let mut alive: Vec<usize> = (0..mutants.len()).collect();
+        for &test in &self.order {
+            let is_active = |mutant: &usize| mutants[*mutant].is_active(&self.tests[test]);
+            let active: Vec<usize> = alive.iter().copied().filter(is_active).collect();
+            if active.is_empty() {
+                continue;
+            }
+            let Some(kill) = self.noticed(test, worker) else { continue };
+            active.iter().for_each(|mutant| kills[*mutant] = Some(kill.clone()));
+            alive.retain(|mutant| !active.contains(mutant));
+            if alive.is_empty() {
+                break;
+            }
+        }
+        kills
+    }
+
+    fn noticed(&self, test: usize, worker: &mut Worker) -> Option<Kill> {
+        let trial = worker.run(test, &self.tests[test]).0;
+        let requirement = gives_away(&self.given[test], &trial)?.to_owned();
+        Some(Kill { test, requirement })
     }
 
     /// Returns the values of a test of the suite.
@@ -108,15 +134,23 @@ impl Bout<'_> {
         let known = self.suites.iter().map(|suite| Known::of(suite, self.study, self.runs));
         let known = known.collect::<Result<Vec<_>, Error>>()?;
         let seats = Seats::of(self.study)?;
-        let try_one = |(): &mut (), index: usize| self.tried(&self.mutants[index], &known, &seats);
-        self.runs.each_into(tried..self.mutants.len(), || (), try_one, |one| sink(one?))
+        let groups: Vec<&[Noticed]> =
+            self.mutants[tried..].chunk_by(|a, b| a.mutant.defect == b.mutant.defect).collect();
+        let try_group = |(): &mut (), index: usize| self.tried(groups[index], &known, &seats);
+        self.runs.each_into(0..groups.len(), || (), try_group, |group| group?.into_iter().try_for_each(&mut sink))
     }
 
-    fn tried(&self, noticed: &Noticed, known: &[Known], seats: &Seats) -> Result<Tried, Error> {
-        let Noticed { mutant, test, .. } = noticed;
-        let study = mutated(self.study, mutant.defect)?;
+    /// Tries mutants that have the same defect.
+    fn tried(&self, group: &[Noticed], known: &[Known], seats: &Seats) -> Result<Vec<Tried>, Error> {
+        let study = mutated(self.study, group[0].mutant.defect)?;
         let mut worker = seats.worker(&study);
-        let kills = known.iter().map(|suite| suite.kills(mutant, &mut worker).next()).collect();
-        Ok(Tried { mutant: mutant.clone(), kills, noticed: test.clone() })
+        let mutants: Vec<&Mutant> = group.iter().map(|noticed| &noticed.mutant).collect();
+        let kills: Vec<Vec<Option<Kill>>> = known.iter().map(|suite| suite.kills(&mutants, &mut worker)).collect();
+        let one = |(at, noticed): (usize, &Noticed)| Tried {
+            mutant: noticed.mutant.clone(),
+            kills: kills.iter().map(|suite| suite[at].clone()).collect(),
+            noticed: noticed.test.clone(),
+        };
+        Ok(group.iter().enumerate().map(one).collect())
     }
 }

@@ -4,15 +4,19 @@ use super::Suite;
 use crate::combinations::combinations;
 use paracosm_campaign::{Error, Study};
 use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_within};
+use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::valid::{Effort, ValidPart, Validity};
 use paracosm_coverage::{Bracket, Deadline, PointSet};
-use paracosm_space::{Coordinate, Point, Record, Value};
+use paracosm_generators::{Request, Strategy};
+use paracosm_space::{Coordinate, Point, Record, Space, Value};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The greatest number of rows of discrete values that are all looked at. In a space with more rows, only those with a test are.
 const MOST_ROWS: u64 = 4096;
+/// The greatest number of empty boxes of a row that are kept.
+const MOST_BOXES: usize = 1 << 16;
 
 /// The largest hole of a row of discrete values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -131,4 +135,39 @@ pub(super) fn sides(axes: &[Coordinate], found: &LargestEmptyBox) -> Record<[f64
         .zip(ends)
         .map(|(axis, (&lo, &hi))| (axis.name(), [lo, hi].map(|u| axis.parameter.value_at(u))))
         .collect()
+}
+
+/// Returns the empty boxes among the points of a row.
+pub(super) fn empty_boxes(space: &Space, levels: &[usize], points: &[Point]) -> Result<EmptyBoxes, Error> {
+    let rules = space.rules()?;
+    let mut boxes = match Validity::of(space, &rules) {
+        None => EmptyBoxes::at_most(space.dims(), MOST_BOXES)?,
+        Some(validity) => EmptyBoxes::within(validity.of_row(levels, Effort::Full), MOST_BOXES)?,
+    };
+    for point in points.iter().filter(|point| point.discrete == levels) {
+        boxes.add(&point.continuous)?;
+    }
+    Ok(boxes)
+}
+
+/// Returns valid tests inside a box of a row, evenly distributed.
+pub(super) fn tests_in(
+    space: &Space,
+    levels: &[usize],
+    found: &LargestEmptyBox,
+    most: usize,
+) -> Result<Vec<Point>, Error> {
+    let place = |u: &[f64]| {
+        let ends = found.lower.iter().zip(&found.upper);
+        let continuous = u.iter().zip(ends).map(|(u, (lower, upper))| lower + u * (upper - lower)).collect();
+        Point { continuous, discrete: levels.to_vec() }
+    };
+    if space.dims() == 0 {
+        return Ok(vec![place(&[])]);
+    }
+    // Half of them or more may break a constraint.
+    let cube = Space::unit_cube(space.dims());
+    let points = Strategy::HALTON.build(&Request::new(&cube, 8 * most))?.ask(8 * most);
+    let inside = points.iter().map(|point| place(&point.continuous)).filter(|point| space.allows(point));
+    Ok(inside.take(most).collect())
 }

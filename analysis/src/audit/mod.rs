@@ -7,11 +7,13 @@
 
 mod additions;
 mod bout;
+mod cover;
 mod folder;
 mod holes;
 mod runs;
 mod score;
 mod screen;
+mod smaller;
 mod suite;
 mod witness;
 
@@ -22,6 +24,7 @@ pub use holes::{Holes, RowHole};
 pub use runs::Runs;
 pub use score::{KindScore, Score, Share, SizeScore};
 pub use screen::Screen;
+pub use smaller::Smaller;
 pub use suite::{Source, Suite, SuiteFlaw};
 pub use witness::Witness;
 
@@ -97,6 +100,8 @@ pub struct Audited {
     pub mutants: Option<Score>,
     /// Tests that kill the mutants which the suite misses; `None` without mutants.
     pub additions: Option<Additions>,
+    /// A suite with fewer tests and smaller holes; `None` if none was found.
+    pub smaller: Option<Smaller>,
 }
 
 /// The results of an audit.
@@ -132,7 +137,7 @@ impl<'a> Audit<'a> {
         Self { screen: Some(screen), ..self }
     }
 
-    /// Limits the time for the measures of each suite. Without a limit, they are exact.
+    /// Limits the time for the coverage, for the holes and for the smaller suite of each suite. Without a limit, they are exact.
     pub fn time_limit(self, limit: Duration) -> Self {
         Self { limit: Some(limit), ..self }
     }
@@ -164,7 +169,8 @@ impl<'a> Audit<'a> {
         if let Some(screen) = self.screen.as_ref().filter(|_| !mutants.is_empty()) {
             for (position, suite) in suites.iter_mut().enumerate() {
                 suite.mutants = Some(Score::of(tried, position));
-                suite.additions = Some(Additions::of(screen, tried, position));
+                let witness = suite.witness.as_ref();
+                suite.additions = Some(Additions::of(screen, tried, position, witness));
             }
         }
         Ok(Report { title: study.title(), screen: self.screen.clone(), suites })
@@ -182,8 +188,10 @@ impl<'a> Audit<'a> {
         let holes = Holes::of(suite, self.study, half.map_or_else(Deadline::never, Deadline::after))?;
         let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs };
         let witness = search.run()?;
+        let deadline = half.map_or_else(Deadline::never, Deadline::after);
+        let smaller = Smaller::of(self.study, suite, &holes, self.screen.as_ref(), deadline)?;
         let (name, tests, left_out) = (suite.name.clone(), suite.points.len(), suite.left_out);
-        Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None, additions: None })
+        Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None, additions: None, smaller })
     }
 }
 

@@ -6,16 +6,16 @@
 //! test fulfils its conditions. No suite takes part, so no suite is favoured. The screen leaves out defects that fail only in places
 //! that no random test met, so mutation scores are a little too high.
 
-use super::Suite;
-use super::bout::{Found, Kill, Known, Noticed};
+use super::bout::{Bout, Found, Kill, Known, Noticed};
 use super::runs::{Runs, Seats, check, mutated};
+use super::{Score, Suite};
 use paracosm_campaign::{Error, Sampling, Study};
 use paracosm_generators::Strategy;
 use paracosm_mutants::{ALL, Defect, Mutant, mutants_where};
 use paracosm_space::Values;
 use serde::Serialize;
 
-/// The seed of these tests, which no strategy has by default.
+/// The first seed of these tests, which no strategy has by default.
 const SEED: u64 = 0x5c7e_e201;
 
 /// A set of mutants, each of which some random test notices.
@@ -29,7 +29,7 @@ pub struct Screen {
     pub noticed: usize,
     /// The number of mutants with these defects that no test notices. They are equivalent as far as known, and are left out.
     pub equivalent_as_far_as_known: usize,
-    /// The mutants.
+    /// The mutants, in the order of their defects.
     #[serde(skip)]
     pub mutants: Vec<Noticed>,
     /// The values of the tests.
@@ -42,29 +42,27 @@ impl Screen {
     pub const TESTS: usize = 128;
 
     /// Makes a fixed set of `count` mutants for a study, or fewer if there are not so many, from `tests` random tests. The same study
-    /// and numbers give the same set, and the set for a smaller count is its beginning.
+    /// and numbers give the same set, and the set for a smaller count is a part of it. `seed` draws the tests and the conditions of
+    /// mutants: sets with different seeds are independent.
     ///
     /// # Errors
     /// The study cannot be audited, or the work was stopped.
-    pub fn of(study: &Study, count: usize, tests: usize, runs: &Runs) -> Result<Self, Error> {
+    pub fn of(study: &Study, count: usize, tests: usize, seed: u64, runs: &Runs) -> Result<Self, Error> {
         check(study)?;
-        let sampling = Sampling { strategy: Strategy::RANDOM, seed: Some(SEED), budget: tests, ..Sampling::default() };
+        let drawn = Some(SEED.wrapping_add(seed));
+        let sampling = Sampling { strategy: Strategy::RANDOM, seed: drawn, budget: tests, ..Sampling::default() };
         let points = study.sampled(sampling)?.generator(&[])?.ask(tests);
         let suite = Suite::new("the screen".to_owned(), points, study)?;
         let known = Known::of(&suite, study, runs)?;
         let seats = Seats::of(study)?;
         let defects: Vec<Defect> = ALL.iter().copied().flat_map(Defect::all_of).collect();
         let notice = |(): &mut (), index: usize| {
-            let mutant = Mutant { defect: defects[index], when: Vec::new() };
-            let study = mutated(study, mutant.defect)?;
-            let mut worker = seats.worker(&study);
-            Ok(known.kills(&mutant, &mut worker).collect::<Vec<Kill>>())
+            let study = mutated(study, defects[index])?;
+            Ok(known.noticing(&mut seats.worker(&study)).collect::<Vec<Kill>>())
         };
         let kills = runs.each(defects.len(), || (), notice)?.into_iter().collect::<Result<Vec<_>, Error>>()?;
-        let of = |defect: Defect| {
-            let place = defects.iter().position(|one| *one == defect).expect("it is one of the list");
-            &kills[place]
-        };
+        let place = |defect: Defect| defects.iter().position(|one| *one == defect).expect("it is one of the list");
+        let of = |defect: Defect| &kills[place(defect)];
         let noticed_in = |mutant: &Mutant| {
             let kills = of(mutant.defect).iter().filter(|kill| mutant.is_active(known.test(kill.test)));
             let kills: Vec<&Kill> = kills.collect();
@@ -83,7 +81,7 @@ impl Screen {
         // A longer set begins with the shorter one.
         let (mut asked, mut seen) = (count, 0);
         while screen.mutants.len() < count {
-            let set = mutants_where(study.space(), asked, 0, |defect| !of(defect).is_empty());
+            let set = mutants_where(study.space(), asked, seed, |defect| !of(defect).is_empty());
             for mutant in set.iter().skip(seen) {
                 if screen.mutants.len() == count {
                     break;
@@ -98,6 +96,22 @@ impl Screen {
             }
             (asked, seen) = (2 * asked, set.len());
         }
+        screen.mutants.sort_by_key(|noticed| place(noticed.mutant.defect));
         Ok(screen)
+    }
+
+    /// Returns the mutation score of each suite.
+    ///
+    /// # Errors
+    /// The study cannot be audited, or the work was stopped.
+    pub fn scores(&self, study: &Study, suites: &[Suite], runs: &Runs) -> Result<Vec<Score>, Error> {
+        check(study)?;
+        let mut tried = Vec::new();
+        let bout = Bout { study, suites, mutants: &self.mutants, runs };
+        bout.run(0, |one| {
+            tried.push(one);
+            Ok(())
+        })?;
+        Ok((0..suites.len()).map(|suite| Score::of(&tried, suite)).collect())
     }
 }

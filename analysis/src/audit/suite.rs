@@ -1,7 +1,8 @@
 //! A test suite on trial: a set of tests of a study's space, from any source.
 
 use crate::combinations::combinations;
-use paracosm_campaign::{Error, Reason, Sampling, Study, TestSet};
+use paracosm_campaign::reasons::ParameterMisuse;
+use paracosm_campaign::{Error, Reason, Sampling, Study, StudyBuilder, TestSet};
 use paracosm_generators::Strategy;
 use paracosm_space::pict::Aliases;
 use paracosm_space::{Point, SpaceError, Values, plural};
@@ -173,7 +174,45 @@ impl Suite {
         Ok(Self { left_out: suite.left_out + left.len(), ..suite })
     }
 
-    pub(super) fn new(name: String, points: Vec<Point>, study: &Study) -> Result<Self, Error> {
+    /// Makes the study of a scenario that lists values of its parameters, with the intervals of these values open, and the suite of all
+    /// valid combinations of the listed values.
+    ///
+    /// # Errors
+    /// A parameter has no listed values, the study cannot be made, there are too many combinations, or none is valid.
+    pub fn of_listed(builder: &StudyBuilder) -> Result<(Study, Self), Error> {
+        let listed = builder.clone().build()?;
+        if listed.space().dims() > 0 {
+            return Err(SuiteFlaw::NoGrid.into());
+        }
+        let study = match builder.clone().continuous().build() {
+            // Without an interval to open, the listed values are the whole space.
+            Err(error) if matches!(error.reason(), Some(ParameterMisuse::NoRange { .. })) => listed.clone(),
+            study => study?,
+        };
+        let suite = Self::stated(&listed, &study)?;
+        Ok((study, suite))
+    }
+
+    /// Makes suites of as many tests as this suite has, one by each strategy that does not learn from outcomes. Also returns why
+    /// strategies refuse the space or the number of tests.
+    pub fn rivals(&self, study: &Study) -> (Vec<Self>, Vec<Error>) {
+        let strategies = Strategy::all().filter(|strategy| !strategy.is_adaptive());
+        let of = |strategy| Self::of(&Source::Strategy(strategy, self.points.len()), study);
+        let (mut suites, mut refusals) = (Vec::new(), Vec::new());
+        for suite in strategies.map(of) {
+            match suite {
+                Ok(suite) => suites.push(suite),
+                Err(refusal) => refusals.push(refusal),
+            }
+        }
+        (suites, refusals)
+    }
+
+    /// Makes a suite of points of the space of a study. Points that break a constraint are left out.
+    ///
+    /// # Errors
+    /// No point keeps the constraints.
+    pub fn new(name: String, points: Vec<Point>, study: &Study) -> Result<Self, Error> {
         let all = points.len();
         let points: Vec<Point> = points.into_iter().filter(|point| study.space().allows(point)).collect();
         let left_out = all - points.len();

@@ -3,6 +3,8 @@
 use super::runs::{gives_away, mutated};
 use super::*;
 use paracosm_campaign::Catalogue;
+use paracosm_engine::Program;
+use paracosm_space::constraint::Expression;
 use paracosm_space::{Domain, Values};
 use std::num::NonZeroUsize;
 
@@ -22,7 +24,7 @@ fn runs(jobs: usize) -> Runs {
 
 fn report(study: &Study, suites: &[&str], mutants: usize, jobs: usize) -> Report {
     let suites = suites.iter().map(|text| suite(text, study)).collect();
-    let screen = Screen::of(study, mutants, 16, &runs(jobs)).unwrap();
+    let screen = Screen::of(study, mutants, 16, 0, &runs(jobs)).unwrap();
     Audit::of(study, suites).unwrap().mutants(screen).runs(runs(jobs)).run(&mut Vec::new(), |_| Ok(())).unwrap()
 }
 
@@ -69,11 +71,12 @@ fn a_witness_fails_in_a_box_that_no_test_has_entered() {
 }
 
 #[test]
-fn each_mutant_of_a_screen_is_noticed_and_a_smaller_set_is_the_beginning() {
+fn each_mutant_of_a_screen_is_noticed_and_a_smaller_set_is_a_part() {
     let study = study("pedestrian-crossing", "aeb", &[]);
-    let screen = Screen::of(&study, 60, 16, &runs(2)).unwrap();
+    let screen = Screen::of(&study, 60, 16, 0, &runs(2)).unwrap();
     assert_eq!(screen.mutants.len(), 60);
-    assert_eq!(Screen::of(&study, 25, 16, &runs(1)).unwrap().mutants, screen.mutants[..25]);
+    let smaller = Screen::of(&study, 25, 16, 0, &runs(1)).unwrap().mutants;
+    assert!(smaller.len() == 25 && smaller.iter().all(|one| screen.mutants.contains(one)));
     for noticed in &screen.mutants {
         let test = std::slice::from_ref(&noticed.test.test);
         assert!(noticed.mutant.is_active(&test[0]));
@@ -89,7 +92,7 @@ fn results_do_not_depend_on_the_number_of_jobs_or_on_an_interruption() {
     let whole = report(&study, &["halton:20", "grid:5x4"], 40, 1);
     assert_eq!(whole, report(&study, &["halton:20", "grid:5x4"], 40, 2));
     let suites = || ["halton:20", "grid:5x4"].map(|text| suite(text, &study)).to_vec();
-    let audit = || Audit::of(&study, suites()).unwrap().mutants(Screen::of(&study, 40, 16, &runs(2)).unwrap());
+    let audit = || Audit::of(&study, suites()).unwrap().mutants(Screen::of(&study, 40, 16, 0, &runs(2)).unwrap());
     let mut tried = Vec::new();
     let mut left = 17;
     let cut = audit().run(&mut tried, |_| {
@@ -111,8 +114,13 @@ fn a_suite_that_meets_more_failures_of_the_screen_kills_more_mutants() {
     for (at, score) in [(0, &few), (1, &many)] {
         let additions = report.suites[at].additions.clone().unwrap();
         assert_eq!(additions.missed, 100 - score.all.killed);
-        assert!(additions.at_least <= additions.tests.len() && additions.tests.len() <= additions.missed);
+        let witness = report.suites[at].witness.as_ref().unwrap();
+        assert_eq!(additions.tests.last(), Some(&witness.test));
+        assert!(additions.at_least < additions.tests.len() && additions.tests.len() <= additions.missed + 1);
     }
+    let screen = Screen::of(&study, 100, 16, 0, &runs(2)).unwrap();
+    let suites = ["halton:4", "halton:200"].map(|text| suite(text, &study));
+    assert_eq!(screen.scores(&study, &suites, &runs(2)).unwrap(), [few.clone(), many.clone()]);
     let sum = |score: &Score| score.kinds.iter().map(|kind| kind.all.killed).sum::<usize>();
     assert_eq!((sum(&few), sum(&many)), (few.all.killed, many.all.killed));
 }
@@ -148,4 +156,61 @@ fn what_has_no_driver_in_this_process_is_refused() {
     let external = Study::of(program.clone()).driver("grpc://localhost:1").build().unwrap();
     let flaw = Audit::of(&external, Vec::new()).unwrap_err();
     assert!(matches!(flaw, AuditFlaw::External { .. }), "{flaw}");
+}
+
+#[test]
+fn a_smaller_suite_has_fewer_tests_smaller_holes_and_kills_all_mutants_of_the_set() {
+    let crossing = paracosm_scenarios::find("pedestrian-crossing").unwrap();
+    let constrained = Program::of("constrained", "a crossing with a constraint", |s| {
+        crossing.build(s);
+        s.constrain("distance >= 4 * speed".parse::<Expression>().unwrap());
+    });
+    for program in [crossing.clone(), constrained] {
+        let study = Study::of(program).driver("planner").build().unwrap();
+        let whole = report(&study, &["grid:9x9"], 30, 2);
+        let [audited] = &whole.suites[..] else { panic!("one suite") };
+        let smaller = audited.smaller.as_ref().unwrap();
+        assert!(smaller.tests.len() < audited.tests && smaller.killing < smaller.tests.len());
+        assert!(smaller.largest_hole.upper < audited.holes.largest().lower, "{smaller:?}");
+        // A fresh audit of the tests agrees.
+        let space = study.space();
+        let points = smaller.tests.iter().map(|test| space.encode(test)).collect::<Result<Vec<_>, _>>().unwrap();
+        let suite = Suite::new("smaller".to_owned(), points, &study).unwrap();
+        assert_eq!(suite.left_out, 0);
+        let screen = Screen::of(&study, 30, 16, 0, &runs(2)).unwrap();
+        let again = Audit::of(&study, vec![suite]).unwrap().mutants(screen).run(&mut Vec::new(), |_| Ok(())).unwrap();
+        let [again] = &again.suites[..] else { panic!("one suite") };
+        assert_eq!(again.holes.largest(), smaller.largest_hole);
+        let score = again.mutants.as_ref().unwrap().all;
+        assert_eq!((score.killed, score.mutants), (30, 30));
+    }
+}
+
+#[test]
+fn no_smaller_suite_is_made_for_a_suite_of_few_tests_or_of_listed_values() {
+    let study = study("pedestrian-crossing", "planner", &[]);
+    assert_eq!(report(&study, &["halton:4"], 30, 2).suites[0].smaller, None);
+}
+
+#[test]
+fn another_seed_gives_other_mutants_and_other_tests_of_the_screen() {
+    let study = study("pedestrian-crossing", "aeb", &[]);
+    let [one, other] = [0, 1].map(|seed| Screen::of(&study, 40, 16, seed, &runs(2)).unwrap());
+    assert!(one.values != other.values);
+    let conditional = |screen: &Screen| {
+        let with = screen.mutants.iter().filter(|noticed| !noticed.mutant.when.is_empty());
+        with.map(|noticed| noticed.mutant.to_string()).collect::<Vec<_>>()
+    };
+    let (one, other) = (conditional(&one), conditional(&other));
+    assert!(!one.is_empty() && !one.iter().any(|mutant| other.contains(mutant)));
+}
+
+#[test]
+fn every_strategy_that_does_not_learn_makes_a_rival_of_the_same_size() {
+    let study = study("pedestrian-crossing", "aeb", &[]);
+    let (rivals, refusals) = suite("grid:5x4", &study).rivals(&study);
+    let sizes: Vec<usize> = rivals.iter().map(|suite| suite.points.len()).collect();
+    let open_loop = paracosm_generators::Strategy::all().filter(|strategy| !strategy.is_adaptive()).count();
+    assert_eq!(rivals.len() + refusals.len(), open_loop);
+    assert!(rivals.len() > 5 && sizes.iter().all(|size| *size == 20), "{sizes:?} {refusals:?}");
 }

@@ -5,15 +5,12 @@
 //! of the largest such box has a meaning: it is the largest box-shaped defect that passes the suite.
 
 use super::Suite;
-use super::holes::{Holes, RowHole, sides};
+use super::holes::{Holes, RowHole, empty_boxes, sides, tests_in};
 use super::runs::{Runs, gives_away, mutated};
 use crate::statistics::clopper_pearson;
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::{Error, Study, Trial};
 use paracosm_coverage::dispersion::LargestEmptyBox;
-use paracosm_coverage::empty_boxes::EmptyBoxes;
-use paracosm_coverage::valid::{Effort, Validity};
-use paracosm_generators::{Request, Strategy};
 use paracosm_mutants::{Condition, Mutant, NO_BRAKES};
 use paracosm_space::{Coordinate, Point, Record, Space, Value, Values};
 use serde::Serialize;
@@ -24,8 +21,6 @@ const TRIES: usize = 64;
 const TRIES_IN_ROW: usize = 256;
 /// The greatest number of rows that are searched.
 const MOST_ROWS: usize = 64;
-/// The greatest number of empty boxes of a row that are kept.
-const MOST_BOXES: usize = 1 << 16;
 /// The number of draws of the probability of the box.
 const DRAWS: usize = 100_000;
 const CONFIDENCE: f64 = 0.95;
@@ -164,38 +159,17 @@ impl Search<'_> {
     /// Returns the empty boxes of a row with their volumes.
     fn empty_boxes(&self, levels: &[usize]) -> Result<Vec<(LargestEmptyBox, f64)>, Error> {
         let space = self.study.space();
-        let rules = space.rules()?;
-        let validity = Validity::of(space, &rules);
-        let mut boxes = match &validity {
-            None => EmptyBoxes::at_most(space.dims(), MOST_BOXES)?,
-            Some(validity) => EmptyBoxes::within(validity.of_row(levels, Effort::Full), MOST_BOXES)?,
-        };
-        for point in self.suite.points.iter().filter(|point| point.discrete == levels) {
-            boxes.add(&point.continuous)?;
-        }
         let corners = |of: paracosm_coverage::empty_boxes::EmptyBox| {
             let (lower, upper) = (0..space.dims()).map(|axis| of.side(axis)).unzip();
             (LargestEmptyBox { lower, upper }, of.volume())
         };
-        Ok(boxes.larger_than(0.0).map(corners).collect())
+        Ok(empty_boxes(space, levels, &self.suite.points)?.larger_than(0.0).map(corners).collect())
     }
 
     /// Returns valid tests inside a box of a row, evenly distributed.
     fn tests_in(&self, levels: &[usize], found: &LargestEmptyBox, most: usize) -> Result<Vec<Values>, Error> {
         let space = self.study.space();
-        let place = |u: &[f64]| {
-            let ends = found.lower.iter().zip(&found.upper);
-            let continuous = u.iter().zip(ends).map(|(u, (lower, upper))| lower + u * (upper - lower)).collect();
-            Point { continuous, discrete: levels.to_vec() }
-        };
-        if space.dims() == 0 {
-            return Ok(vec![space.decode(&place(&[]))]);
-        }
-        // Half of them or more may break a constraint.
-        let cube = Space::unit_cube(space.dims());
-        let points = Strategy::HALTON.build(&Request::new(&cube, 8 * most))?.ask(8 * most);
-        let inside = points.iter().map(|point| place(&point.continuous)).filter(|point| space.allows(point));
-        Ok(inside.take(most).map(|point| space.decode(&point)).collect())
+        Ok(tests_in(space, levels, found, most)?.iter().map(|point| space.decode(point)).collect())
     }
 
     /// Runs tests with the witness, and those that it fails with the driver of the study, too.

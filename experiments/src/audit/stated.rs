@@ -1,0 +1,123 @@
+//! The grids that UN R157 and Euro NCAP state, on trial: the largest hole, the witness, the mutation score, and a smaller suite.
+
+use super::{files, name_of, study, write_rows};
+use crate::{Done, print};
+use indicatif::ProgressBar;
+use paracosm::analysis::audit::{Audit, Audited, Runs, Screen, Suite};
+use paracosm::space::Value;
+use paracosm::{Error, Study};
+use serde::Serialize;
+use std::path::Path;
+use std::time::Duration;
+
+const MUTANTS: usize = 200;
+/// The seeds of the mutants that choose a smaller suite, and of the mutants that grade it.
+const SEEDS: [u64; 2] = [0, 1];
+/// The time for the coverage and the holes of a suite.
+const LIMIT: Duration = Duration::from_secs(120);
+
+/// A stated suite with the results of its audit, and the smaller suite.
+#[derive(Debug, Clone, Serialize)]
+struct Row {
+    scenario: String,
+    /// The numbers of continuous parameters, and of rows of discrete values.
+    continuous: usize,
+    rows: usize,
+    tests: usize,
+    hole_lower: f64,
+    hole_upper: f64,
+    witness_failing: usize,
+    witness_tried: usize,
+    witness_volume: Option<f64>,
+    witness_probability: Option<f64>,
+    witness_box: String,
+    mutants: usize,
+    score: Option<f64>,
+    smaller_tests: Option<usize>,
+    smaller_hole_upper: Option<f64>,
+    /// The scores of both suites for other mutants than those that chose the smaller suite.
+    other_mutants: usize,
+    other_score: Option<f64>,
+    smaller_other_score: Option<f64>,
+}
+
+/// The scores of a stated suite by kind of defect.
+#[derive(Debug, Clone, Serialize)]
+struct KindRow {
+    scenario: String,
+    kind: &'static str,
+    mutants: usize,
+    killed: usize,
+}
+
+/// Runs the study and writes `audit.csv` and `audit-kinds.csv` to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let files = files();
+    bar.inc_length(files.len() as u64);
+    let (mut rows, mut kinds) = (Vec::new(), Vec::new());
+    for file in files {
+        let name = name_of(&file);
+        let (study, suite) = Suite::of_listed(&study(&file.to_string_lossy())?)?;
+        let first = audited(&study, vec![suite.clone()], SEEDS[0])?.remove(0);
+        let mut graded = vec![suite.clone()];
+        if let Some(smaller) = &first.smaller {
+            let points = smaller.tests.iter().map(|test| study.space().encode(test)).collect::<Result<Vec<_>, _>>()?;
+            graded.push(Suite::new("smaller".to_owned(), points, &study)?);
+        }
+        let runs = Runs::default();
+        let other = Screen::of(&study, MUTANTS, Screen::TESTS, SEEDS[1], &runs)?;
+        let scores: Vec<Option<f64>> =
+            other.scores(&study, &graded, &runs)?.into_iter().map(|score| score.all.score).collect();
+        let row = row(&name, &study, &first, other.mutants.len(), &scores);
+        print(&format!("{row:?}\n"))?;
+        rows.push(row);
+        let of_kinds = first.mutants.iter().flat_map(|score| &score.kinds);
+        kinds.extend(of_kinds.map(|of| KindRow {
+            scenario: name.clone(),
+            kind: of.kind,
+            mutants: of.all.mutants,
+            killed: of.all.killed,
+        }));
+        write_rows(&out.join("audit.csv"), &rows)?;
+        write_rows(&out.join("audit-kinds.csv"), &kinds)?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+fn audited(study: &Study, suites: Vec<Suite>, seed: u64) -> Result<Vec<Audited>, Error> {
+    let runs = Runs::default();
+    let screen = Screen::of(study, MUTANTS, Screen::TESTS, seed, &runs)?;
+    let audit = Audit::of(study, suites)?.mutants(screen).runs(runs).time_limit(LIMIT);
+    Ok(audit.run(&mut Vec::new(), |_| Ok(()))?.suites)
+}
+
+fn row(name: &str, study: &Study, of: &Audited, other_mutants: usize, scores: &[Option<f64>]) -> Row {
+    let Audited { tests, holes, witness, mutants, smaller, .. } = of;
+    let place = witness.as_ref().map_or(String::new(), |witness| {
+        let sides = witness.sides.iter().map(|(name, [lo, hi])| format!("{name} {lo:.4}..{hi:.4}"));
+        let row = witness.row.iter().map(|(name, value): (&str, &Value)| format!("{name} {value}"));
+        sides.chain(row).collect::<Vec<_>>().join("; ")
+    });
+    Row {
+        scenario: name.to_owned(),
+        continuous: study.space().dims(),
+        rows: holes.rows.len(),
+        tests: *tests,
+        hole_lower: holes.largest().lower,
+        hole_upper: holes.largest().upper,
+        witness_failing: witness.as_ref().map_or(0, |witness| witness.failing),
+        witness_tried: witness.as_ref().map_or(0, |witness| witness.tried),
+        witness_volume: witness.as_ref().map(|witness| witness.volume),
+        witness_probability: witness.as_ref().map(|witness| witness.probability),
+        witness_box: place,
+        mutants: mutants.as_ref().map_or(0, |score| score.all.mutants),
+        score: mutants.as_ref().and_then(|score| score.all.score),
+        smaller_tests: smaller.as_ref().map(|smaller| smaller.tests.len()),
+        smaller_hole_upper: smaller.as_ref().map(|smaller| smaller.largest_hole.upper),
+        other_mutants,
+        other_score: scores.first().copied().flatten(),
+        smaller_other_score: scores.get(1).copied().flatten(),
+    }
+}

@@ -1,0 +1,80 @@
+//! Paired statistics over scenarios: does a strategy kill more mutants than random tests, and does better coverage go with a higher score?
+
+use super::strategies::Graded;
+use paracosm::analysis::statistics::{bootstrap_interval, holm, signed_rank_p, spearman};
+use paracosm::generators::Strategy;
+use serde::Serialize;
+
+/// A quantity with one value for each scenario, and its mean.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Finding {
+    /// The comparison, such as `lhs - random` or `dispersion ~ score`.
+    comparison: String,
+    /// The score that it is about: of all mutants, or of those that conditions turn on.
+    mutants: &'static str,
+    scenarios: usize,
+    mean: f64,
+    /// The 95 % bootstrap interval of the mean.
+    lower: f64,
+    upper: f64,
+    /// The p-value of Wilcoxon's signed-rank test, corrected for all comparisons of the same mutants (Holm).
+    p: f64,
+}
+
+/// A score of a suite.
+type ScoreOf = fn(&Graded) -> Option<f64>;
+/// A measure of the coverage of a suite. A larger number means better coverage.
+type CoverageOf = fn(&Graded) -> Option<f64>;
+
+const SCORES: [(&str, ScoreOf); 2] =
+    [("all", |suite| Some(suite.score)), ("conditional", |suite| suite.score_conditional)];
+const MEASURES: [(&str, CoverageOf); 3] = [
+    ("low dispersion", |suite| suite.dispersion.map(|hole| -hole)),
+    ("low dispersion of pairs", |suite| suite.pair_dispersion.map(|hole| -hole)),
+    ("covered pairs", |suite| suite.pairs),
+];
+
+/// Returns all findings: the strategies against random tests, then the measures.
+pub(super) fn of(suites: &[Graded]) -> Vec<Finding> {
+    let scenarios: Vec<Vec<&Graded>> =
+        suites.chunk_by(|a, b| a.scenario == b.scenario).map(|of| of.iter().collect()).collect();
+    let mut names: Vec<&str> = suites.iter().map(|suite| suite.strategy.as_str()).collect();
+    names.dedup();
+    names.sort_unstable();
+    names.dedup();
+    let mut all = Vec::new();
+    for (mutants, score) in SCORES {
+        let against = names.iter().filter(|name| **name != Strategy::RANDOM.name()).map(|name| {
+            let difference =
+                |of: &Vec<&Graded>| Some(mean(of, name, score)? - mean(of, Strategy::RANDOM.name(), score)?);
+            (format!("{name} - random"), scenarios.iter().filter_map(difference).collect::<Vec<f64>>())
+        });
+        let measured = MEASURES.iter().map(|(measure, coverage)| {
+            let correlation = |of: &Vec<&Graded>| {
+                let pairs: Vec<(f64, f64)> =
+                    of.iter().filter_map(|suite| Some((coverage(suite)?, score(suite)?))).collect();
+                let (x, y): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
+                spearman(&x, &y)
+            };
+            (format!("{measure} ~ score"), scenarios.iter().filter_map(correlation).collect())
+        });
+        let found: Vec<(String, Vec<f64>)> = against.chain(measured).filter(|(_, values)| !values.is_empty()).collect();
+        let p = holm(&found.iter().map(|(_, values)| signed_rank_p(values)).collect::<Vec<_>>());
+        all.extend(found.into_iter().zip(p).map(|((comparison, values), p)| finding(comparison, mutants, &values, p)));
+    }
+    all
+}
+
+/// Returns the mean score of a strategy's suites in a scenario.
+fn mean(of: &[&Graded], strategy: &str, score: ScoreOf) -> Option<f64> {
+    let scores: Vec<f64> =
+        of.iter().filter(|suite| suite.strategy == strategy).filter_map(|suite| score(suite)).collect();
+    (!scores.is_empty()).then(|| scores.iter().sum::<f64>() / scores.len() as f64)
+}
+
+fn finding(comparison: String, mutants: &'static str, values: &[f64], p: f64) -> Finding {
+    let mean_of = |indices: &[usize]| indices.iter().map(|index| values[*index]).sum::<f64>() / indices.len() as f64;
+    let all: Vec<usize> = (0..values.len()).collect();
+    let [lower, upper] = bootstrap_interval(values.len(), mean_of);
+    Finding { comparison, mutants, scenarios: values.len(), mean: mean_of(&all), lower, upper, p }
+}
