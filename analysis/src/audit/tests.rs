@@ -3,7 +3,10 @@
 use super::runs::{gives_away, mutated};
 use super::*;
 use paracosm_campaign::Catalogue;
-use paracosm_space::{Domain, Values};
+use paracosm_coverage::PointSet;
+use paracosm_coverage::dispersion::dispersion;
+use paracosm_generators::{Request, Strategy};
+use paracosm_space::{Domain, Space, Values};
 use std::num::NonZeroUsize;
 
 fn study(scenario: &str, driver: &str, opened: &[&str]) -> Study {
@@ -148,4 +151,65 @@ fn what_has_no_driver_in_this_process_is_refused() {
     let external = Study::of(program.clone()).driver("grpc://localhost:1").build().unwrap();
     let flaw = Audit::of(&external, Vec::new()).unwrap_err();
     assert!(matches!(flaw, AuditFlaw::External { .. }), "{flaw}");
+}
+
+#[test]
+fn each_row_has_a_claim_and_rows_with_the_same_points_share_a_proof() {
+    let study = study("cut-in", "fsm", &["vehicle"]);
+    let rows = study.space().levels()[0];
+    let suite = suite("grid:3x3x3x3", &study);
+    let audit = || Audit::of(&study, vec![suite.clone()]).unwrap();
+    let certificate = audit().run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0).certificate;
+    assert_eq!((certificate.claims.len(), certificate.note.clone()), (rows, None));
+    let holes = Holes::of(&suite, &study, Deadline::never()).unwrap();
+    for (claim, hole) in certificate.claims.iter().zip(&holes.rows) {
+        assert_eq!((claim.row.as_ref(), claim.lower), (Some(&hole.levels), hole.volume.lower));
+        assert!(claim.upper >= hole.volume.upper && claim.upper <= hole.volume.upper * (1.0 + 1e-9), "{claim:?}");
+        assert!(claim.note.is_none());
+    }
+    let (first, others) = certificate.claims.split_first().unwrap();
+    assert!(first.like.is_none() && first.proofs.len() == 1);
+    assert!(others.iter().all(|claim| claim.like == Some(0) && claim.proofs.is_empty()));
+    // Without time, a certificate says so in each claim.
+    let hurried = audit().time_limit(Duration::ZERO).run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0);
+    assert!(hurried.certificate.claims.iter().all(|claim| claim.upper >= 1.0 && claim.note.is_some()));
+}
+
+#[test]
+fn of_many_rows_the_largest_holes_are_certified() {
+    let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+    let values = |n: u32| Domain::Choice((0..n).map(|i| f64::from(20 + i).into()).collect());
+    let study = Study::of(catalogue.find("pedestrian-crossing").unwrap()).open_over("speed", values(300));
+    let study = study.open_over("distance", values(2)).build().unwrap();
+    let suite = suite("halton:100", &study);
+    let audited = Audit::of(&study, vec![suite]).unwrap().run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0);
+    assert_eq!((audited.holes.rows.len(), audited.certificate.claims.len()), (600, 256));
+    assert_eq!(audited.certificate.note.as_deref(), Some("the certificate is about the 256 largest holes of 600 rows"));
+}
+
+#[test]
+fn the_listed_grid_of_a_cut_in_leaves_a_larger_hole_than_forty_points() {
+    // The lists of the logical scenario ALKS 4.4_1, without its constraints: a row has 5,250 tests.
+    let lists = [
+        vec![20.0, 30.0, 40.0, 50.0, 60.0],
+        vec![-50.0, -40.0, -30.0, -20.0, -10.0],
+        vec![0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0],
+        vec![0.5, 1.0, 1.5, 2.0, 2.5, 3.0],
+        vec![-3.0, -1.5, 0.0, 1.5, 3.0],
+    ];
+    let unit = |list: &Vec<f64>| -> Vec<f64> {
+        let (first, last) = (list[0], list[list.len() - 1]);
+        list.iter().map(|value| (value - first) / (last - first)).collect()
+    };
+    let axes: Vec<Vec<f64>> = lists.iter().map(unit).collect();
+    let sizes: Vec<usize> = axes.iter().map(Vec::len).collect();
+    let place = |at: Vec<usize>| at.iter().zip(&axes).map(|(at, axis)| axis[*at]).collect::<Vec<f64>>();
+    let grid: Vec<Vec<f64>> = crate::combinations::combinations(&sizes).map(place).collect();
+    assert_eq!(grid.len(), 5250);
+    let halton = Strategy::HALTON.build(&Request::new(&Space::unit_cube(5), 40)).unwrap().ask(40);
+    let halton: Vec<Vec<f64>> = halton.into_iter().map(|point| point.continuous).collect();
+    let hole = |points: &[Vec<f64>]| dispersion(&PointSet::new(5, points).unwrap(), Deadline::never()).volume;
+    let [grid, halton] = [&grid, &halton].map(|points| hole(points));
+    assert_eq!(grid, paracosm_coverage::Bracket::exact(0.25));
+    assert!(halton.is_exact() && (halton.upper - 0.238).abs() < 0.0005, "{halton:?}");
 }
