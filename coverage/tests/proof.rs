@@ -2,7 +2,7 @@
 
 use paracosm_coverage::dispersion::dispersion;
 use paracosm_coverage::kwise_dispersion::kwise_dispersion;
-use paracosm_coverage::proof::{Budget, MARGIN, Proof, Proved, Scope, prove};
+use paracosm_coverage::proof::{Budget, MARGIN, Proof, Proved, Scope, Target, prove};
 use paracosm_coverage::{Bracket, Deadline, PointSet};
 use paracosm_space::Point;
 use paracosm_space::rules::Rules;
@@ -81,8 +81,22 @@ fn dispersion_of(dims: usize, tests: &[Point]) -> Bracket {
     dispersion(&points, Deadline::never()).volume
 }
 
+/// Proves a bound without constraints on continuous parameters.
+fn of_scope(
+    dims: usize,
+    levels: &[usize],
+    tests: &[Point],
+    scope: Scope,
+    volume: Bracket,
+    budget: Budget,
+) -> Proved {
+    let projections = scope.projections(dims, &Rules::free(levels), usize::MAX).unwrap();
+    let targets: Vec<_> = projections.into_iter().map(|projection| Target { projection, part: None }).collect();
+    prove(&targets, &[], tests, volume, budget)
+}
+
 fn whole(dims: usize, tests: &[Point], volume: Bracket, budget: Budget) -> Proved {
-    prove(dims, &Rules::free(&[]), tests, Scope::Continuous, volume, budget).unwrap()
+    of_scope(dims, &[], tests, Scope::Continuous, volume, budget)
 }
 
 /// Whether a proof of a projection holds.
@@ -137,7 +151,7 @@ proptest! {
     #[test]
     fn every_projection_on_k_parameters_is_proved(tests in tests(3, &[2, 3], 120), k in 1..=5usize) {
         let volume = kwise_dispersion(3, &Rules::free(&[2, 3]), None, &tests, k, Deadline::never()).unwrap().volume;
-        let proved = prove(3, &Rules::free(&[2, 3]), &tests, Scope::Every(k), volume, PLENTY).unwrap();
+        let proved = of_scope(3, &[2, 3], &tests, Scope::Every(k), volume, PLENTY);
         prop_assert!(proved.upper >= volume.upper && proved.upper <= volume.upper * (1.0 + 10.0 * MARGIN));
         if proved.upper < 1.0 {
             // The coefficient of x^k in (1 + x)^3 (1 + 2 x) (1 + 3 x).
@@ -156,10 +170,10 @@ proptest! {
 fn combinations_of_levels_are_proved_by_a_test_that_has_them() {
     let test = |discrete: [usize; 2]| Point { continuous: vec![], discrete: discrete.to_vec() };
     let tests = [[0, 1], [1, 1], [0, 0], [1, 0], [0, 1]].map(test);
-    let proved = prove(0, &Rules::free(&[2, 2]), &tests, Scope::Every(2), Bracket::exact(0.0), PLENTY).unwrap();
+    let proved = of_scope(0, &[2, 2], &tests, Scope::Every(2), Bracket::exact(0.0), PLENTY);
     let pivots: Vec<_> = proved.proofs.iter().map(|proof| proof.pivots.clone()).collect();
     assert_eq!((proved.upper, pivots), (0.0, vec![vec![2], vec![0], vec![3], vec![1]]));
-    let hole = prove(0, &Rules::free(&[2, 2]), &tests[..3], Scope::Every(2), Bracket::exact(1.0), PLENTY).unwrap();
+    let hole = of_scope(0, &[2, 2], &tests[..3], Scope::Every(2), Bracket::exact(1.0), PLENTY);
     assert_eq!(hole, Proved { upper: 1.0, proofs: vec![] });
 }
 
@@ -180,7 +194,7 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
     let on = |threads, pivots| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let budget = Budget { pivots, ..PLENTY };
-        pool.install(|| prove(5, &Rules::free(&[]), &tests, Scope::Every(3), volume, budget).unwrap())
+        pool.install(|| of_scope(5, &[], &tests, Scope::Every(3), volume, budget))
     };
     for pivots in [1000, 1_000_000] {
         let one = on(1, pivots);
@@ -191,6 +205,6 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn a_scope_that_the_space_does_not_have_is_an_error() {
-    assert!(prove(0, &Rules::free(&[2]), &[], Scope::Continuous, Bracket::exact(1.0), PLENTY).is_err());
-    assert!(prove(1, &Rules::free(&[2]), &[], Scope::Every(3), Bracket::exact(1.0), PLENTY).is_err());
+    assert!(Scope::Continuous.projections(0, &Rules::free(&[2]), 1).is_err());
+    assert!(Scope::Every(3).projections(1, &Rules::free(&[2]), 1).is_err());
 }

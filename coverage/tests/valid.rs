@@ -4,6 +4,7 @@ use paracosm_coverage::Projection;
 use paracosm_coverage::dispersion::{Dispersion, dispersion, dispersion_within, valid_is_at_most};
 use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::kwise_dispersion::{kwise_dispersion, row_dispersion};
+use paracosm_coverage::proof::{Budget, Target, prove};
 use paracosm_coverage::valid::{Effort, Validity};
 use paracosm_coverage::{Bracket, Deadline, PointSet};
 use paracosm_space::{Domain, Parameter, Point, Space, Value};
@@ -90,6 +91,34 @@ proptest! {
             [[witness.lower[0], witness.lower[1]], [witness.upper[0], witness.upper[1]]], slope, most,
         ) / whole;
         prop_assert!(lower <= of_witness + 1e-12, "the witness has {of_witness}, not {lower}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn a_share_below_the_largest_is_never_proved_and_the_measured_bound_is(
+        points in prop::collection::vec([0.0f64..1.0, 0.0f64..1.0], 0..12),
+        slope in 0.2f64..3.0,
+        most in 0.3f64..1.5,
+        wanted in 0.5f64..1.0,
+    ) {
+        let valid: Vec<[f64; 2]> = points.into_iter().filter(|[a, b]| a + slope * b <= most).collect();
+        let space = square(&[format!("a + {slope} * b <= {most}")]);
+        let expected = naive(&valid, slope, most);
+        let measured = within(&space, &valid, Deadline::never()).1.volume;
+        let rules = space.rules().unwrap();
+        let parts = [Validity::of(&space, &rules).unwrap().whole()];
+        let targets = [Target { projection: Projection { fixed: vec![], axes: vec![0, 1] }, part: Some(0) }];
+        let tests: Vec<_> = valid.iter().map(|at| Point { continuous: at.to_vec(), discrete: vec![] }).collect();
+        let budget = Budget { pivots: 100_000, deadline: Deadline::never() };
+        let upper = |volume| prove(&targets, &parts, &tests, volume, budget).upper;
+        let proved = upper(measured);
+        prop_assert!(proved >= expected - 1e-12, "{proved} is proved, but a box has {expected}");
+        prop_assert!(proved <= measured.upper * (1.0 + 1e-9), "{proved} is proved, but {} was measured", measured.upper);
+        let hoped = upper(Bracket::exact(expected * wanted));
+        prop_assert!(hoped >= expected - 1e-12, "{hoped} is proved, but a box has {expected}");
     }
 }
 

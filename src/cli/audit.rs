@@ -36,8 +36,9 @@ An audit says what a suite of tests would have missed:
   smaller    a suite with fewer tests and smaller holes that kills all mutants of this set, if one is found. Grade it with
              other mutants: --seed 1
 
-The audit writes audit.json, mutants.jsonl, which has a line for each mutant, additions-1.csv, smaller-1.csv and
-witness-1.gif for the first suite, and so on, to the folder --out.";
+The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite certificate-1.json, a
+proof of its holes that tests/check_certificate.py checks, additions-1.csv, better-1.csv and witness-1.gif, and so on, to
+the folder --out.";
 
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
@@ -63,7 +64,8 @@ pub(super) struct Options {
     /// Compare the first suite with suites of as many tests, one by each strategy that does not learn from outcomes
     #[arg(long)]
     compare: bool,
-    /// Limit the seconds for the coverage of each suite; holes are brackets if the time is too short [default: no limit]
+    /// Limit the seconds for the coverage, the certificate and the better suite of each suite; holes are brackets if the time
+    /// is too short [default: no limit]
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
     /// The number of tests that run at a time; results do not depend on this number [default: one per core]
@@ -117,6 +119,7 @@ impl Options {
             write_whole_here(&self.out.join(file), &report.contents(file)?)?;
         }
         for (number, suite) in (1..).zip(&report.suites) {
+            write_whole_here(&self.out.join(certificate_file(number)), &suite.certificate.to_json())?;
             if let Some(additions) = suite.additions.as_ref().filter(|additions| !additions.tests.is_empty()) {
                 let tests = tests_as_csv(study.space(), &additions.tests);
                 write_whole_here(&self.out.join(additions_file(number)), &tests)?;
@@ -148,6 +151,11 @@ impl Options {
         let (study, suite) = Suite::of_listed(&builder)?;
         Ok((study, vec![suite]))
     }
+}
+
+/// Returns the name of the certificate of a suite's holes.
+fn certificate_file(number: usize) -> String {
+    format!("certificate-{number}.json")
 }
 
 /// Returns the name of the film of a suite's witness.
@@ -185,6 +193,7 @@ fn table(report: &Report) -> String {
         table.heading(&format!("{}: {}, {}{left}", report.title, suite.suite, plural(suite.tests, "test")));
         table.coverage(&suite.coverage);
         holes(&mut table, suite);
+        certificate(&mut table, suite, number);
         match &suite.witness {
             Some(witness) => self::witness(&mut table, witness, number),
             None => table.row(
@@ -233,6 +242,20 @@ fn holes(table: &mut Table, suite: &Audited) {
     }
     if holes.only_tested_rows {
         table.row("", "rows without a test were not looked at: there are too many");
+    }
+}
+
+fn certificate(table: &mut Table, suite: &Audited, number: usize) {
+    let Audited { certificate, .. } = suite;
+    let largest = certificate.claims.iter().map(|claim| claim.upper).fold(0.0, f64::max);
+    let file = certificate_file(number);
+    table.row("certificate", &format!("{file} proves that no hole of a row is larger than {}", digits(largest)));
+    let short = certificate.claims.iter().filter(|claim| claim.note.is_some()).count();
+    if short > 0 {
+        table.row("", &format!("in {} it proves less than was measured", plural(short, "row")));
+    }
+    if let Some(note) = &certificate.note {
+        table.row("", note);
     }
 }
 

@@ -32,7 +32,7 @@ fn read(dir: &Path) -> Value {
 }
 
 /// What the independent checker says of a certificate; none where there is no Python to run it.
-fn check(dir: &Path, certificate: &Value) -> Option<Output> {
+pub fn check(dir: &Path, certificate: &Value) -> Option<Output> {
     let file = dir.join("to-check.json");
     fs::write(&file, certificate.to_string()).unwrap();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check_certificate.py");
@@ -44,7 +44,7 @@ fn check(dir: &Path, certificate: &Value) -> Option<Output> {
 }
 
 /// The claim about a measure.
-fn claim<'a>(certificate: &'a mut Value, measure: &str) -> &'a mut Value {
+pub fn claim<'a>(certificate: &'a mut Value, measure: &str) -> &'a mut Value {
     let claims = certificate["claims"].as_array_mut().unwrap();
     claims.iter_mut().find(|claim| claim["measure"] == measure).unwrap()
 }

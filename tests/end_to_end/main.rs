@@ -10,6 +10,7 @@ mod blame;
 mod cameras;
 mod campaign;
 mod certificate;
+mod certified_parts;
 mod commands;
 mod common;
 mod comparison;

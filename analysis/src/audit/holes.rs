@@ -36,6 +36,9 @@ pub struct RowHole {
     /// The box in coordinates.
     #[serde(skip)]
     pub(super) found: LargestEmptyBox,
+    /// The valid part of the row; `None` if no constraint depends on continuous parameters.
+    #[serde(skip)]
+    pub(super) part: Option<Arc<ValidPart>>,
 }
 
 /// The holes of a suite, the largest first. Holes of the same volume stand in the order of their rows.
@@ -98,7 +101,7 @@ impl Holes {
                 } else {
                     let share = deadline.part(1.0 / left as f64);
                     let hole = dispersion_within(&places, part.as_deref(), share, &mut |_| ());
-                    known.push((places, part, hole.clone()));
+                    known.push((places, part.clone(), hole.clone()));
                     hole
                 }
             };
@@ -114,6 +117,7 @@ impl Holes {
                 largest_empty_box: sides(&axes, &witness),
                 levels,
                 found: witness,
+                part,
             });
         }
         let mut rows = found;

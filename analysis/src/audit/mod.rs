@@ -7,6 +7,7 @@
 
 mod additions;
 mod bout;
+mod certified;
 mod cover;
 mod folder;
 mod holes;
@@ -29,6 +30,7 @@ pub use suite::{Source, Suite, SuiteFlaw};
 pub use witness::Witness;
 
 use crate::Coverage;
+use crate::certificate::Certificate;
 use bout::Bout;
 use paracosm_campaign::{Error, JsonArtefact, Reason, Study, TestSet};
 use paracosm_coverage::{Deadline, Measure};
@@ -94,6 +96,9 @@ pub struct Audited {
     pub coverage: Coverage,
     /// The holes of the suite, by rows of discrete values.
     pub holes: Holes,
+    /// A proof of the largest hole of each row that other programs can check.
+    #[serde(skip)]
+    pub certificate: Certificate,
     /// The witness; `None` if it failed in no test that was tried.
     pub witness: Option<Witness>,
     /// The mutation score; `None` without mutants.
@@ -137,7 +142,8 @@ impl<'a> Audit<'a> {
         Self { screen: Some(screen), ..self }
     }
 
-    /// Limits the time for the coverage, for the holes and for the smaller suite of each suite. Without a limit, they are exact.
+    /// Limits the time for the coverage, the holes, the certificate and the better suite of each suite. Without a limit, the measures are
+    /// exact.
     pub fn time_limit(self, limit: Duration) -> Self {
         Self { limit: Some(limit), ..self }
     }
@@ -183,15 +189,26 @@ impl<'a> Audit<'a> {
     /// Measures a suite, and finds its witness.
     fn measured(&self, suite: &Suite) -> Result<Audited, Error> {
         let tests = TestSet::new(self.study.space().clone(), suite.points.clone());
-        let half = self.limit.map(|limit| limit / 2);
-        let coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, half)?;
-        let holes = Holes::of(suite, self.study, half.map_or_else(Deadline::never, Deadline::after))?;
+        let part = self.limit.map(|limit| limit / 4);
+        let deadline = || part.map_or_else(Deadline::never, Deadline::after);
+        let coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, part)?;
+        let holes = Holes::of(suite, self.study, deadline())?;
+        let certificate = certified::certificate(&tests, &holes, deadline());
         let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs };
         let witness = search.run()?;
-        let deadline = half.map_or_else(Deadline::never, Deadline::after);
-        let smaller = Smaller::of(self.study, suite, &holes, self.screen.as_ref(), deadline)?;
-        let (name, tests, left_out) = (suite.name.clone(), suite.points.len(), suite.left_out);
-        Ok(Audited { suite: name, tests, left_out, coverage, holes, witness, mutants: None, additions: None, smaller })
+        let better = Smaller::of(self.study, suite, &holes, self.screen.as_ref(), deadline())?;
+        Ok(Audited {
+            suite: suite.name.clone(),
+            tests: suite.points.len(),
+            left_out: suite.left_out,
+            coverage,
+            holes,
+            certificate,
+            witness,
+            mutants: None,
+            additions: None,
+            smaller: better,
+        })
     }
 }
 

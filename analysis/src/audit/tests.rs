@@ -3,10 +3,13 @@
 use super::runs::{gives_away, mutated};
 use super::*;
 use paracosm_campaign::Catalogue;
-use paracosm_engine::Program;
-use paracosm_space::constraint::Expression;
-use paracosm_space::{Domain, Values};
+use paracosm_coverage::PointSet;
+use paracosm_coverage::dispersion::dispersion;
+use paracosm_generators::{Request, Strategy};
+use paracosm_space::{Domain, Space, Values};
 use std::num::NonZeroUsize;
+
+mod better;
 
 fn study(scenario: &str, driver: &str, opened: &[&str]) -> Study {
     let catalogue = Catalogue::of(paracosm_scenarios::ALL);
@@ -159,58 +162,62 @@ fn what_has_no_driver_in_this_process_is_refused() {
 }
 
 #[test]
-fn a_smaller_suite_has_fewer_tests_smaller_holes_and_kills_all_mutants_of_the_set() {
-    let crossing = paracosm_scenarios::find("pedestrian-crossing").unwrap();
-    let constrained = Program::of("constrained", "a crossing with a constraint", |s| {
-        crossing.build(s);
-        s.constrain("distance >= 4 * speed".parse::<Expression>().unwrap());
-    });
-    for program in [crossing.clone(), constrained] {
-        let study = Study::of(program).driver("planner").build().unwrap();
-        let whole = report(&study, &["grid:9x9"], 30, 2);
-        let [audited] = &whole.suites[..] else { panic!("one suite") };
-        let smaller = audited.smaller.as_ref().unwrap();
-        assert!(smaller.tests.len() < audited.tests && smaller.killing < smaller.tests.len());
-        assert!(smaller.largest_hole.upper < audited.holes.largest().lower, "{smaller:?}");
-        // A fresh audit of the tests agrees.
-        let space = study.space();
-        let points = smaller.tests.iter().map(|test| space.encode(test)).collect::<Result<Vec<_>, _>>().unwrap();
-        let suite = Suite::new("smaller".to_owned(), points, &study).unwrap();
-        assert_eq!(suite.left_out, 0);
-        let screen = Screen::of(&study, 30, 16, 0, &runs(2)).unwrap();
-        let again = Audit::of(&study, vec![suite]).unwrap().mutants(screen).run(&mut Vec::new(), |_| Ok(())).unwrap();
-        let [again] = &again.suites[..] else { panic!("one suite") };
-        assert_eq!(again.holes.largest(), smaller.largest_hole);
-        let score = again.mutants.as_ref().unwrap().all;
-        assert_eq!((score.killed, score.mutants), (30, 30));
+fn each_row_has_a_claim_and_rows_with_the_same_points_share_a_proof() {
+    let study = study("cut-in", "fsm", &["vehicle"]);
+    let rows = study.space().levels()[0];
+    let suite = suite("grid:3x3x3x3", &study);
+    let audit = || Audit::of(&study, vec![suite.clone()]).unwrap();
+    let certificate = audit().run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0).certificate;
+    assert_eq!((certificate.claims.len(), certificate.note.clone()), (rows, None));
+    let holes = Holes::of(&suite, &study, Deadline::never()).unwrap();
+    for (claim, hole) in certificate.claims.iter().zip(&holes.rows) {
+        assert_eq!((claim.row.as_ref(), claim.lower), (Some(&hole.levels), hole.volume.lower));
+        assert!(claim.upper >= hole.volume.upper && claim.upper <= hole.volume.upper * (1.0 + 1e-9), "{claim:?}");
+        assert!(claim.note.is_none());
     }
+    let (first, others) = certificate.claims.split_first().unwrap();
+    assert!(first.like.is_none() && first.proofs.len() == 1);
+    assert!(others.iter().all(|claim| claim.like == Some(0) && claim.proofs.is_empty()));
+    // Without time, a certificate says so in each claim.
+    let hurried = audit().time_limit(Duration::ZERO).run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0);
+    assert!(hurried.certificate.claims.iter().all(|claim| claim.upper >= 1.0 && claim.note.is_some()));
 }
 
 #[test]
-fn no_smaller_suite_is_made_for_a_suite_of_few_tests_or_of_listed_values() {
-    let study = study("pedestrian-crossing", "planner", &[]);
-    assert_eq!(report(&study, &["halton:4"], 30, 2).suites[0].smaller, None);
+fn of_many_rows_the_largest_holes_are_certified() {
+    let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+    let values = |n: u32| Domain::Choice((0..n).map(|i| f64::from(20 + i).into()).collect());
+    let study = Study::of(catalogue.find("pedestrian-crossing").unwrap()).open_over("speed", values(300));
+    let study = study.open_over("distance", values(2)).build().unwrap();
+    let suite = suite("halton:100", &study);
+    let audited = Audit::of(&study, vec![suite]).unwrap().run(&mut Vec::new(), |_| Ok(())).unwrap().suites.remove(0);
+    assert_eq!((audited.holes.rows.len(), audited.certificate.claims.len()), (600, 256));
+    assert_eq!(audited.certificate.note.as_deref(), Some("the certificate is about the 256 largest holes of 600 rows"));
 }
 
 #[test]
-fn another_seed_gives_other_mutants_and_other_tests_of_the_screen() {
-    let study = study("pedestrian-crossing", "aeb", &[]);
-    let [one, other] = [0, 1].map(|seed| Screen::of(&study, 40, 16, seed, &runs(2)).unwrap());
-    assert!(one.values != other.values);
-    let conditional = |screen: &Screen| {
-        let with = screen.mutants.iter().filter(|noticed| !noticed.mutant.when.is_empty());
-        with.map(|noticed| noticed.mutant.to_string()).collect::<Vec<_>>()
+fn the_listed_grid_of_a_cut_in_leaves_a_larger_hole_than_forty_points() {
+    // The lists of the logical scenario ALKS 4.4_1, without its constraints: a row has 5,250 tests.
+    let lists = [
+        vec![20.0, 30.0, 40.0, 50.0, 60.0],
+        vec![-50.0, -40.0, -30.0, -20.0, -10.0],
+        vec![0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0],
+        vec![0.5, 1.0, 1.5, 2.0, 2.5, 3.0],
+        vec![-3.0, -1.5, 0.0, 1.5, 3.0],
+    ];
+    let unit = |list: &Vec<f64>| -> Vec<f64> {
+        let (first, last) = (list[0], list[list.len() - 1]);
+        list.iter().map(|value| (value - first) / (last - first)).collect()
     };
-    let (one, other) = (conditional(&one), conditional(&other));
-    assert!(!one.is_empty() && !one.iter().any(|mutant| other.contains(mutant)));
-}
-
-#[test]
-fn every_strategy_that_does_not_learn_makes_a_rival_of_the_same_size() {
-    let study = study("pedestrian-crossing", "aeb", &[]);
-    let (rivals, refusals) = suite("grid:5x4", &study).rivals(&study);
-    let sizes: Vec<usize> = rivals.iter().map(|suite| suite.points.len()).collect();
-    let open_loop = paracosm_generators::Strategy::all().filter(|strategy| !strategy.is_adaptive()).count();
-    assert_eq!(rivals.len() + refusals.len(), open_loop);
-    assert!(rivals.len() > 5 && sizes.iter().all(|size| *size == 20), "{sizes:?} {refusals:?}");
+    let axes: Vec<Vec<f64>> = lists.iter().map(unit).collect();
+    let sizes: Vec<usize> = axes.iter().map(Vec::len).collect();
+    let place = |at: Vec<usize>| at.iter().zip(&axes).map(|(at, axis)| axis[*at]).collect::<Vec<f64>>();
+    let grid: Vec<Vec<f64>> = crate::combinations::combinations(&sizes).map(place).collect();
+    assert_eq!(grid.len(), 5250);
+    let halton = Strategy::HALTON.build(&Request::new(&Space::unit_cube(5), 40)).unwrap().ask(40);
+    let halton: Vec<Vec<f64>> = halton.into_iter().map(|point| point.continuous).collect();
+    let hole = |points: &[Vec<f64>]| dispersion(&PointSet::new(5, points).unwrap(), Deadline::never()).volume;
+    let [grid, halton] = [&grid, &halton].map(|points| hole(points));
+    assert_eq!(grid, paracosm_coverage::Bracket::exact(0.25));
+    assert!(halton.is_exact() && (halton.upper - 0.238).abs() < 0.0005, "{halton:?}");
 }

@@ -6,14 +6,32 @@
 //! later cuts (`Side::kept`) there would be five to ten times as many.
 
 use super::search::{Bar, BoxSearch, Open};
-use super::side::Volume;
+use super::side::{Valid, Volume, Weight};
 use crate::PointSet;
+use crate::valid::{Bound, ValidPart};
 
-/// Returns the pivots of a search that proves that no empty box is larger than `above`. `go_on` is called at each pivot
-/// with the number of points looked at, and may end the search. `None` if `go_on` ended the search, or if a larger
-/// empty box exists.
-pub(crate) fn trail(points: &PointSet, above: f64, go_on: impl FnMut(usize) -> bool) -> Option<Vec<u32>> {
-    let mut search = BoxSearch::with_trail(points, Volume, above);
-    let found = search.explore(&Open::cube(points, Volume), &Bar::new(0.0), above, go_on);
+/// Returns the pivots of a search that proves that no empty box is larger than `above`: in its volume, or in its possible weight
+/// within the valid part. `go_on` is called at each pivot with the number of points looked at, and may end the search. `None` if
+/// `go_on` ended the search, or if a larger empty box exists.
+pub(crate) fn trail(
+    points: &PointSet,
+    valid: Option<&ValidPart>,
+    above: f64,
+    go_on: impl FnMut(usize) -> bool,
+) -> Option<Vec<u32>> {
+    match valid {
+        Some(valid) => walk(points, Valid(valid, Bound::Possible), above, go_on),
+        None => walk(points, Volume, above, go_on),
+    }
+}
+
+fn walk(
+    points: &PointSet,
+    weight: impl Weight,
+    above: f64,
+    go_on: impl FnMut(usize) -> bool,
+) -> Option<Vec<u32>> {
+    let mut search = BoxSearch::with_trail(points, weight, above);
+    let found = search.explore(&Open::cube(points, weight), &Bar::new(0.0), above, go_on);
     (found.witness.is_none() && found.open.is_empty() && !found.lost).then(|| search.into_trail())
 }

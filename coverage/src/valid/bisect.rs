@@ -4,7 +4,7 @@
 //! anything, along its longest side. The bisection ends when it has asked a number of questions. It reads no clock, so that
 //! the same constraints give the same cells.
 
-use super::{Cell, Content, ValidPart};
+use super::{Cases, Cell, Content, ValidPart};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -29,19 +29,20 @@ struct Open {
 struct Choice {
     axis: usize,
     at: f64,
-    answers: [Option<bool>; 2],
+    answers: [Content; 2],
 }
 
 impl ValidPart {
     /// Bisects the cube along `axes`. `answer` says whether all tests of a box are valid, no test is, or neither is certain.
     pub(super) fn bisect(
-        dims: usize,
+        cases: Cases,
         axes: Vec<usize>,
         limits: Limits,
-        mut answer: impl FnMut(&[f64], &[f64]) -> Option<bool>,
+        mut answer: impl FnMut(&[f64], &[f64]) -> Content,
     ) -> Self {
+        let dims = cases.continuous.len();
         let (lower, upper) = (vec![0.0; dims], vec![1.0; dims]);
-        let mut part = Self { dims, axes, cells: Vec::new() };
+        let mut part = Self { dims, axes, cases, cells: Vec::new() };
         let mut open = BinaryHeap::new();
         let mut left = limits.questions.saturating_sub(1);
         let first = answer(&lower, &upper);
@@ -69,16 +70,11 @@ impl ValidPart {
     }
 
     /// Adds a cell that is not cut.
-    fn add(&mut self, cell: Open, decided: Option<bool>, open: &mut BinaryHeap<Open>) {
-        let content = match decided {
-            Some(true) => Content::Valid,
-            Some(false) => Content::Invalid,
-            None => Content::Undecided,
-        };
-        let certain = if content == Content::Valid { cell.volume } else { 0.0 };
+    fn add(&mut self, cell: Open, content: Content, open: &mut BinaryHeap<Open>) {
+        let certain = if matches!(content, Content::Valid { .. }) { cell.volume } else { 0.0 };
         let possible = if content == Content::Invalid { 0.0 } else { cell.volume };
         self.cells.push(Cell { certain, possible, content });
-        if decided.is_none() {
+        if content == Content::Undecided {
             open.push(cell);
         }
     }
@@ -88,7 +84,7 @@ impl ValidPart {
         &self,
         lower: &[f64],
         upper: &[f64],
-        answer: &mut impl FnMut(&[f64], &[f64]) -> Option<bool>,
+        answer: &mut impl FnMut(&[f64], &[f64]) -> Content,
     ) -> Option<Choice> {
         let mut best: Option<(usize, f64, Choice)> = None;
         for (axis, &along) in self.axes.iter().enumerate() {
@@ -103,7 +99,7 @@ impl ValidPart {
                 answer(&lower, &upper)
             };
             let answers = [half(from, at), half(at, to)];
-            let decided = answers.iter().flatten().count();
+            let decided = answers.iter().filter(|answer| **answer != Content::Undecided).count();
             let length = to - from;
             if best.as_ref().is_none_or(|(most, longest, _)| (decided, length) > (*most, *longest)) {
                 best = Some((decided, length, Choice { axis, at, answers }));

@@ -8,8 +8,10 @@
 
 mod bisect;
 mod validity;
+mod written;
 
 pub use validity::{Effort, Validity};
+pub use written::{OtherCell, WrittenCell, WrittenPart};
 
 use crate::Bracket;
 
@@ -19,8 +21,24 @@ pub struct ValidPart {
     dims: usize,
     /// The axes along which cells are cut. The constraints do not depend on the other axes.
     axes: Vec<usize>,
+    cases: Cases,
     /// The cells. The first is the whole cube, and the halves of a cell come after the cell.
     cells: Vec<Cell>,
+}
+
+/// The values of other parameters for which the cells are decided. A cell is valid if one case makes it valid.
+#[derive(Debug, Clone, PartialEq)]
+struct Cases {
+    /// The continuous parameters of the cube, as positions among the continuous parameters.
+    continuous: Vec<usize>,
+    /// The discrete parameters on which the constraints depend, as positions among the discrete parameters.
+    discrete: Vec<usize>,
+    /// The levels of these parameters in each valid row of discrete values.
+    rows: Vec<Vec<usize>>,
+    /// The continuous parameters outside of the cube on which the constraints depend.
+    beside: Vec<usize>,
+    /// The places in the cube of these parameters that were tried.
+    places: Vec<Vec<f64>>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -34,9 +52,9 @@ struct Cell {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Content {
-    /// Every test in the cell keeps the constraints.
-    Valid,
-    /// No test in the cell keeps the constraints.
+    /// Every test in the cell keeps the constraints, with the levels of this row and at this place beside the cube.
+    Valid { row: usize, place: usize },
+    /// No test in the cell keeps the constraints, in any case.
     Invalid,
     /// The bisection ended before the cell was decided.
     Undecided,
@@ -114,8 +132,8 @@ impl ValidPart {
         Bracket { lower: lower * (1.0 - self.rounding()), upper: (upper * (1.0 + self.rounding())).min(1.0) }
     }
 
-    /// A bound on the relative error of weights: each of the lengths, products and sums may lose half an ulp.
-    fn rounding(&self) -> f64 {
+    /// Returns a bound on the relative error of weights: each of the lengths, products and sums may lose half an ulp.
+    pub(crate) fn rounding(&self) -> f64 {
         2.0 * (self.cells.len() + 2 * self.dims + 2) as f64 * f64::EPSILON
     }
 

@@ -4,8 +4,8 @@
 //! a projection is certainly invalid if no row of discrete values and no values of the other continuous parameters make a
 //! test valid. It is certainly valid if one row and one choice of the others make all its tests valid.
 
-use super::ValidPart;
 use super::bisect::Limits;
+use super::{Cases, Content, ValidPart};
 use crate::Projection;
 use paracosm_space::Space;
 use paracosm_space::rules::Rules;
@@ -79,8 +79,7 @@ impl<'a> Validity<'a> {
     /// Returns the valid part of a projection.
     pub fn part(&self, projection: &Projection, effort: Effort) -> Arc<ValidPart> {
         let (rows, all) = self.rows(&projection.fixed);
-        let levels = |row: &Vec<usize>| self.discrete.iter().map(|&parameter| row[parameter]).collect();
-        let key: Key = (projection.axes.clone(), rows.iter().map(levels).collect(), effort);
+        let key: Key = (projection.axes.clone(), rows.iter().map(|row| self.levels(row)).collect(), effort);
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let found = known().get(&key).cloned();
         found.unwrap_or_else(|| {
@@ -92,36 +91,52 @@ impl<'a> Validity<'a> {
 
     fn bisected(&self, projection: &Projection, effort: Effort, rows: &[Vec<usize>], all: bool) -> ValidPart {
         let beside: Vec<usize> = self.axes.iter().copied().filter(|axis| !projection.axes.contains(axis)).collect();
-        let probes = probes(beside.len());
+        let places = probes(beside.len());
         let answer = |lower: &[f64], upper: &[f64]| {
             let (mut low, mut high) = (vec![0.0; self.space.dims()], vec![1.0; self.space.dims()]);
             for (at, &axis) in projection.axes.iter().enumerate() {
                 (low[axis], high[axis]) = (lower[at], upper[at]);
             }
             let asked = rows.iter().map(|row| self.space.allows_part(row, &low, &high)).collect::<Vec<_>>();
-            if asked.contains(&Some(true)) {
-                return Some(true);
+            if let Some(row) = asked.iter().position(|answer| *answer == Some(true)) {
+                // The row is valid at every place.
+                return Content::Valid { row, place: 0 };
             }
             if asked.iter().all(|answer| *answer == Some(false)) {
-                return if all { Some(false) } else { None };
+                return if all { Content::Invalid } else { Content::Undecided };
             }
-            for probe in probes.iter().filter(|probe| !probe.is_empty()) {
-                for (&axis, &x) in beside.iter().zip(probe) {
+            if beside.is_empty() {
+                return Content::Undecided;
+            }
+            for (place, coordinates) in places.iter().enumerate() {
+                for (&axis, &x) in beside.iter().zip(coordinates) {
                     (low[axis], high[axis]) = (x, x);
                 }
-                let open = rows.iter().zip(&asked).filter(|(_, answer)| answer.is_none());
-                if open.into_iter().any(|(row, _)| self.space.allows_part(row, &low, &high) == Some(true)) {
-                    return Some(true);
+                let mut open = (0..rows.len()).filter(|&row| asked[row].is_none());
+                if let Some(row) = open.find(|&row| self.space.allows_part(&rows[row], &low, &high) == Some(true)) {
+                    return Content::Valid { row, place };
                 }
             }
-            None
+            Content::Undecided
         };
         let axes = (0..projection.axes.len()).filter(|&at| self.axes.contains(&projection.axes[at])).collect();
         let limits = match effort {
             Effort::Full => Limits { cuts: 8192, questions: 1 << 17 },
             Effort::Quick => Limits { cuts: 512, questions: 1 << 12 },
         };
-        ValidPart::bisect(projection.axes.len(), axes, limits, answer)
+        let cases = Cases {
+            continuous: projection.axes.clone(),
+            discrete: self.discrete.clone(),
+            rows: rows.iter().map(|row| self.levels(row)).collect(),
+            beside: beside.clone(),
+            places: places.clone(),
+        };
+        ValidPart::bisect(cases, axes, limits, answer)
+    }
+
+    /// Returns the levels of a row on which the constraints depend.
+    fn levels(&self, row: &[usize]) -> Vec<usize> {
+        self.discrete.iter().map(|&parameter| row[parameter]).collect()
     }
 
     /// Returns a complete row for each valid choice of levels on which the constraints depend, and whether these are all.
@@ -157,7 +172,7 @@ impl<'a> Validity<'a> {
 /// Returns places of the unit cube of so many dimensions: the centre, and all corners if they are few.
 fn probes(dims: usize) -> Vec<Vec<f64>> {
     let mut probes = vec![vec![0.5; dims]];
-    if dims <= MOST_BESIDE {
+    if (1..=MOST_BESIDE).contains(&dims) {
         let corner = |bits: usize| (0..dims).map(|axis| f64::from(u8::from(bits >> axis & 1 == 1))).collect();
         probes.extend((0..1usize << dims).map(corner));
     }
