@@ -3,6 +3,7 @@
 mod bad;
 mod concrete;
 mod declarations;
+mod drawing;
 mod exports;
 mod golden;
 #[path = "../roads/others.rs"]
