@@ -5,9 +5,9 @@
 
 use crate::{Error, Reason};
 use paracosm_engine::Program;
-use paracosm_space::{did_you_mean, nearest};
+use paracosm_space::{Value, did_you_mean, nearest};
 use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A catalogue that finds scenarios by name or by file.
@@ -36,7 +36,24 @@ pub struct Reader {
     pub about: &'static str,
     /// The function that reads a file and returns the program of the scenario in the file.
     pub read: fn(&Path) -> Result<Program, Error>,
+    /// The function that reads tests of the scenario in the first file from other files: each is the same scenario with the values of
+    /// one test. `None` if there are no such files.
+    pub tests: Option<TestsOf>,
 }
+
+/// The value of a parameter that the file of a concrete scenario has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConcreteValue {
+    /// The name of the parameter.
+    pub name: String,
+    /// The value.
+    pub value: Value,
+    /// The number of the line that has the value, from 1.
+    pub line: usize,
+}
+
+/// A function that reads tests of the scenario in a file from other files.
+pub type TestsOf = fn(&Path, &[PathBuf]) -> Result<Vec<Vec<ConcreteValue>>, Error>;
 
 /// The error that no scenario has the requested name.
 #[derive(Debug, Error, PartialEq)]
@@ -81,9 +98,13 @@ impl Catalogue {
 
     /// Returns `true` if a scenario has the name, or if a reader accepts files with the ending of the name.
     pub fn knows(&self, name: &str) -> bool {
-        let ending = Path::new(name).extension().and_then(OsStr::to_str);
-        self.programs.iter().any(|program| program.name() == name)
-            || self.readers.iter().any(|reader| Some(reader.ending) == ending)
+        self.programs.iter().any(|program| program.name() == name) || self.reader_of(name).is_some()
+    }
+
+    /// Returns the reader of the files with the ending of a name. Capital and small letters of the ending are the same.
+    pub fn reader_of(&self, name: &str) -> Option<&Reader> {
+        let ending = Path::new(name).extension().and_then(OsStr::to_str)?;
+        self.readers.iter().find(|reader| reader.ending.eq_ignore_ascii_case(ending))
     }
 
     /// Returns the program of the scenario with the given name, or the program in the file with the given path.
@@ -94,8 +115,7 @@ impl Catalogue {
         if let Some(program) = self.programs.iter().find(|program| program.name() == name) {
             return Ok(program.clone());
         }
-        let ending = Path::new(name).extension().and_then(OsStr::to_str);
-        if let Some(reader) = self.readers.iter().find(|reader| Some(reader.ending) == ending) {
+        if let Some(reader) = self.reader_of(name) {
             return (reader.read)(Path::new(name));
         }
         let nearest = nearest(name, self.programs.iter().map(Program::name)).map(str::to_owned);
@@ -113,8 +133,12 @@ mod tests {
             let name = path.file_stem().and_then(OsStr::to_str).unwrap_or_default().to_owned();
             Ok(Program::of(name, "a world of a file", |_| ()))
         };
-        let catalogue = Catalogue::default().reading(Reader { ending: "world", about: "worlds of a test", read });
-        assert_eq!(catalogue.find("folder/town.world").expect("it is read").name(), "town");
+        let reader = Reader { ending: "world", about: "worlds of a test", read, tests: None };
+        let catalogue = Catalogue::default().reading(reader);
+        for file in ["folder/town.world", "folder/town.WORLD"] {
+            assert_eq!(catalogue.find(file).expect("it is read").name(), "town");
+            assert!(catalogue.knows(file));
+        }
         let error = catalogue.find("town.xodr").expect_err("nothing reads it");
         assert!(matches!(error.reason(), Some(UnknownScenario { name, .. }) if name == "town.xodr"), "{error}");
         assert_eq!(catalogue.readers().len(), 1);

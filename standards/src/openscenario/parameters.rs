@@ -133,6 +133,30 @@ impl Parameters {
         self.declarations.iter().map(|declaration| &declaration.demand)
     }
 
+    /// Returns the declarations of parameters, in the order of the file.
+    pub fn declarations(&self) -> &[Declaration] {
+        &self.declarations
+    }
+
+    /// Returns the values of the parameters of tests, each with its name, if the declared parameters have these texts as values. The
+    /// last part is the index of the first declaration to which the parameter belongs.
+    pub fn stated(&self, texts: &[&str]) -> Vec<(String, Value, usize)> {
+        let text = |name: &str| self.find(name).map_or("", |at| texts[at]);
+        let first = |opened: &Opened| self.declarations.iter().position(|declaration| opened.has(declaration.name()));
+        let opened = self.distribution.0.iter().filter_map(|opened| {
+            let at = first(opened)?;
+            Some((opened.name(), opened.stated(text), at))
+        });
+        let closed = self.declarations.iter().zip(texts).enumerate().filter(|(_, (of, _))| self.is_closed(of));
+        let closed = closed.map(|(at, (of, text))| (of.name().to_owned(), of.demand.kind.value(text), at));
+        opened.chain(closed).collect()
+    }
+
+    /// Returns `true` if a parameter of tests gives the declared parameter its value, and `false` if the value follows from others.
+    pub fn is_given(&self, declaration: &Declaration) -> bool {
+        self.source(declaration).is_some()
+    }
+
     /// Returns the index of the declaration of a parameter.
     pub fn find(&self, name: &str) -> Option<usize> {
         self.declarations.iter().position(|declaration| declaration.name() == name)
@@ -149,7 +173,7 @@ impl Parameters {
     }
 
     /// Returns the value that a test gives a declared parameter; `None` if the value follows from other parameters.
-    fn given(&self, declaration: &Declaration, test: &Values) -> Option<String> {
+    pub fn given(&self, declaration: &Declaration, test: &Values) -> Option<String> {
         if let Some(opened) = self.distribution.of(declaration.name()) {
             let parts = opened.parts(test.get(&opened.name())?);
             return parts.into_iter().find(|(name, _)| *name == declaration.name()).map(|(_, value)| value);

@@ -14,6 +14,7 @@ mod places;
 mod semantics;
 mod strict;
 mod strict_values;
+mod suites;
 mod things;
 mod trajectories;
 mod weather;
