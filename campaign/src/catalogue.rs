@@ -25,6 +25,8 @@ use thiserror::Error;
 pub struct Catalogue {
     programs: Vec<Program>,
     readers: Vec<Reader>,
+    /// The folder of the campaign whose scenario is looked for.
+    near: Option<PathBuf>,
 }
 
 /// A reader that makes the programs of scenarios from files.
@@ -65,12 +67,26 @@ pub struct UnknownScenario {
     pub nearest: Option<String>,
 }
 
+/// The error that the file of a campaign's scenario is not there.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error(
+    "found no file {name} in {}, in a folder around it, or in the present folder; expected the file where the campaign began",
+    near.display()
+)]
+pub struct NoScenarioFile {
+    /// The path of the file from the folder in which the campaign began.
+    pub name: String,
+    /// The folder of the campaign.
+    pub near: PathBuf,
+}
+
 impl Reason for UnknownScenario {}
+impl Reason for NoScenarioFile {}
 
 impl Catalogue {
     /// Makes a catalogue of the given programs of scenarios.
     pub fn of(programs: &[&Program]) -> Self {
-        Self { programs: programs.iter().copied().cloned().collect(), readers: Vec::new() }
+        Self { programs: programs.iter().copied().cloned().collect(), ..Self::default() }
     }
 
     /// Adds the program of a scenario to the catalogue. The program replaces a program of the same name.
@@ -84,6 +100,26 @@ impl Catalogue {
     pub fn reading(mut self, reader: Reader) -> Self {
         self.readers.push(reader);
         self
+    }
+
+    /// Returns a catalogue for the scenario of the campaign in a folder. The campaign names a file by its path from the folder in which
+    /// the campaign began, which need not be the present folder. So the file is looked for from the folder of the campaign, then from
+    /// the folders around it, the nearest first, and at last from the present folder.
+    pub fn near(&self, folder: &Path) -> Self {
+        Self { near: Some(folder.to_owned()), ..self.clone() }
+    }
+
+    /// Returns the path of a file of a scenario.
+    fn file(&self, name: &str) -> Result<PathBuf, NoScenarioFile> {
+        let named = PathBuf::from(name);
+        let Some(near) = &self.near else { return Ok(named) };
+        let around = std::path::absolute(near).unwrap_or_else(|_| near.clone());
+        let mut places = around.ancestors().map(|folder| folder.join(name)).chain([named.clone()]);
+        let found = places.find(|place| place.is_file());
+        let found = found.ok_or_else(|| NoScenarioFile { name: name.to_owned(), near: near.clone() })?;
+        // The same file keeps its name.
+        let is_named = named.canonicalize().is_ok_and(|own| found.canonicalize().is_ok_and(|found| own == found));
+        Ok(if is_named { named } else { found })
     }
 
     /// Returns the programs of the catalogue, in the order in which the programs were added.
@@ -116,7 +152,7 @@ impl Catalogue {
             return Ok(program.clone());
         }
         if let Some(reader) = self.reader_of(name) {
-            return (reader.read)(Path::new(name));
+            return (reader.read)(&self.file(name)?);
         }
         let nearest = nearest(name, self.programs.iter().map(Program::name)).map(str::to_owned);
         Err(UnknownScenario { name: name.to_owned(), nearest }.into())

@@ -10,7 +10,7 @@ use super::linked;
 use super::local::Local;
 use super::measure::Measure;
 use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
-use super::play::Stage;
+use super::play::{Stage, check_goals};
 use super::scope::{Node, Scope};
 use super::site::Sites;
 use super::story::Storyboard;
@@ -153,16 +153,36 @@ impl Xosc {
         Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s)).of_files(hash)
     }
 
-    /// Returns the 128-bit XXH3 of the scenario, its catalogs and the roads that have been read.
+    /// Returns the 128-bit XXH3 of the scenario, its catalogs, the roads that have been read, and the roads that the distribution of
+    /// the parameters can choose.
     fn files_hash(&self) -> String {
+        let chosen = self.roads_to_choose().unwrap_or_default();
         let roads = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
+        let read = roads.iter().map(|(name, roads)| (name.clone(), roads.map.text.to_string()));
+        let maps: BTreeMap<String, String> = chosen.into_iter().chain(read).collect();
         let mut hash = Xxh3::new();
-        let maps = roads.values().map(|roads| &*roads.map.text);
+        let maps = maps.values().map(String::as_str);
         for text in [self.document.text()].into_iter().chain(self.catalogs.texts()).chain(maps) {
             hash.update(&(text.len() as u64).to_le_bytes());
             hash.update(text.as_bytes());
         }
         format!("{:032x}", hash.digest128())
+    }
+
+    /// Returns the names and the texts of the files of roads that the values of an open parameter name. A file that cannot be read
+    /// makes its tests invalid.
+    fn roads_to_choose(&self) -> Result<Vec<(String, String)>, ReadError> {
+        let tree = self.document.tree()?;
+        let none = Scope::default();
+        let root = Node { element: self.document.root(&tree, ROOT)?, scope: &none };
+        let logic = root.child("RoadNetwork")?.child("LogicFile")?;
+        let mut files = Vec::new();
+        for (name, value) in self.parameters.choices_behind(logic.element.required("filepath")?) {
+            let scope = self.parameters.values(root, &[(name, value)].into_iter().collect())?;
+            let named = Node { scope: &scope, ..logic }.required("filepath")?.into_owned();
+            files.extend(std::fs::read_to_string(self.folder.join(&named)).ok().map(|text| (named, text)));
+        }
+        Ok(files)
     }
 
     fn build(&self, s: &mut Scenario) {
@@ -187,6 +207,9 @@ impl Xosc {
                 "{}:{line}: the ego vehicle `{name}` has no place at the beginning, expected a TeleportAction of `{name}` in Init",
                 self.document.file().display()
             ));
+        }
+        if let Err(nowhere) = check_goals(&board, &roads.map) {
+            return s.refuse(&nowhere.to_string());
         }
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();

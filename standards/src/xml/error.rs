@@ -214,6 +214,18 @@ pub enum Flaw {
         /// The line of the first element.
         first: u32,
     },
+    /// Two files of a catalog have an entry with the same name.
+    #[error("the catalog has a second <{element}> with the name `{name}`: the first one is in {}:{line}", file.display())]
+    SecondEntry {
+        /// The name of the element.
+        element: String,
+        /// The name of the entry.
+        name: String,
+        /// The path of the file with the first entry.
+        file: PathBuf,
+        /// The line of the first entry.
+        line: u32,
+    },
     /// An attribute names several elements.
     #[error(
         "`{attribute}=\"{found}\"` of <{element}> names more than one {kind}: write `{}` or `{}`",
