@@ -25,7 +25,7 @@ pub use lists::Lists;
 pub use paracosm_campaign::{
     Campaign, Catalogue, Error, Finish, Folder, Log, Observer, Sampling, Study, StudyBuilder, Trial,
 };
-use paracosm_campaign::{Reader, Reason};
+use paracosm_campaign::{ConcreteValue, Reader, Reason};
 pub use runner::{NothingToLocate, Report, Runner, run_into};
 
 pub use paracosm_analysis as analysis;
@@ -43,6 +43,8 @@ pub use paracosm_scenarios as scenarios;
 pub use paracosm_space as space;
 pub use paracosm_standards as standards;
 
+use std::path::PathBuf;
+
 /// Returns the catalogue of all scenarios that come with the software, which also reads files of OpenSCENARIO.
 pub fn catalogue() -> Catalogue {
     Catalogue::of(scenarios::ALL).with(standards::map_traffic()).reading(Reader {
@@ -52,6 +54,15 @@ pub fn catalogue() -> Catalogue {
             let scenario = standards::openscenario::Xosc::read(file);
             scenario.map(standards::openscenario::Xosc::program).map_err(|error| UnreadableScenario(error).into())
         },
+        tests: Some(|scenario, files| {
+            let scenario = standards::openscenario::Xosc::read(scenario).map_err(UnreadableScenario)?;
+            let value = |(name, value, line)| ConcreteValue { name, value, line: line as usize };
+            let test = |file: &PathBuf| {
+                let values = scenario.test_in(file).map_err(UnreadableScenario)?;
+                Ok(values.into_iter().map(value).collect())
+            };
+            files.iter().map(test).collect()
+        }),
     })
 }
 

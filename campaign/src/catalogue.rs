@@ -5,9 +5,9 @@
 
 use crate::{Error, Reason};
 use paracosm_engine::Program;
-use paracosm_space::{did_you_mean, nearest};
+use paracosm_space::{Value, did_you_mean, nearest};
 use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A catalogue that finds scenarios by name or by file.
@@ -25,6 +25,8 @@ use thiserror::Error;
 pub struct Catalogue {
     programs: Vec<Program>,
     readers: Vec<Reader>,
+    /// The folder of the campaign whose scenario is looked for.
+    near: Option<PathBuf>,
 }
 
 /// A reader that makes the programs of scenarios from files.
@@ -36,7 +38,24 @@ pub struct Reader {
     pub about: &'static str,
     /// The function that reads a file and returns the program of the scenario in the file.
     pub read: fn(&Path) -> Result<Program, Error>,
+    /// The function that reads tests of the scenario in the first file from other files: each is the same scenario with the values of
+    /// one test. `None` if there are no such files.
+    pub tests: Option<TestsOf>,
 }
+
+/// The value of a parameter that the file of a concrete scenario has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConcreteValue {
+    /// The name of the parameter.
+    pub name: String,
+    /// The value.
+    pub value: Value,
+    /// The number of the line that has the value, from 1.
+    pub line: usize,
+}
+
+/// A function that reads tests of the scenario in a file from other files.
+pub type TestsOf = fn(&Path, &[PathBuf]) -> Result<Vec<Vec<ConcreteValue>>, Error>;
 
 /// The error that no scenario has the requested name.
 #[derive(Debug, Error, PartialEq)]
@@ -48,12 +67,26 @@ pub struct UnknownScenario {
     pub nearest: Option<String>,
 }
 
+/// The error that the file of a campaign's scenario is not there.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error(
+    "found no file {name} in {}, in a folder around it, or in the present folder; expected the file where the campaign began",
+    near.display()
+)]
+pub struct NoScenarioFile {
+    /// The path of the file from the folder in which the campaign began.
+    pub name: String,
+    /// The folder of the campaign.
+    pub near: PathBuf,
+}
+
 impl Reason for UnknownScenario {}
+impl Reason for NoScenarioFile {}
 
 impl Catalogue {
     /// Makes a catalogue of the given programs of scenarios.
     pub fn of(programs: &[&Program]) -> Self {
-        Self { programs: programs.iter().copied().cloned().collect(), readers: Vec::new() }
+        Self { programs: programs.iter().copied().cloned().collect(), ..Self::default() }
     }
 
     /// Adds the program of a scenario to the catalogue. The program replaces a program of the same name.
@@ -69,6 +102,26 @@ impl Catalogue {
         self
     }
 
+    /// Returns a catalogue for the scenario of the campaign in a folder. The campaign names a file by its path from the folder in which
+    /// the campaign began, which need not be the present folder. So the file is looked for from the folder of the campaign, then from
+    /// the folders around it, the nearest first, and at last from the present folder.
+    pub fn near(&self, folder: &Path) -> Self {
+        Self { near: Some(folder.to_owned()), ..self.clone() }
+    }
+
+    /// Returns the path of a file of a scenario.
+    fn file(&self, name: &str) -> Result<PathBuf, NoScenarioFile> {
+        let named = PathBuf::from(name);
+        let Some(near) = &self.near else { return Ok(named) };
+        let around = std::path::absolute(near).unwrap_or_else(|_| near.clone());
+        let mut places = around.ancestors().map(|folder| folder.join(name)).chain([named.clone()]);
+        let found = places.find(|place| place.is_file());
+        let found = found.ok_or_else(|| NoScenarioFile { name: name.to_owned(), near: near.clone() })?;
+        // The same file keeps its name.
+        let is_named = named.canonicalize().is_ok_and(|own| found.canonicalize().is_ok_and(|found| own == found));
+        Ok(if is_named { named } else { found })
+    }
+
     /// Returns the programs of the catalogue, in the order in which the programs were added.
     pub fn programs(&self) -> &[Program] {
         &self.programs
@@ -81,9 +134,13 @@ impl Catalogue {
 
     /// Returns `true` if a scenario has the name, or if a reader accepts files with the ending of the name.
     pub fn knows(&self, name: &str) -> bool {
-        let ending = Path::new(name).extension().and_then(OsStr::to_str);
-        self.programs.iter().any(|program| program.name() == name)
-            || self.readers.iter().any(|reader| Some(reader.ending) == ending)
+        self.programs.iter().any(|program| program.name() == name) || self.reader_of(name).is_some()
+    }
+
+    /// Returns the reader of the files with the ending of a name. Capital and small letters of the ending are the same.
+    pub fn reader_of(&self, name: &str) -> Option<&Reader> {
+        let ending = Path::new(name).extension().and_then(OsStr::to_str)?;
+        self.readers.iter().find(|reader| reader.ending.eq_ignore_ascii_case(ending))
     }
 
     /// Returns the program of the scenario with the given name, or the program in the file with the given path.
@@ -94,9 +151,8 @@ impl Catalogue {
         if let Some(program) = self.programs.iter().find(|program| program.name() == name) {
             return Ok(program.clone());
         }
-        let ending = Path::new(name).extension().and_then(OsStr::to_str);
-        if let Some(reader) = self.readers.iter().find(|reader| Some(reader.ending) == ending) {
-            return (reader.read)(Path::new(name));
+        if let Some(reader) = self.reader_of(name) {
+            return (reader.read)(&self.file(name)?);
         }
         let nearest = nearest(name, self.programs.iter().map(Program::name)).map(str::to_owned);
         Err(UnknownScenario { name: name.to_owned(), nearest }.into())
@@ -113,8 +169,12 @@ mod tests {
             let name = path.file_stem().and_then(OsStr::to_str).unwrap_or_default().to_owned();
             Ok(Program::of(name, "a world of a file", |_| ()))
         };
-        let catalogue = Catalogue::default().reading(Reader { ending: "world", about: "worlds of a test", read });
-        assert_eq!(catalogue.find("folder/town.world").expect("it is read").name(), "town");
+        let reader = Reader { ending: "world", about: "worlds of a test", read, tests: None };
+        let catalogue = Catalogue::default().reading(reader);
+        for file in ["folder/town.world", "folder/town.WORLD"] {
+            assert_eq!(catalogue.find(file).expect("it is read").name(), "town");
+            assert!(catalogue.knows(file));
+        }
         let error = catalogue.find("town.xodr").expect_err("nothing reads it");
         assert!(matches!(error.reason(), Some(UnknownScenario { name, .. }) if name == "town.xodr"), "{error}");
         assert_eq!(catalogue.readers().len(), 1);

@@ -20,6 +20,7 @@ mod black_box;
 pub mod cameras;
 mod campaign;
 mod catalogue;
+mod concrete;
 mod conversation;
 #[cfg(feature = "camera")]
 pub mod darkroom;
@@ -65,7 +66,7 @@ mod worker;
 pub use artefact::{Artefact, JsonArtefact};
 pub use black_box::{Answer, BlackBox};
 pub use campaign::{Campaign, Finish};
-pub use catalogue::{Catalogue, Reader};
+pub use catalogue::{Catalogue, ConcreteValue, Reader, TestsOf};
 pub use error::{BadFile, Error, Failure, Reason};
 pub use expected::Expected;
 pub use extension::{Extension, ExtensionRecord};
@@ -93,7 +94,8 @@ pub mod reasons {
     #[cfg(feature = "camera")]
     pub use crate::cameras::CameraFileFlaw;
     pub use crate::campaign::ForeignTrial;
-    pub use crate::catalogue::UnknownScenario;
+    pub use crate::catalogue::{NoScenarioFile, UnknownScenario};
+    pub use crate::concrete::{NoConcrete, NoFileOfScenario};
     pub use crate::conversation::NotStarted;
     pub use crate::darkroom::Blind;
     pub use crate::drivers::{DriverAway, NoDriver};

@@ -48,7 +48,7 @@ impl Log {
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
         let file = path.join(STUDY);
         let text = read_text_here(&file)?;
-        let read = StudyFile::parse(&text, catalogue);
+        let read = StudyFile::parse(&text, &catalogue.near(path));
         let hash = hash_of_text(&text);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
         let log = path.join(TRIALS);

@@ -107,7 +107,8 @@ impl Regression {
         let mut read: Self =
             read_json(&text).map_err(|flaw| Error::in_file(path, flaw.line(), RegressionFlaw::Json(flaw)))?;
         let wrong = |flaw| Error::in_file(path, None, flaw);
-        read.study = read.study.with_program_of(catalogue).map_err(|flaw| Error::in_file(path, None, flaw))?;
+        let near = catalogue.near(path.parent().unwrap_or(Path::new("")));
+        read.study = read.study.with_program_of(&near).map_err(|flaw| Error::in_file(path, None, flaw))?;
         let study = read.study();
         let test = study.space().encode(&read.test).map_err(|error| wrong(RegressionFlaw::Test(error)))?;
         if let Some(constraint) = study.space().broken(&test) {

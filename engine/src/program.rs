@@ -2,6 +2,7 @@
 
 use crate::flaw::WorldFlaw;
 use crate::scenario::{Constraint, Scenario};
+use crate::stream::Sketch;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
 use paracosm_space::{Space, SpaceError, Values};
@@ -188,12 +189,17 @@ impl Program {
     /// # Errors
     /// The world cannot be built with nominal values.
     pub fn dot(&self) -> Result<String, ProgramError> {
-        Ok(self.built(None)?.dot(self.name()))
+        let mut scenario = Scenario::new(None);
+        scenario.sketch = Some(Sketch::default());
+        Ok(self.built_in(scenario, None)?.dot(self.name()))
     }
 
     /// Runs the program, with a test or without, and checks the world that it built.
     pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
-        let mut scenario = Scenario::new(test.as_ref());
+        self.built_in(Scenario::new(test.as_ref()), test)
+    }
+
+    fn built_in(&self, mut scenario: Scenario, test: Option<Test>) -> Result<Scenario, ProgramError> {
         self.build(&mut scenario);
         // A program that refuses a test may end before it asks for all parameters.
         let is_refused =

@@ -2,11 +2,13 @@
 
 use super::cover::time_limit;
 use super::draw::FileKind;
+use super::export;
 use super::output::{Format, Table, digits, json, percent, plural, short_bracket, value_words};
 use super::progress::bar;
 use super::replay::draw;
 use super::subject::Subject;
 use super::{Failure, Status, Verbosity, on_interrupt, print};
+use crate::standards::openscenario::value_sets;
 use clap::Args;
 use paracosm_analysis::audit::{
     Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Smaller, Source, Suite, SuiteFlaw,
@@ -15,7 +17,7 @@ use paracosm_analysis::audit::{
 use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Error, Study, Worker, tests_as_csv};
 use paracosm_report::birds_eye::MotionRecord;
-use paracosm_space::Record;
+use paracosm_space::{Record, Values};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -38,7 +40,7 @@ An audit says what a suite of tests would have missed:
 
 The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite certificate-1.json, a
 proof of its holes that tests/check_certificate.py checks, additions-1.csv, better-1.csv and witness-1.gif, and so on, to
-the folder --out.";
+the folder --out. If the scenario is a file, additions-1.xosc and better-1.xosc list the same tests.";
 
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
@@ -48,8 +50,8 @@ const ROWS: usize = 5;
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// A suite: a CSV file of tests, the folder of a campaign, STRATEGY:N for the first N tests of a strategy, or grid:AxB
-    /// for an even grid; the option can be repeated [default: the values of the parameters in a scenario file]
+    /// A suite: a CSV file of tests, the folder of a campaign, a folder of concrete files .xosc of the scenario, STRATEGY:N for
+    /// the first N tests of a strategy, or grid:AxB for an even grid; the option can be repeated [default: the values of the parameters in a scenario file]
     #[arg(long, value_name = "SUITE")]
     tests: Vec<String>,
     /// The number of mutants
@@ -121,8 +123,7 @@ impl Options {
         for (number, suite) in (1..).zip(&report.suites) {
             write_whole_here(&self.out.join(certificate_file(number)), &suite.certificate.to_json())?;
             if let Some(additions) = suite.additions.as_ref().filter(|additions| !additions.tests.is_empty()) {
-                let tests = tests_as_csv(study.space(), &additions.tests);
-                write_whole_here(&self.out.join(additions_file(number)), &tests)?;
+                self.write_tests(&study, &additions_file(number), &additions.tests, verbosity)?;
             }
             if let Some(smaller) = &suite.smaller {
                 write_whole_here(&self.out.join(smaller_file(number)), &tests_as_csv(study.space(), &smaller.tests))?;
@@ -139,13 +140,27 @@ impl Options {
         Ok(Status::Nothing)
     }
 
+    /// Writes tests to a table in the folder, and if the scenario is a file, also to a distribution of its parameters beside it.
+    fn write_tests(&self, study: &Study, file: &str, tests: &[Values], verbosity: Verbosity) -> Result<(), Failure> {
+        let table = self.out.join(file);
+        write_whole_here(&table, &tests_as_csv(study.space(), tests))?;
+        let Some(scenario) = export::file_of(study)? else { return Ok(()) };
+        match value_sets(&scenario, &self.out, tests, study.fixed()) {
+            Ok(text) => write_whole_here(&table.with_extension(export::XOSC), text.as_bytes())?,
+            Err(flaw) => verbosity.note(format_args!("the tests of {file} are not written as .xosc, too: {flaw}")),
+        }
+        Ok(())
+    }
+
     /// Returns the study and its suites. Without a named suite, the suite is that of the scenario's listed values, and the study has
     /// their intervals open.
     fn suites(&self, sources: &[Source], verbosity: Verbosity) -> Result<(Study, Vec<Suite>), Error> {
         let builder = self.subject.study(verbosity)?;
         if !sources.is_empty() {
             let study = builder.build()?;
-            let suites = sources.iter().map(|source| Suite::of(source, &study)).collect::<Result<_, Error>>()?;
+            let catalogue = crate::catalogue();
+            let suites =
+                sources.iter().map(|source| Suite::of(source, &study, &catalogue)).collect::<Result<_, Error>>()?;
             return Ok((study, suites));
         }
         let (study, suite) = Suite::of_listed(&builder)?;

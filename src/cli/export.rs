@@ -5,7 +5,7 @@ use super::replay::logged;
 use super::{Failure, Status, Verbosity, print, trust};
 use crate::space::Values;
 use crate::standards::opendrive;
-use crate::standards::openscenario::{Concrete, EgoAs, Export, Xosc};
+use crate::standards::openscenario::{Concrete, DATE, EgoAs, Export, Xosc};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::files::{create_folder, is_new, write_whole_here};
 use paracosm_campaign::{Error, Log, Reason, Study, Trial, Worker};
@@ -23,11 +23,9 @@ simulator drives it from there on. If the scenario is a file, the export is then
 /// The name of the exported scenario, if its folder has no name.
 const SCENARIO: &str = "scenario";
 /// The ending of files of scenarios.
-const XOSC: &str = "xosc";
+pub(super) const XOSC: &str = "xosc";
 /// The name of the file of the roads.
 const ROADS: &str = "roads.xodr";
-/// The date in the headers. It is always the same, so that the same test gives the same file.
-const DATE: &str = "2026-01-01T00:00:00";
 
 /// The options of `export`.
 #[derive(Debug, Args)]
@@ -128,9 +126,9 @@ impl Options {
 type Written = ([String; 2], Vec<String>);
 
 /// Returns the file of the scenario of a study if the scenario is a file.
-fn file_of(study: &Study) -> Result<Option<PathBuf>, Error> {
+pub(super) fn file_of(study: &Study) -> Result<Option<PathBuf>, Error> {
     let file = PathBuf::from(study.program()?.name());
-    Ok(file.extension().is_some_and(|ending| ending == XOSC).then_some(file))
+    Ok(file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(XOSC)).then_some(file))
 }
 
 /// Returns the texts of the scenario of a file and of its roads with the values of a test, with notes.

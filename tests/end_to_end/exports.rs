@@ -145,7 +145,7 @@ fn an_export_replaces_nothing_and_leaves_the_ego_vehicle_to_a_controller() {
 }
 
 /// Returns the Python that has the checkers of ASAM.
-fn judge() -> Option<PathBuf> {
+pub fn judge() -> Option<PathBuf> {
     let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/checker/bin/python3");
     let found =
         Command::new(&python).args(["-c", "import qc_opendrive, qc_openscenario"]).stderr(Stdio::null()).status();
@@ -157,7 +157,7 @@ fn judge() -> Option<PathBuf> {
 }
 
 /// Returns the report of a checker on a file.
-fn report(python: &Path, file: &Path, [module, bundle]: [&str; 2]) -> String {
+pub fn report(python: &Path, file: &Path, [module, bundle]: [&str; 2]) -> String {
     let [config, result] = ["xml", "xqar"].map(|ending| file.with_extension(ending));
     let (input, output) = (file.display(), result.display());
     let settings = format!(

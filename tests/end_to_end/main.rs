@@ -4,6 +4,7 @@ mod adaptive;
 mod after_failure;
 mod appearances;
 mod audit;
+mod audit_files;
 mod bad_input;
 mod bench;
 mod blame;

@@ -383,3 +383,75 @@ fn the_elements_of_the_standards_are_listed() {
         assert!(json.as_array().is_some_and(|rows| rows.iter().any(|row| row["support"] == "refused")));
     }
 }
+
+#[test]
+fn a_campaign_on_a_file_is_replayed_from_any_folder_and_after_a_move() {
+    let dir = folder();
+    let inside = |name: &str| dir.path().join(name);
+    fs::create_dir_all(inside("runs/of today")).expect("it is writable");
+    let out = ["slow-leader-variation.xosc", "--driver", "aeb", "--budget", "2", "--out", "runs/of today/c"];
+    succeeds(fuzz(dir.path(), &out));
+    let hash = trials(dir.path(), "runs/of today/c")[0]["trace_hash"].as_str().expect("a hash").to_owned();
+    let replays = |from: &Path, campaign: &str| {
+        let replayed = stdout(&succeeds(fuzz(from, &["replay", campaign, "0"])));
+        assert!(replayed.contains(&hash), "{campaign}: {replayed}");
+    };
+    replays(dir.path(), "runs/of today/c");
+    replays(&inside("runs/of today"), "c");
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    replays(elsewhere.path(), &inside("runs/of today/c").display().to_string());
+    // Everything moves together.
+    let moved = elsewhere.path().join("moved");
+    fs::create_dir_all(moved.join("runs")).expect("it is writable");
+    fs::create_dir(moved.join("catalogs")).expect("it is writable");
+    for name in ["straight.xodr", "slow-leader.xosc", "slow-leader-variation.xosc", "catalogs/entities.xosc"] {
+        fs::rename(inside(name), moved.join(name)).expect("it is there");
+    }
+    fs::rename(inside("runs/of today/c"), moved.join("runs/c")).expect("it is there");
+    replays(&moved.join("catalogs"), "../runs/c");
+    // Without its scenario, the campaign says what is missing.
+    fs::rename(moved.join("runs/c"), inside("c")).expect("it is there");
+    let says = ["found no file slow-leader-variation.xosc in ", "/c, in a folder around it, or in the present folder"];
+    refused(&fuzz(elsewhere.path(), &["replay", &inside("c").display().to_string(), "0"]), &says);
+}
+
+#[test]
+fn the_ending_of_a_scenario_file_may_have_capital_letters() {
+    let dir = folder();
+    for (from, to) in [("slow-leader.xosc", "LEADER.XOSC"), ("straight.xodr", "STRAIGHT.XODR")] {
+        fs::rename(dir.path().join(from), dir.path().join(to)).expect("it is there");
+    }
+    fs::rename(dir.path().join("catalogs/entities.xosc"), dir.path().join("catalogs/ENTITIES.XOSC"))
+        .expect("it is there");
+    let text = fs::read_to_string(dir.path().join("LEADER.XOSC")).expect("it is there");
+    fs::write(dir.path().join("LEADER.XOSC"), text.replace("straight.xodr", "STRAIGHT.XODR")).expect("it is writable");
+    succeeds(fuzz(dir.path(), &["LEADER.XOSC", "--open", "gap=40..60", "--budget", "2", "--out", "c"]));
+    succeeds(fuzz(dir.path(), &["export", "c", "0", "--ego-as", "controller", "--out", "case"]));
+    succeeds(fuzz(dir.path(), &["roads", "STRAIGHT.XODR"]));
+    succeeds(fuzz(dir.path(), &["map-traffic", "--set", "roads=STRAIGHT.XODR", "--budget", "2", "--out", "m"]));
+}
+
+#[test]
+fn a_campaign_is_not_resumed_after_a_road_that_a_parameter_chooses_has_changed() {
+    let dir = folder();
+    let road = fs::read_to_string(dir.path().join("straight.xodr")).expect("it is there");
+    fs::write(dir.path().join("other.xodr"), &road).expect("it is writable");
+    let scenario = fs::read_to_string(dir.path().join("slow-leader.xosc")).expect("it is there");
+    let declared = "<ParameterDeclaration name=\"road\" parameterType=\"string\" value=\"straight.xodr\"/>";
+    let scenario = scenario.replacen("  </ParameterDeclarations>", &format!("{declared}</ParameterDeclarations>"), 1);
+    let scenario = scenario.replace("filepath=\"straight.xodr\"", "filepath=\"$road\"");
+    fs::write(dir.path().join("slow-leader.xosc"), scenario).expect("it is writable");
+    let variation = fs::read_to_string(dir.path().join("slow-leader-variation.xosc")).expect("it is there");
+    let chosen = "<DeterministicSingleParameterDistribution parameterName=\"road\"><DistributionSet>\
+                  <Element value=\"straight.xodr\"/><Element value=\"other.xodr\"/>\
+                  </DistributionSet></DeterministicSingleParameterDistribution></Deterministic>";
+    fs::write(dir.path().join("slow-leader-variation.xosc"), variation.replace("</Deterministic>", chosen))
+        .expect("it is writable");
+    let run = |more: &[&str]| {
+        fuzz(dir.path(), &[&["slow-leader-variation.xosc", "--budget", "6", "--out", "c"][..], more].concat())
+    };
+    succeeds(run(&[]));
+    succeeds(run(&["--resume"]));
+    fs::write(dir.path().join("other.xodr"), road.replacen("name=", " name=", 1)).expect("it is writable");
+    refused(&run(&["--resume"]), &["`scenario_files`"]);
+}

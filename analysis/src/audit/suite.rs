@@ -2,7 +2,7 @@
 
 use crate::combinations::combinations;
 use paracosm_campaign::reasons::ParameterMisuse;
-use paracosm_campaign::{Error, Reason, Sampling, Study, StudyBuilder, TestSet};
+use paracosm_campaign::{Catalogue, Error, Reason, Sampling, Study, StudyBuilder, TestSet};
 use paracosm_generators::Strategy;
 use paracosm_space::pict::Aliases;
 use paracosm_space::{Point, SpaceError, Values, plural};
@@ -27,7 +27,7 @@ pub enum Source {
     /// An even grid with so many values of each continuous parameter, in the order of the parameters. The values include both ends
     /// of the parameter's interval. The grid has all values of each discrete parameter.
     Grid(Vec<usize>),
-    /// A CSV file of tests, or the folder of a campaign.
+    /// A CSV file of tests, the folder of a campaign, or a folder of concrete scenarios.
     Path(PathBuf),
 }
 
@@ -96,7 +96,7 @@ pub enum SuiteFlaw {
     /// The scenario has no grid of its own.
     #[error(
         "the scenario has no list of values of its own that would be its suite; name a suite: --tests FILE.csv, the folder of \
-         a campaign, STRATEGY:N or grid:AxB"
+         a campaign or of concrete scenarios, STRATEGY:N or grid:AxB"
     )]
     NoGrid,
 }
@@ -138,12 +138,12 @@ impl fmt::Display for Source {
 }
 
 impl Suite {
-    /// Makes the suite of a source for a study. Tests that break a constraint are left out.
+    /// Makes the suite of a source for a study. Tests that break a constraint are left out. `catalogue` reads concrete scenarios.
     ///
     /// # Errors
     /// A file cannot be read or has no tests of the study, the strategy cannot propose tests, a grid does not fit the space, or no
     /// test keeps the constraints.
-    pub fn of(source: &Source, study: &Study) -> Result<Self, Error> {
+    pub fn of(source: &Source, study: &Study, catalogue: &Catalogue) -> Result<Self, Error> {
         let space = study.space();
         let points = match source {
             Source::Strategy(strategy, tests) => {
@@ -151,6 +151,9 @@ impl Suite {
                 study.sampled(sampling)?.generator(&[])?.ask(*tests)
             }
             Source::Grid(sizes) => even_grid(study, sizes)?,
+            Source::Path(path) if path.is_dir() && !is_campaign(path) => {
+                TestSet::of_folder(path, study, catalogue)?.points
+            }
             Source::Path(path) => TestSet::read(&tests_of(path), Some(space.clone()), &Aliases::default())?.points,
         };
         Self::new(source.to_string(), points, study)
@@ -230,7 +233,11 @@ impl Suite {
 
 /// Returns the file of the tests at a path: the path itself, or the table of trials in the folder of a campaign.
 fn tests_of(path: &Path) -> PathBuf {
-    if path.join(CAMPAIGN).exists() { path.join(TRIALS) } else { path.to_owned() }
+    if is_campaign(path) { path.join(TRIALS) } else { path.to_owned() }
+}
+
+fn is_campaign(path: &Path) -> bool {
+    path.join(CAMPAIGN).exists()
 }
 
 fn even_grid(study: &Study, sizes: &[usize]) -> Result<Vec<Point>, Error> {

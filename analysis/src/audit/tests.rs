@@ -18,7 +18,7 @@ fn study(scenario: &str, driver: &str, opened: &[&str]) -> Study {
 }
 
 fn suite(text: &str, study: &Study) -> Suite {
-    Suite::of(&text.parse().unwrap(), study).unwrap()
+    Suite::of(&text.parse().unwrap(), study, &study.catalogue()).unwrap()
 }
 
 fn runs(jobs: usize) -> Runs {

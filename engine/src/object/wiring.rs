@@ -2,7 +2,7 @@
 
 use super::InputError;
 use super::body::BodyState;
-use crate::stream::{Datum, DatumSample, Graph, Node, Slot, Source, Stream};
+use crate::stream::{Datum, DatumSample, Graph, Node, Reader, Slot, Source, Stream};
 use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::marker::PhantomData;
@@ -79,6 +79,11 @@ impl<T: Datum> Input<T> {
         let present = Stream::of(self.wiring.inputs.borrow()[self.index].node.clone());
         let changed = change(present);
         self.wiring.inputs.borrow_mut()[self.index].node = changed.node;
+    }
+
+    /// Returns the input as a drawing of the world knows it.
+    pub fn reader(&self) -> Reader {
+        Reader(self.index)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Scenario;
 use crate::flaw::{ObjectFlaw, WorldFlaw};
 use crate::object::{Behaviour, Body, Geometric, Input, ObjectSetup, Output, Physical};
-use crate::stream::{Datum, Stream};
+use crate::stream::{Datum, Sketch, Stream};
 use paracosm_road::Pose;
 
 /// An object of a scenario, under construction. [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or
@@ -53,6 +53,11 @@ impl<'a> ObjectDraft<'a> {
         let output = self.scenario.wiring.output(&name);
         self.scenario.signals.push((name, output.source()));
         output
+    }
+
+    /// Returns the drawing of what objects do with their inputs, as [`Scenario::sketch`] does.
+    pub fn sketch(&mut self) -> Option<&mut Sketch> {
+        self.scenario.sketch()
     }
 
     /// Refuses the object, so the world cannot be built. `why` gives the reason and follows the object's name.

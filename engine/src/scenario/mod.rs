@@ -24,7 +24,7 @@ pub use road::{Road, Streets};
 use crate::flaw::{Flaws, WorldFlaw};
 use crate::object::{ObjectSetup, Wiring};
 use crate::road::RoadNetwork;
-use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Slot, Source, Stream, dot};
+use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Sketch, Slot, Source, Stream, dot};
 use crate::test::{Declared, Test};
 use crate::weather::WeatherPart;
 use paracosm_space::{Domain, Parameter, Shape, Value};
@@ -70,6 +70,8 @@ pub struct Scenario {
     pub(crate) end: Option<Stream<bool>>,
     /// The remarks of the program; `None` if nobody wants them.
     pub(crate) notes: Option<Vec<String>>,
+    /// The drawing of what objects do; `None` if nobody wants it.
+    pub(crate) sketch: Option<Sketch>,
     pub(crate) duration: f64,
     pub(crate) dt: f64,
     effects: Vec<Rc<Node>>,
@@ -130,6 +132,7 @@ impl Scenario {
             premise: None,
             end: None,
             notes: None,
+            sketch: None,
             duration: 10.0,
             dt: DEFAULT_DT,
             effects: Vec::new(),
@@ -302,6 +305,12 @@ impl Scenario {
         }
     }
 
+    /// Returns the drawing of what objects do with their inputs, for a graph of the streams; `None` if nobody wants it, so that it
+    /// takes no time in a test.
+    pub fn sketch(&mut self) -> Option<&mut Sketch> {
+        self.sketch.as_mut()
+    }
+
     /// Makes the test invalid for the reason `why`, because the test's world is impossible. Use this for conditions
     /// that the intervals of the parameters cannot express.
     pub fn refuse(&mut self, why: &str) {
@@ -371,7 +380,10 @@ impl Scenario {
 
     /// Returns the graph of the streams in the language of Graphviz. All streams must have been laid out before.
     pub(crate) fn dot(&self, title: &str) -> String {
-        dot(title, &self.readers(), &self.equations.borrow()).expect("what has been laid out can be drawn")
+        let none = Sketch::default();
+        // The readers begin with the friction and the weather.
+        let sketch = (self.sketch.as_ref().unwrap_or(&none), 1 + self.weather().count());
+        dot(title, &self.readers(), &self.equations.borrow(), sketch).expect("what has been laid out can be drawn")
     }
 
     pub(crate) fn flaw(&self, flaw: WorldFlaw) {

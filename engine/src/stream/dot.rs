@@ -2,14 +2,21 @@
 
 use super::node::{Binary, Equation, Node, NodeKind};
 use super::order::{GraphFlaw, order};
+use super::sketch::{Line, Sketch};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::rc::Rc;
 
 /// Writes a graph of streams with its readers as DOT. Outputs of objects are boxes, parameters ellipses, and readers
 /// bold boxes. The input of a `pre`, which is from the tick before, is a dashed line. If the order of two inputs
-/// matters, their lines are numbered.
-pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, GraphFlaw> {
+/// matters, their lines are numbered. The parts of objects follow: `inputs` is the number of readers before the first input of an
+/// object. The lines from parts to outputs are dashed, because an output shows the state at the beginning of a tick.
+pub(crate) fn dot(
+    title: &str,
+    readers: &[(String, Rc<Node>)],
+    equations: &[Equation],
+    (sketch, inputs): (&Sketch, usize),
+) -> Result<String, GraphFlaw> {
     let ordered = order(readers.iter().map(|(_, node)| node), equations)?;
     let mut names: HashMap<*const Node, Vec<&str>> = HashMap::new();
     let mut numbers: HashMap<*const Node, usize> = HashMap::new();
@@ -52,6 +59,21 @@ pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equa
         let _ = writeln!(text, "  r{i} [label={}, shape=box, style=bold];", quoted(reader));
         let _ = writeln!(text, "  n{} -> r{i};", number(node));
     }
+    for (i, (label, form)) in sketch.parts.iter().enumerate() {
+        let _ = writeln!(text, "  p{i} [label={}, {}];", quoted(label), form.style());
+    }
+    for line in &sketch.lines {
+        let _ = match line {
+            Line::Starts(input, to, words) => {
+                writeln!(text, "  r{} -> p{} [label={}];", inputs + input.0, to.0, quoted(words))
+            }
+            Line::Leads(from, to) => writeln!(text, "  p{} -> p{};", from.0, to.0),
+            Line::Shows(from, _) => {
+                let shown = ordered.iter().filter(|node| line.shows(node)).map(|node| number(node));
+                shown.map(|to| writeln!(text, "  p{} -> n{to} [style=dashed];", from.0)).collect()
+            }
+        };
+    }
     text.push_str("}\n");
     Ok(text)
 }
@@ -78,5 +100,5 @@ fn commutes(kind: &NodeKind) -> bool {
 
 /// Returns a text as a quoted string of DOT.
 fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
 }

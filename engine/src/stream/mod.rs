@@ -68,6 +68,7 @@ mod forward;
 mod graph;
 mod node;
 mod order;
+mod sketch;
 #[cfg(test)]
 mod tests;
 
@@ -79,3 +80,4 @@ pub use forward::Forward;
 pub(crate) use graph::{Clock, Graph, Slot};
 pub(crate) use node::{Binary, Equation, Node, NodeKind, Source, Unary};
 pub use order::GraphFlaw;
+pub use sketch::{Form, Part, Reader, Sketch};

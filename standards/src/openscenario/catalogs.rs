@@ -19,15 +19,15 @@ const MOST_REFERENCES: usize = 100_000;
 /// The catalog files of a scenario.
 #[derive(Debug, Default)]
 pub(super) struct CatalogFiles {
-    /// The files by the names of the catalogs.
-    all: BTreeMap<String, Document>,
+    /// The files by the names of the catalogs. The parts of a catalog may be in several files.
+    all: BTreeMap<String, Vec<Document>>,
     /// The first folder that does not exist, with the file and the line of the element that names it.
     absent: Option<(PathBuf, u32, PathBuf)>,
 }
 
 /// The trees of the catalogs of a scenario.
 pub(super) struct Catalogs<'a> {
-    all: BTreeMap<&'a str, Element<'a, 'a>>,
+    all: BTreeMap<&'a str, Vec<Element<'a, 'a>>>,
     absent: Option<&'a (PathBuf, u32, PathBuf)>,
     found: RefCell<Found>,
     /// The entries that are being read, each within the one before, by their names and lines.
@@ -66,12 +66,12 @@ impl Found {
 impl CatalogFiles {
     /// Returns the texts of the files, in the order of the names of the catalogs.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
-        self.all.values().map(Document::text)
+        self.all.values().flatten().map(Document::text)
     }
 
     /// Reads all catalogs in the folders that a scenario names. `folder` is the folder of the scenario.
     pub fn read(locations: Option<Node<'_>>, folder: &Path) -> Result<Self, ReadError> {
-        let (mut all, mut absent) = (BTreeMap::new(), None);
+        let (mut all, mut absent): (BTreeMap<String, Vec<Document>>, _) = (BTreeMap::new(), None);
         for location in locations.into_iter().flat_map(Node::elements) {
             let directory = location.child("Directory")?;
             let path = linked::within(directory, "path", folder)?;
@@ -85,7 +85,7 @@ impl CatalogFiles {
             let entries = std::fs::read_dir(&path).map_err(unreadable)?;
             let mut found =
                 entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
-            found.retain(|file| file.extension().is_some_and(|extension| extension == "xosc"));
+            found.retain(|file| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xosc")));
             found.sort();
             for file in found {
                 let document = Document::open(&file)?;
@@ -99,7 +99,12 @@ impl CatalogFiles {
                     root.first("Catalog").map(name).transpose()?
                 };
                 if let Some(name) = name {
-                    all.insert(name, document);
+                    let files = all.entry(name).or_default();
+                    // Two kinds of catalogs may be in one folder.
+                    let real = |document: &Document| document.file().canonicalize().ok();
+                    if files.iter().all(|known| real(known) != real(&document)) {
+                        files.push(document);
+                    }
                 }
             }
         }
@@ -108,15 +113,18 @@ impl CatalogFiles {
 
     /// Parses the trees of all catalogs.
     pub fn trees(&self) -> Result<Vec<roxmltree::Document<'_>>, ReadError> {
-        self.all.values().map(Document::tree).collect()
+        self.all.values().flatten().map(Document::tree).collect()
     }
 
     /// Returns the catalogs with their trees, which [`CatalogFiles::trees`] has parsed.
     pub fn catalogs<'a>(&'a self, trees: &'a [roxmltree::Document<'a>]) -> Result<Catalogs<'a>, ReadError> {
-        let catalog = |((name, document), tree): ((&'a String, &'a Document), &'a roxmltree::Document<'a>)| {
-            Ok((name.as_str(), document.root(tree, "OpenSCENARIO")?.child("Catalog")?))
-        };
-        let all = self.all.iter().zip(trees).map(catalog).collect::<Result<_, ReadError>>()?;
+        let mut trees = trees.iter();
+        let mut all = BTreeMap::new();
+        for (name, files) in &self.all {
+            let root = |(document, tree): (&'a Document, _)| document.root(tree, "OpenSCENARIO")?.child("Catalog");
+            let parts = files.iter().zip(trees.by_ref()).map(root).collect::<Result<_, ReadError>>()?;
+            all.insert(name.as_str(), parts);
+        }
         let (found, open, references) = Default::default();
         Ok(Catalogs { all, absent: self.absent.as_ref(), found, open, references })
     }
@@ -126,7 +134,7 @@ impl<'a> Catalogs<'a> {
     /// Returns the entry that an element `CatalogReference` names, which is one of the given kinds; `None` if there is none.
     pub fn entry(&self, reference: Node<'_>, kinds: &[&str]) -> Result<Option<Element<'a, 'a>>, ReadError> {
         let [catalog, name] = [reference.required("catalogName")?, reference.required("entryName")?];
-        let mut entries = self.all.get(catalog.as_ref()).into_iter().flat_map(|catalog| catalog.elements());
+        let mut entries = self.all.get(catalog.as_ref()).into_iter().flatten().flat_map(|part| part.elements());
         Ok(entries.find(|entry| kinds.contains(&entry.name()) && entry.text("name") == Some(name.as_ref())))
     }
 
@@ -142,14 +150,19 @@ impl<'a> Catalogs<'a> {
             return self.declaring(node, &[], read);
         }
         let catalog = node.required("catalogName")?;
-        let known = self.all.get(catalog.as_ref()).copied();
+        let known = self.all.get(catalog.as_ref());
         let catalog = known.ok_or_else(|| self.unknown(node, &catalog))?;
         let entry_name = node.required("entryName")?;
         let is_named = |entry: &Element<'_, '_>| entry.text("name") == Some(entry_name.as_ref());
-        let mut named = catalog.elements().filter(|entry| kinds.contains(&entry.name())).filter(is_named);
+        let entries = catalog.iter().flat_map(|part| part.elements());
+        let mut named = entries.filter(|entry| kinds.contains(&entry.name())).filter(is_named);
         let entry = named.next().ok_or_else(|| no_entry(node, catalog, kinds, &entry_name))?;
         if let Some(second) = named.next() {
             let (element, found) = (second.name().to_owned(), entry_name.clone().into_owned());
+            if second.file() != entry.file() {
+                let (file, line) = (entry.file().to_owned(), entry.line());
+                return Err(second.error(Flaw::SecondEntry { element, name: found, file, line }));
+            }
             return Err(second.error(Flaw::Taken { element, attribute: "name", found, first: entry.line() }));
         }
         let key = (entry_name.clone().into_owned(), entry.line());
@@ -218,11 +231,12 @@ impl<'a> Catalogs<'a> {
 }
 
 /// Makes the error that a catalog has no entry of the given kinds with a name.
-fn no_entry(reference: Node<'_>, catalog: Element<'_, '_>, kinds: &[&str], name: &str) -> ReadError {
-    if let Some(other) = catalog.elements().find(|entry| entry.text("name") == Some(name)) {
+fn no_entry(reference: Node<'_>, catalog: &[Element<'_, '_>], kinds: &[&str], name: &str) -> ReadError {
+    let entries = || catalog.iter().flat_map(|part| part.elements());
+    if let Some(other) = entries().find(|entry| entry.text("name") == Some(name)) {
         let (kinds, kind, file, line) = (kinds.join(" or "), other.name(), other.file().display(), other.line());
         return reference.unexpected("entryName", name, format!("a {kinds}; the entry in {file}:{line} is a {kind}"));
     }
-    let names = catalog.elements().filter(|entry| kinds.contains(&entry.name())).filter_map(|entry| entry.text("name"));
+    let names = entries().filter(|entry| kinds.contains(&entry.name())).filter_map(|entry| entry.text("name"));
     reference.dangling("entryName", "entry of the catalog", names)
 }

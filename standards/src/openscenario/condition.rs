@@ -7,6 +7,7 @@ use super::rule::Rule;
 use super::scope::Node;
 use super::state::State;
 use crate::xml::{self, ReadError};
+use std::path::PathBuf;
 
 /// Groups of conditions. A trigger is true if all conditions of any of its groups are true.
 pub(super) type Trigger = Vec<Vec<Condition>>;
@@ -15,6 +16,8 @@ pub(super) type Trigger = Vec<Vec<Condition>>;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Condition {
     pub name: String,
+    /// The path of the file and the line of the condition.
+    pub origin: (PathBuf, u32),
     /// The time in seconds after which a change of the condition counts.
     pub delay: f64,
     pub edge: Edge,
@@ -63,7 +66,8 @@ impl Condition {
         // Nothing refers to a condition by its name, so the name stays as it is written.
         let name = node.element.text("name").unwrap_or_default().to_owned();
         let delay = node.element.text("delay").map_or(Ok(0.0), |_| node.length("delay"))?;
-        Ok(Self { name, delay, edge: node.one_of("conditionEdge", &edges)?, check })
+        let origin = (node.element.file().to_owned(), node.element.line());
+        Ok(Self { name, origin, delay, edge: node.one_of("conditionEdge", &edges)?, check })
     }
 }
 

@@ -92,7 +92,7 @@ impl Distribution {
 
     /// Returns the parameters that a distribution opens together with this parameter.
     pub fn of(&self, name: &str) -> Option<&Opened> {
-        self.0.iter().find(|opened| opened.names.iter().any(|known| known == name))
+        self.0.iter().find(|opened| opened.has(name))
     }
 }
 
@@ -127,6 +127,11 @@ impl Opened {
             [kind] => Some(*kind),
             _ => None,
         }
+    }
+
+    /// Returns `true` if the distribution opens a parameter with this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.names.iter().any(|known| known == name)
     }
 
     /// Returns the name of the parameter that stands for these parameters in a test.
@@ -185,6 +190,15 @@ impl Opened {
         }
     }
 
+    /// Returns the values that the distribution lists; none for an interval.
+    pub fn levels(&self) -> Vec<Value> {
+        match &self.values {
+            Choices::Tuples(levels) => levels.iter().map(|level| self.value(level)).collect(),
+            Choices::Range { levels, .. } | Choices::Chance(Domain::Choice(levels), _) => levels.clone(),
+            Choices::Chance(Domain::Interval { .. }, _) => Vec::new(),
+        }
+    }
+
     /// Returns the tuples of values of parameters that change together; `None` for a single parameter.
     pub fn tuples(&self) -> Option<Vec<Value>> {
         match &self.values {
@@ -192,6 +206,19 @@ impl Opened {
                 Some(levels.iter().map(|level| self.value(level)).collect())
             }
             _ => None,
+        }
+    }
+
+    /// Returns the value of a test if the single parameters have these texts as values, however these are written.
+    pub fn stated<'t>(&self, text: impl Fn(&str) -> &'t str) -> Value {
+        let texts: Vec<String> = self.names.iter().map(|name| text(name).to_owned()).collect();
+        let is_same = |level: &&Vec<String>| {
+            let mut pairs = self.kinds.iter().zip(level.iter().zip(&texts));
+            pairs.all(|(kind, (one, two))| kind.value(one) == kind.value(two))
+        };
+        match &self.values {
+            Choices::Tuples(levels) => self.value(levels.iter().find(is_same).unwrap_or(&texts)),
+            Choices::Range { .. } | Choices::Chance(..) => self.value(&texts),
         }
     }
 

@@ -133,6 +133,30 @@ impl Parameters {
         self.declarations.iter().map(|declaration| &declaration.demand)
     }
 
+    /// Returns the declarations of parameters, in the order of the file.
+    pub fn declarations(&self) -> &[Declaration] {
+        &self.declarations
+    }
+
+    /// Returns the values of the parameters of tests, each with its name, if the declared parameters have these texts as values. The
+    /// last part is the index of the first declaration to which the parameter belongs.
+    pub fn stated(&self, texts: &[&str]) -> Vec<(String, Value, usize)> {
+        let text = |name: &str| self.find(name).map_or("", |at| texts[at]);
+        let first = |opened: &Opened| self.declarations.iter().position(|declaration| opened.has(declaration.name()));
+        let opened = self.distribution.0.iter().filter_map(|opened| {
+            let at = first(opened)?;
+            Some((opened.name(), opened.stated(text), at))
+        });
+        let closed = self.declarations.iter().zip(texts).enumerate().filter(|(_, (of, _))| self.is_closed(of));
+        let closed = closed.map(|(at, (of, text))| (of.name().to_owned(), of.demand.kind.value(text), at));
+        opened.chain(closed).collect()
+    }
+
+    /// Returns `true` if a parameter of tests gives the declared parameter its value, and `false` if the value follows from others.
+    pub fn is_given(&self, declaration: &Declaration) -> bool {
+        self.source(declaration).is_some()
+    }
+
     /// Returns the index of the declaration of a parameter.
     pub fn find(&self, name: &str) -> Option<usize> {
         self.declarations.iter().position(|declaration| declaration.name() == name)
@@ -149,7 +173,7 @@ impl Parameters {
     }
 
     /// Returns the value that a test gives a declared parameter; `None` if the value follows from other parameters.
-    fn given(&self, declaration: &Declaration, test: &Values) -> Option<String> {
+    pub fn given(&self, declaration: &Declaration, test: &Values) -> Option<String> {
         if let Some(opened) = self.distribution.of(declaration.name()) {
             let parts = opened.parts(test.get(&opened.name())?);
             return parts.into_iter().find(|(name, _)| *name == declaration.name()).map(|(_, value)| value);
@@ -169,6 +193,21 @@ impl Parameters {
         let parts = self.distribution.of(declaration.name()).map(|opened| opened.parts(value)).unwrap_or_default();
         let own = parts.into_iter().find(|(name, _)| *name == declaration.name());
         own.map_or_else(|| value.clone(), |(_, text)| declaration.demand.kind.value(&text))
+    }
+
+    /// Returns the listed values of the open parameters of tests on which a text depends, each with the name of its parameter.
+    pub fn choices_behind(&self, text: &str) -> Vec<(String, Value)> {
+        let mut open: Vec<&str> = references(text).collect();
+        let (mut seen, mut choices) = (Vec::new(), Vec::new());
+        while let Some(name) = open.pop() {
+            let Some(at) = self.find(name).filter(|at| !seen.contains(at)) else { continue };
+            seen.push(at);
+            match self.distribution.of(name) {
+                Some(opened) => choices.extend(opened.levels().into_iter().map(|value| (opened.name(), value))),
+                None => open.extend(references(&self.declarations[at].text)),
+            }
+        }
+        choices
     }
 
     /// Returns the parameters of tests behind declared parameters for whose values, one by one, constraints have to be

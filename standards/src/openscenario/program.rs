@@ -1,8 +1,8 @@
 //! A scenario of a file as a program: the same world, streams and signals as those of any other program.
 
 use super::catalogs::{CatalogFiles, Found};
-use super::condition::{Check, Condition};
 use super::constraints::{constraint, of_scenario};
+use super::director::direct;
 use super::distribution::Distribution;
 use super::elements::schema;
 use super::entity::Entity;
@@ -10,7 +10,7 @@ use super::linked;
 use super::local::Local;
 use super::measure::Measure;
 use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
-use super::play::{Stage, Unplayable};
+use super::play::{Stage, check_goals};
 use super::scope::{Node, Scope};
 use super::site::Sites;
 use super::story::Storyboard;
@@ -18,10 +18,10 @@ use super::version;
 use super::weather;
 use crate::opendrive::{Map, Thing};
 use crate::xml::{Document, Flaw, NoEffect, ReadError};
-use paracosm_engine::object::{Geometric, Input, InputError, Output, Outputs, Tick};
+use paracosm_engine::object::{Geometric, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
 use paracosm_engine::vehicle::Vehicle;
-use paracosm_engine::{AutonomousVehicle, Constraint, Declared, Lead, Monitor, Pose, Program, Scenario, Stream};
+use paracosm_engine::{AutonomousVehicle, Constraint, Declared, Lead, Monitor, Pose, Program, Scenario};
 use paracosm_space::{Domain, Parameter};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -73,15 +73,6 @@ struct Read {
     /// The constraints that parts of the scenario state.
     constraints: Vec<Constraint>,
     found: Found,
-}
-
-/// The storyboard that controls all entities, as an object of the world without a body.
-struct Director {
-    stage: Rc<RefCell<Stage>>,
-    conditions: Vec<Input<bool>>,
-    truths: Vec<bool>,
-    measures: Vec<(Measure, Output<f64>)>,
-    stopped: Output<bool>,
 }
 
 /// An entity as an object of the world, which the storyboard moves.
@@ -162,16 +153,36 @@ impl Xosc {
         Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s)).of_files(hash)
     }
 
-    /// Returns the 128-bit XXH3 of the scenario, its catalogs and the roads that have been read.
+    /// Returns the 128-bit XXH3 of the scenario, its catalogs, the roads that have been read, and the roads that the distribution of
+    /// the parameters can choose.
     fn files_hash(&self) -> String {
+        let chosen = self.roads_to_choose().unwrap_or_default();
         let roads = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
+        let read = roads.iter().map(|(name, roads)| (name.clone(), roads.map.text.to_string()));
+        let maps: BTreeMap<String, String> = chosen.into_iter().chain(read).collect();
         let mut hash = Xxh3::new();
-        let maps = roads.values().map(|roads| &*roads.map.text);
+        let maps = maps.values().map(String::as_str);
         for text in [self.document.text()].into_iter().chain(self.catalogs.texts()).chain(maps) {
             hash.update(&(text.len() as u64).to_le_bytes());
             hash.update(text.as_bytes());
         }
         format!("{:032x}", hash.digest128())
+    }
+
+    /// Returns the names and the texts of the files of roads that the values of an open parameter name. A file that cannot be read
+    /// makes its tests invalid.
+    fn roads_to_choose(&self) -> Result<Vec<(String, String)>, ReadError> {
+        let tree = self.document.tree()?;
+        let none = Scope::default();
+        let root = Node { element: self.document.root(&tree, ROOT)?, scope: &none };
+        let logic = root.child("RoadNetwork")?.child("LogicFile")?;
+        let mut files = Vec::new();
+        for (name, value) in self.parameters.choices_behind(logic.element.required("filepath")?) {
+            let scope = self.parameters.values(root, &[(name, value)].into_iter().collect())?;
+            let named = Node { scope: &scope, ..logic }.required("filepath")?.into_owned();
+            files.extend(std::fs::read_to_string(self.folder.join(&named)).ok().map(|text| (named, text)));
+        }
+        Ok(files)
     }
 
     fn build(&self, s: &mut Scenario) {
@@ -197,18 +208,22 @@ impl Xosc {
                 self.document.file().display()
             ));
         }
+        if let Err(nowhere) = check_goals(&board, &roads.map) {
+            return s.refuse(&nowhere.to_string());
+        }
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
         let longest = longest(&board);
         let weather_changes = board.weather_changes();
+        let drawn = s.sketch().is_some().then(|| board.clone());
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
             Ok(stage) => Rc::new(RefCell::new(stage)),
             Err(misplaced) => return s.refuse(&format!("{}:{misplaced}", self.document.file().display())),
         };
         s.place(roads.network.clone());
         let car = s.place(car(&stage.borrow(), ego, &roads.network).led_by(&lead));
-        let end = direct(s, &stage, &conditions);
+        let end = direct(s, &stage, &conditions, drawn.as_ref());
         weather::place(s, &stage, weather_changes);
         let count = stage.borrow().cast.actors.len();
         for index in 0..count {
@@ -301,36 +316,6 @@ fn longest(board: &Storyboard) -> f64 {
     latest.fold(LONGEST, f64::max).min(LATEST)
 }
 
-/// Adds the storyboard to a world: its conditions as streams, and the object that plays it. Returns the stream that is true once
-/// the stop trigger has come.
-fn direct(s: &mut Scenario, stage: &Rc<RefCell<Stage>>, conditions: &[Condition]) -> Stream<bool> {
-    let mut draft = s.object("storyboard");
-    let stopped = draft.output("stopped");
-    let end = stopped.stream();
-    let mut measures = Vec::new();
-    let mut inputs = Vec::new();
-    for condition in conditions {
-        let Check { measures: all, any, rule, value } = &condition.check;
-        let mut truths = all.iter().map(|measure| {
-            let stream = if *measure == Measure::Time {
-                Stream::time()
-            } else {
-                let output = draft.output(&format!("{}.measure", condition.name));
-                let stream = output.stream();
-                measures.push((measure.clone(), output));
-                stream
-            };
-            rule.compare(&stream, *value)
-        });
-        let first = truths.next().unwrap_or(Stream::constant(false));
-        let truth = truths.fold(first, |all, next| if *any { all | next } else { all & next });
-        inputs.push(draft.input(&condition.name, truth.named(&condition.name)));
-    }
-    let truths = vec![false; inputs.len()];
-    draft.geometric(Director { stage: stage.clone(), conditions: inputs, truths, measures, stopped });
-    end
-}
-
 /// Returns the ego vehicle, with the way along its lane and straight on.
 fn car(stage: &Stage, ego: usize, network: &Arc<RoadNetwork>) -> AutonomousVehicle {
     let actor = &stage.cast.actors[ego];
@@ -346,31 +331,6 @@ fn car(stage: &Stage, ego: usize, network: &Arc<RoadNetwork>) -> AutonomousVehic
     let vehicle = Vehicle { length: 2.0 * half.x, width: 2.0 * half.y, ..Vehicle::BMW_320I };
     let vehicle = if vehicle.flaw().is_none() { vehicle } else { Vehicle::BMW_320I };
     car.vehicle(vehicle).speed(actor.speed.clamp(0.0, vehicle.max_speed))
-}
-
-impl Geometric for Director {
-    fn poses(&self, _: &mut [Option<Pose>]) {}
-
-    fn show(&self, outputs: &mut Outputs<'_>) {
-        self.stage.borrow_mut().catch_up();
-        let stage = self.stage.borrow();
-        for (measure, output) in &self.measures {
-            outputs.set(output, stage.measure(measure));
-        }
-        outputs.set(&self.stopped, stage.stopped);
-    }
-
-    fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
-        for (truth, input) in self.truths.iter_mut().zip(&self.conditions) {
-            *truth = tick.get(input) == Some(true);
-        }
-        let played = self.stage.borrow_mut().play(&self.truths, tick.dt());
-        played.map_err(|Unplayable { file, line, action, lost }| InputError::Impossible {
-            object: format!("{}:{line}", file.display()),
-            action,
-            reason: lost.to_string(),
-        })
-    }
 }
 
 impl Geometric for Shown {

@@ -97,6 +97,12 @@ impl<'a, 'i> Element<'a, 'i> {
         self.attributes().next().is_none() && !self.node.children().any(|node| !node.is_comment() && says(node))
     }
 
+    /// Returns the text directly within the element.
+    pub fn content(self) -> String {
+        let texts = self.node.children().filter(|node| node.is_text()).filter_map(|node| node.text());
+        texts.map(str::trim).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+
     /// Returns the names of all attributes without namespaces; declarations of namespaces are no attributes.
     pub fn attributes(self) -> impl Iterator<Item = &'a str> {
         self.node.attributes().filter(|attribute| attribute.namespace().is_none()).map(|attribute| attribute.name())

@@ -187,6 +187,21 @@ pub enum Flaw {
     /// The roads of a map form no network.
     #[error("the map has no roads to drive on: {0}")]
     Roads(#[source] RoadError),
+    /// A file with the values of a test differs from the scenario in something else than values.
+    #[error(
+        "found {found}, expected {expected} as in {}:{line}; the file of a test differs from its scenario only in the values of \
+         the parameters that the scenario declares", scenario.display()
+    )]
+    Differs {
+        /// The part of the file, in words.
+        found: String,
+        /// The part of the scenario, in words.
+        expected: String,
+        /// The path of the scenario.
+        scenario: PathBuf,
+        /// The line of the part in the scenario.
+        line: u32,
+    },
     /// Two elements have the same identifier.
     #[error("`{attribute}=\"{found}\"` of <{element}> is taken: the element in line {first} has the same value")]
     Taken {
@@ -198,6 +213,18 @@ pub enum Flaw {
         found: String,
         /// The line of the first element.
         first: u32,
+    },
+    /// Two files of a catalog have an entry with the same name.
+    #[error("the catalog has a second <{element}> with the name `{name}`: the first one is in {}:{line}", file.display())]
+    SecondEntry {
+        /// The name of the element.
+        element: String,
+        /// The name of the entry.
+        name: String,
+        /// The path of the file with the first entry.
+        file: PathBuf,
+        /// The line of the first entry.
+        line: u32,
     },
     /// An attribute names several elements.
     #[error(

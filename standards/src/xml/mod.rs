@@ -20,4 +20,4 @@ pub(crate) use expression::{Expression, MOST_OPERATORS, Value};
 pub(crate) use number::{rounded, short};
 pub(crate) use schema::{Choice, Counts, Row, Schema, no_effect, read, refused};
 pub use schema::{NoEffect, Support, Supported};
-pub(crate) use writer::{Writer, escaped};
+pub(crate) use writer::{Attributes, Writer, escaped};

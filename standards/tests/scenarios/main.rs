@@ -3,6 +3,7 @@
 mod bad;
 mod concrete;
 mod declarations;
+mod drawing;
 mod exports;
 mod golden;
 #[path = "../roads/others.rs"]
@@ -13,6 +14,7 @@ mod places;
 mod semantics;
 mod strict;
 mod strict_values;
+mod suites;
 mod things;
 mod trajectories;
 mod weather;

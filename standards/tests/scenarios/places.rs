@@ -244,3 +244,44 @@ fn a_set_of_very_many_values_is_read_soon() {
     program.check(&program.declare().unwrap().nominal()).unwrap();
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
+
+#[test]
+fn a_condition_on_a_place_of_a_route_without_a_way_is_refused() {
+    let waypoint =
+        |position: &str| format!("<Waypoint routeStrategy=\"shortest\"><Position>{position}</Position></Waypoint>");
+    let [here, there] = [10, 400].map(|s| waypoint(&format!("<LanePosition roadId=\"1\" laneId=\"-1\" s=\"{s}\"/>")));
+    let [other, beside] =
+        ["<LanePosition roadId=\"2\" laneId=\"-1\" s=\"10\"/>", "<WorldPosition x=\"9000\" y=\"9000\"/>"].map(waypoint);
+    let relative = waypoint("<RelativeObjectPosition entityRef=\"Leader\" dx=\"9000\" dy=\"0\"/>");
+    for (end, expected) in [
+        (there, None),
+        (relative, None),
+        (other, Some("no road leads from road `1` to road `2`")),
+        (beside, Some("a waypoint of the route is beside all roads")),
+    ] {
+        let condition = format!(
+            "<ReachPositionCondition tolerance=\"1\"><Position><RoutePosition><RouteRef><Route name=\"r\" closed=\"false\">\
+             {here}{end}</Route></RouteRef><InRoutePosition><FromRoadCoordinates pathS=\"20\" t=\"0\"/></InRoutePosition>\
+             </RoutePosition></Position></ReachPositionCondition>"
+        );
+        let by = format!("{}<ConditionGroup>", stop_trigger(&condition));
+        let (folder, path) = changed_in("slow-leader.xosc", "<StopTrigger><ConditionGroup>", &by);
+        // A second road, to which the first one does not lead.
+        let map = folder.path().join("straight.xodr");
+        let text = std::fs::read_to_string(&map).unwrap();
+        let (start, close) = (text.find("<road ").unwrap(), text.find("</road>").unwrap() + "</road>".len());
+        let second = text[start..close].replacen("id=\"1\"", "id=\"2\"", 1).replacen(" y=\"0", " y=\"500", 1);
+        std::fs::write(&map, format!("{}{second}{}", &text[..close], &text[close..])).unwrap();
+        let declared = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program().declare();
+        match expected {
+            None => assert!(declared.is_ok(), "{declared:?}"),
+            Some(expected) => {
+                let message = declared.unwrap_err().to_string();
+                let says = format!(
+                    "bad.xosc:69: the condition `there` never holds, because its position has no place: {expected}"
+                );
+                assert!(message.contains(&says), "{message}");
+            }
+        }
+    }
+}

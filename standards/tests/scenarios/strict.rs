@@ -1,6 +1,6 @@
 //! Nothing of a file is ignored silently: second elements, versions, names that are taken, and files that are no files.
 
-use super::bad::messages_of;
+use super::bad::{changed_in, messages_of};
 use super::worlds::file;
 use paracosm_standards::openscenario::Xosc;
 use std::fs;
@@ -207,4 +207,20 @@ fn an_entry_of_another_kind_is_named_with_its_place() {
     let message = messages_of(LEADER, "entryName=\"car\"", "entryName=\"left\"");
     assert!(message.contains("`entryName=\"left\"` of <CatalogReference> is not allowed, expected a Vehicle or Pedestrian or MiscObject; the entry in "), "{message}");
     assert!(message.ends_with("entities.xosc:26 is a Route"), "{message}");
+}
+
+#[test]
+fn the_parts_of_a_catalog_may_be_in_two_files_but_an_entry_in_one_alone() {
+    let (folder, path) = changed_in("slow-leader.xosc", "entryName=\"slow-down\"", "entryName=\"slow-down\"");
+    let entities = folder.path().join("catalogs/entities.xosc");
+    let text = fs::read_to_string(&entities).unwrap();
+    let (start, end) = (text.find("<Maneuver name=\"slow-down\"").unwrap(), text.find("</Catalog>").unwrap());
+    let head = &text[..text.find("<Vehicle").unwrap()];
+    // The second file has the maneuver alone.
+    fs::write(folder.path().join("catalogs/zz.xosc"), format!("{head}{}", &text[start..])).unwrap();
+    let message = Xosc::read(&path).err().expect("the maneuver is in both").to_string();
+    let says = "zz.xosc:5: the catalog has a second <Maneuver> with the name `slow-down`: the first one is in ";
+    assert!(message.contains(says) && message.contains("entities.xosc:38"), "{message}");
+    fs::write(&entities, format!("{}{}", &text[..start], &text[end..])).unwrap();
+    Xosc::read(&path).unwrap_or_else(|error| panic!("{error}"));
 }

@@ -3,6 +3,7 @@
 mod actor;
 mod cast;
 mod find;
+mod goals;
 mod measure;
 mod motion;
 mod stage;
@@ -12,4 +13,5 @@ mod track;
 mod watch;
 
 pub(super) use find::Unplayable;
+pub(super) use goals::check_goals;
 pub(super) use stage::Stage;

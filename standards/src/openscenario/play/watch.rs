@@ -127,7 +127,7 @@ mod tests {
     /// Returns the ticks at which a condition with this edge and delay is true, for truths at ticks of 0.1 s.
     fn fires(edge: Edge, delay: f64, truths: &[bool]) -> Vec<usize> {
         let check = Check { measures: vec![Measure::Time], any: true, rule: Rule::Equal, value: 0.0 };
-        let trigger = vec![vec![Condition { name: String::new(), delay, edge, check }]];
+        let trigger = vec![vec![Condition { name: String::new(), origin: Default::default(), delay, edge, check }]];
         let mut watch = Watch::new(&trigger, &mut (0..));
         let at = |tick: usize| tick as f64 * 0.1;
         (0..truths.len()).filter(|tick| watch.check(at(*tick), &[truths[*tick]], 0, &|_| false)).collect()
