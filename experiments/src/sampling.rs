@@ -219,7 +219,8 @@ fn failure_map(log: &Log) -> FailureMap {
     FailureMap::of(log).expect("the study has two continuous parameters")
 }
 
-fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
+/// Writes a picture as SVG and as PNG.
+pub fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
     write(&out.join(format!("{name}.svg")), picture.svg()?)?;
     write(&out.join(format!("{name}.png")), picture.png()?)
 }

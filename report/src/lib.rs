@@ -32,5 +32,7 @@ mod xml;
 
 pub use blame::BlameTable;
 pub use junit::{Junit, command_option, shell_word};
-pub use plot::{Axis, FailureMap, HeatMap, Lines, Mark, Picture, Tints, drawing_png, film_gif};
+pub use plot::{
+    Axis, Entry, FailureMap, HeatMap, Lines, Mark, Picture, PlotFrame, Series, Shares, Tints, drawing_png, film_gif,
+};
 pub use trials::TrialTable;

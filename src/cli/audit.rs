@@ -11,8 +11,8 @@ use super::{Failure, Status, Verbosity, on_interrupt, print};
 use crate::standards::openscenario::value_sets;
 use clap::Args;
 use paracosm_analysis::audit::{
-    Additions, Audit, AuditFolder, Audited, Report, Runs, Score, Screen, Share, Smaller, Source, Suite, SuiteFlaw,
-    Witness,
+    Additions, Audit, AuditFolder, Audited, Better, Estimate, Report, Runs, Score, Screen, Share, Source, Suite,
+    SuiteFlaw, Witness,
 };
 use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Error, Study, Worker, tests_as_csv};
@@ -35,7 +35,7 @@ An audit says what a suite of tests would have missed:
              a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
              are fixed before: each is noticed in one of the random tests of --screen
   additions  the fewest tests of the screen that kill the mutants which the suite misses, and a test that kills the witness
-  smaller    a suite with fewer tests and smaller holes that kills all mutants of this set, if one is found. Grade it with
+  better     a suite with fewer tests and smaller holes that kills all mutants of this set, if one is found. Grade it with
              other mutants: --seed 1
 
 The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite certificate-1.json, a
@@ -125,8 +125,8 @@ impl Options {
             if let Some(additions) = suite.additions.as_ref().filter(|additions| !additions.tests.is_empty()) {
                 self.write_tests(&study, &additions_file(number), &additions.tests, verbosity)?;
             }
-            if let Some(smaller) = &suite.smaller {
-                write_whole_here(&self.out.join(smaller_file(number)), &tests_as_csv(study.space(), &smaller.tests))?;
+            if let Some(better) = &suite.better {
+                self.write_tests(&study, &better.file, &better.suite, verbosity)?;
             }
             if let Some(witness) = &suite.witness {
                 write_whole_here(&self.out.join(film_file(number)), &film(witness, &study)?)?;
@@ -182,7 +182,7 @@ fn film_file(number: usize) -> String {
 fn film(witness: &Witness, study: &Study) -> Result<Vec<u8>, Failure> {
     let blind = witness.study(study)?;
     let mut record = MotionRecord::default();
-    let (trial, _) = Worker::new(&blind)?.watch(0, &witness.test, |run| record.see(run));
+    let (trial, _) = Worker::new(&blind)?.watch(0, &witness.fails_at, |run| record.see(run));
     let caption = format!("{}, the witness: {}", study.subject().scenario()?.scenario(), trial.verdict);
     draw(&record, FileKind::Gif, &caption)
 }
@@ -190,11 +190,6 @@ fn film(witness: &Witness, study: &Study) -> Result<Vec<u8>, Failure> {
 /// Returns the name of the file of the tests that a suite should have besides.
 fn additions_file(number: usize) -> String {
     format!("additions-{number}.csv")
-}
-
-/// Returns the name of the file of a smaller suite.
-fn smaller_file(number: usize) -> String {
-    format!("smaller-{number}.csv")
 }
 
 fn table(report: &Report) -> String {
@@ -207,6 +202,7 @@ fn table(report: &Report) -> String {
         };
         table.heading(&format!("{}: {}, {}{left}", report.title, suite.suite, plural(suite.tests, "test")));
         table.coverage(&suite.coverage);
+        suite.k_wise.iter().for_each(|found| table.discrete(found));
         holes(&mut table, suite);
         certificate(&mut table, suite, number);
         match &suite.witness {
@@ -229,10 +225,11 @@ fn table(report: &Report) -> String {
                 table.row("additions", &format!("{killing} (at least {at_least}) kill {missed}{last}: {file}"));
             }
         }
-        if let Some(Smaller { tests, killing, largest_hole }) = &suite.smaller {
-            let kills = if *killing == 0 { String::new() } else { ", kills all mutants of this set".to_owned() };
-            let (tests, hole) = (plural(tests.len(), "test"), short_bracket(largest_hole));
-            table.row("smaller suite", &format!("{tests}, largest hole {hole}{kills}: {}", smaller_file(number)));
+        if let Some(Better { tests, hole, mutation_score, file, .. }) = &suite.better {
+            let score =
+                mutation_score.map_or(String::new(), |score| format!(", mutation score {}", percent(score.value)));
+            let (tests, hole) = (plural(*tests, "test"), short_bracket(hole));
+            table.row("better suite", &format!("{tests}, largest hole {hole}{score}: {file}"));
         }
     }
     if report.suites.len() > 1 {
@@ -280,24 +277,27 @@ fn place(sides: &Record<[f64; 2]>, row: &Record<paracosm_space::Value>) -> Strin
 }
 
 fn witness(table: &mut Table, witness: &Witness, number: usize) {
-    let Witness { tried, failing, test, requirement, robustness, probability, .. } = witness;
+    let Witness { tried, failing, fails_at, requirement, robustness, probability, .. } = witness;
     let which = if witness.is_largest_hole { "the largest hole" } else { "an empty box" };
     table.row("witness", &format!("does not brake within {which}, a box of {}", digits(witness.volume)));
     table.row("  box", &place(&witness.sides, &witness.row));
     table.row("  on in the suite", "in no test, so it gets every verdict of the given driver");
     table.row("  fails in the box", &format!("{failing} of {}", plural(*tried, "test")));
-    let values: Vec<String> = test.iter().map(|(name, value)| format!("{name} {}", value_words(value))).collect();
+    let values: Vec<String> = fails_at.iter().map(|(name, value)| format!("{name} {}", value_words(value))).collect();
     table.row("  fails with", &format!("{}; {}", values.join(", "), film_file(number)));
     let [with, without] = robustness.map(|number| number.map_or("undecided".to_owned(), digits));
     table.row(&format!("  {requirement}"), &format!("{with}, with the given driver {without}"));
-    let [lo, hi] = witness.probability_interval.map(digits);
-    table.row("  probability", &format!("{} of a test in the box ({lo} to {hi}, 95 %)", digits(*probability)));
+    let Estimate { value, lower, upper } = probability;
+    let [value, lower, upper] = [value, lower, upper].map(|share| digits(*share));
+    table.row("  probability", &format!("{value} of a test in the box ({lower} to {upper}, 95 %)"));
 }
 
 fn share(share: &Share) -> String {
-    let Share { mutants, killed, score, interval } = share;
-    let interval = interval.map_or(String::new(), |[lo, hi]| format!(", {} to {} (95 %)", percent(lo), percent(hi)));
-    format!("{}: {killed} of {mutants}{interval}", score.map_or("no mutant".to_owned(), percent))
+    let Share { counted, killed, mutation_score } = share;
+    mutation_score.map_or("no mutant".to_owned(), |Estimate { value, lower, upper }| {
+        let [value, lower, upper] = [value, lower, upper].map(percent);
+        format!("{value}: {killed} of {counted}, {lower} to {upper} (95 %)")
+    })
 }
 
 fn score(table: &mut Table, screen: &Screen, score: &Score) {
@@ -315,14 +315,14 @@ fn score(table: &mut Table, screen: &Screen, score: &Score) {
         };
         table.row(&label, &share(of));
     }
-    for kind in &score.kinds {
+    for kind in &score.by_kind {
         let noticed = match kind.noticed_from {
             Some(size) => format!("; from {} {} on if always on", digits(size), kind.unit),
             None => String::new(),
         };
         table.row(
             &format!("  {}", kind.kind),
-            &format!("{} of {}{}", kind.all.killed, kind.all.mutants, noticed.trim_end()),
+            &format!("{} of {}{}", kind.all.killed, kind.all.counted, noticed.trim_end()),
         );
     }
 }

@@ -154,7 +154,8 @@ impl Table {
         }
     }
 
-    fn discrete(&mut self, measured: &Discrete) {
+    /// Adds the rows of the k-wise coverage of discrete parameters.
+    pub fn discrete(&mut self, measured: &Discrete) {
         let Discrete { k, covered, valid, ratio, missing, combinations, strengths } = measured;
         self.row(&format!("{k}-wise coverage"), &format!("{covered} of {valid} ({})", percent(*ratio)));
         self.row("  of all combinations", &combinations.map_or("too many to count".into(), percent));

@@ -53,16 +53,19 @@ fn an_audit_is_the_same_with_any_number_of_jobs_and_after_a_cut() {
 fn an_audit_shows_holes_a_witness_and_scores() {
     let dir = tempfile::tempdir().unwrap();
     let report = audit(dir.path(), "out", &["--driver", "planner"]);
-    for suite in report["suites"].as_array().unwrap() {
+    for suite in [&report, &report["others"][0]] {
         assert_eq!(suite["tests"], 20);
-        assert_eq!(suite["witness"]["tests_inside"], 0);
+        assert_eq!(suite["witness"]["agrees_on_suite"], true);
         assert!(suite["witness"]["failing"].as_u64().unwrap() > 0);
-        assert_eq!(suite["mutants"]["mutants"], 30);
+        assert_eq!(suite["mutants"]["counted"], 30);
+        let mutants = &suite["mutants"];
+        assert_eq!(mutants["made"].as_u64().unwrap() - mutants["equivalent_so_far"].as_u64().unwrap(), 30);
+        let score = mutants["mutation_score"]["value"].as_f64().unwrap();
+        assert_eq!(score, mutants["killed"].as_f64().unwrap() / 30.0);
+        assert!(suite["witness"]["fails_at"]["speed"].is_number() && suite["hole"]["box"]["speed"].is_array());
+        assert!(suite["witness"]["probability"]["lower"].as_f64() < suite["witness"]["probability"]["upper"].as_f64());
     }
-    assert!(
-        report["suites"][0]["holes"]["rows"][0]["lower"].as_f64()
-            < report["suites"][1]["holes"]["rows"][0]["lower"].as_f64()
-    );
+    assert!(report["hole"]["lower"].as_f64() < report["others"][0]["hole"]["lower"].as_f64());
     let given = ["audit", "--tests", "halton:20", "--mutants", "0", "--format", "table", "--out", "table"];
     let table = stdout(&succeeds(fuzz(dir.path(), &given)));
     assert!(fs::read(dir.path().join("table/witness-1.gif")).unwrap().starts_with(b"GIF89a"));
@@ -109,22 +112,21 @@ fn a_folder_with_another_audit_and_wrong_suites_are_refused() {
 }
 
 #[test]
-fn a_smaller_suite_is_graded_with_other_mutants() {
+fn a_better_suite_is_graded_with_other_mutants() {
     let dir = tempfile::tempdir().unwrap();
     let given = ["--driver", "planner", "--mutants", "30", "--screen", "16", "-q"];
     let run = |more: &[&str]| stdout(&succeeds(fuzz(dir.path(), &[&["audit"], &given[..], more].concat())));
     run(&["--tests", "grid:9x9", "--out", "first"]);
-    let both = ["--tests", "first/smaller-1.csv", "--tests", "grid:9x9", "--seed", "1", "--out", "second"];
+    let both = ["--tests", "first/better-1.csv", "--tests", "grid:9x9", "--seed", "1", "--out", "second"];
     let report: Value = serde_json::from_str(&run(&both)).unwrap();
-    let [smaller, grid] = [0, 1].map(|at| &report["suites"][at]);
-    assert!(smaller["tests"].as_u64() < grid["tests"].as_u64());
-    let hole = |suite: &Value| suite["holes"]["rows"][0]["lower"].as_f64().unwrap();
-    assert!(hole(smaller) < hole(grid), "{report}");
+    let (better, grid) = (&report, &report["others"][0]);
+    assert!(better["tests"].as_u64() < grid["tests"].as_u64());
+    let hole = |suite: &Value| suite["hole"]["lower"].as_f64().unwrap();
+    assert!(hole(better) < hole(grid), "{report}");
     let first: Value = serde_json::from_slice(&fs::read(dir.path().join("first/audit.json")).unwrap()).unwrap();
-    assert_eq!(
-        first["suites"][0]["smaller"]["largest_hole"]["upper"].as_f64(),
-        smaller["holes"]["rows"][0]["upper"].as_f64()
-    );
+    let found = &first["better"];
+    assert_eq!((&found["tests"], &found["file"]), (&better["tests"], &"better-1.csv".into()));
+    assert_eq!(found["hole"]["upper"], better["hole"]["upper"]);
 }
 
 #[test]
@@ -132,7 +134,7 @@ fn a_suite_is_compared_with_suites_of_its_size_by_other_strategies() {
     let dir = tempfile::tempdir().unwrap();
     let given = ["audit", "--tests", "grid:3x3", "--compare", "--mutants", "10", "--screen", "8", "-q"];
     let report: Value = serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &given)))).unwrap();
-    let suites = report["suites"].as_array().unwrap();
+    let suites: Vec<&Value> = [&report].into_iter().chain(report["others"].as_array().unwrap()).collect();
     let names: Vec<&str> = suites.iter().map(|suite| suite["suite"].as_str().unwrap()).collect();
     assert!(names[0] == "grid:3x3" && names.contains(&"halton:9") && names.contains(&"greedy:9"), "{names:?}");
     assert!(suites.iter().all(|suite| suite["tests"] == 9));

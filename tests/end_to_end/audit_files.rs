@@ -43,7 +43,7 @@ fn a_folder_of_concrete_scenarios_is_a_suite() {
     let audited: Value =
         serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &[&files[..], &AUDIT, &["json"]].concat()))))
             .expect("JSON");
-    assert_eq!((&audited["suites"][0]["suite"], &audited["suites"][0]["tests"]), (&"suite".into(), &3.into()));
+    assert_eq!((&audited["suite"], &audited["tests"]), (&"suite".into(), &3.into()));
     // The same tests as a table, and in the scenario itself with its parameters opened.
     fs::write(dir.path().join("tests.csv"), "speed,gap\n30,20\n20,50\n40,50\n").expect("it is writable");
     let opened = ["--open", "speed=20..60", "--open", "gap=10..60"];
@@ -54,7 +54,7 @@ fn a_folder_of_concrete_scenarios_is_a_suite() {
             let given = ["audit", scenario, "--tests", tests, "--out", &out];
             let output = succeeds(fuzz(dir.path(), &[&given[..], open, &AUDIT, &["json"]].concat()));
             let report: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
-            report["suites"][0]["coverage"].clone()
+            report["coverage"].clone()
         });
         assert_eq!(coverages[0], coverages[1], "{scenario}");
     }

@@ -26,7 +26,7 @@ impl Additions {
         let missed: Vec<&[usize]> = missed.map(|(noticed, _)| &noticed.tests[..]).collect();
         let Cover { tests, at_least } = Cover::of(&missed, screen.values.len());
         let chosen = tests.into_iter().map(|test| screen.values[test].clone());
-        let tests = chosen.chain(witness.map(|witness| witness.test.clone())).collect();
+        let tests = chosen.chain(witness.map(|witness| witness.fails_at.clone())).collect();
         Self { missed: missed.len(), tests, at_least }
     }
 }

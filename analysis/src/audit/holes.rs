@@ -29,7 +29,8 @@ pub struct RowHole {
     #[serde(flatten)]
     pub volume: Bracket,
     /// The two ends of the box along each continuous parameter, as values. The box has the lower volume.
-    pub largest_empty_box: Record<[f64; 2]>,
+    #[serde(rename = "box")]
+    pub sides: Record<[f64; 2]>,
     /// The levels of the row.
     #[serde(skip)]
     pub(super) levels: Vec<usize>,
@@ -44,6 +45,8 @@ pub struct RowHole {
 /// The holes of a suite, the largest first. Holes of the same volume stand in the order of their rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Holes {
+    /// The largest hole of all, with the bracket of its volume over all rows; `None` if there is no row.
+    pub hole: Option<RowHole>,
     /// The largest hole of each row.
     pub rows: Vec<RowHole>,
     /// `true` if the space has so many rows that rows without a test were not looked at.
@@ -114,7 +117,7 @@ impl Holes {
                 row: named.collect(),
                 tests: points.len(),
                 volume,
-                largest_empty_box: sides(&axes, &witness),
+                sides: sides(&axes, &witness),
                 levels,
                 found: witness,
                 part,
@@ -122,14 +125,20 @@ impl Holes {
         }
         let mut rows = found;
         rows.sort_by(|a, b| b.volume.lower.total_cmp(&a.volume.lower));
-        Ok(Self { rows, only_tested_rows })
+        let volume = largest(&rows);
+        let hole = rows.first().map(|hole| RowHole { volume, ..hole.clone() });
+        Ok(Self { hole, rows, only_tested_rows })
     }
 
     /// Returns the bracket of the volume of the largest hole; 0 if there is no row.
     pub fn largest(&self) -> Bracket {
-        let most = |end: fn(&Bracket) -> f64| self.rows.iter().map(|hole| end(&hole.volume)).fold(0.0, f64::max);
-        Bracket { lower: most(|volume| volume.lower), upper: most(|volume| volume.upper) }
+        largest(&self.rows)
     }
+}
+
+fn largest(rows: &[RowHole]) -> Bracket {
+    let most = |end: fn(&Bracket) -> f64| rows.iter().map(|hole| end(&hole.volume)).fold(0.0, f64::max);
+    Bracket { lower: most(|volume| volume.lower), upper: most(|volume| volume.upper) }
 }
 
 /// Returns the sides of a box over the continuous parameters, as values.

@@ -6,6 +6,7 @@
 //! notices.
 
 mod additions;
+mod better;
 mod bout;
 mod certified;
 mod cover;
@@ -14,27 +15,27 @@ mod holes;
 mod runs;
 mod score;
 mod screen;
-mod smaller;
 mod suite;
 mod witness;
 
 pub use additions::Additions;
+pub use better::Better;
 pub use bout::{Found, Kill, Noticed, Tried};
 pub use folder::{AuditFolder, AuditFolderFlaw};
 pub use holes::{Holes, RowHole};
 pub use runs::Runs;
-pub use score::{KindScore, Score, Share, SizeScore};
+pub use score::{Estimate, KindScore, Score, Share, SizeScore};
 pub use screen::Screen;
-pub use smaller::Smaller;
 pub use suite::{Source, Suite, SuiteFlaw};
 pub use witness::Witness;
 
 use crate::Coverage;
 use crate::certificate::Certificate;
+use crate::estimate::Discrete;
 use bout::Bout;
 use paracosm_campaign::{Error, JsonArtefact, Reason, Study, TestSet};
 use paracosm_coverage::{Deadline, Measure};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::time::Duration;
 use thiserror::Error;
 
@@ -92,10 +93,13 @@ pub struct Audited {
     pub tests: usize,
     /// The number of tests of the source that break a constraint and are left out.
     pub left_out: usize,
-    /// The coverage of the space by the suite.
-    pub coverage: Coverage,
-    /// The holes of the suite, by rows of discrete values.
+    /// The holes of the suite: the largest, and that of each row of discrete values.
+    #[serde(flatten)]
     pub holes: Holes,
+    /// The k-wise coverage of the discrete parameters; `None` if there are none.
+    pub k_wise: Option<Discrete>,
+    /// The coverage of the space by the suite, apart from the k-wise coverage.
+    pub coverage: Coverage,
     /// A proof of the largest hole of each row that other programs can check.
     #[serde(skip)]
     pub certificate: Certificate,
@@ -106,11 +110,11 @@ pub struct Audited {
     /// Tests that kill the mutants which the suite misses; `None` without mutants.
     pub additions: Option<Additions>,
     /// A suite with fewer tests and smaller holes; `None` if none was found.
-    pub smaller: Option<Smaller>,
+    pub better: Option<Better>,
 }
 
 /// The results of an audit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// The description of the study.
     pub title: String,
@@ -118,6 +122,23 @@ pub struct Report {
     pub screen: Option<Screen>,
     /// The suites, in the order in which they were named.
     pub suites: Vec<Audited>,
+}
+
+impl Serialize for Report {
+    /// Writes the results of the first suite beside the title, and the other suites under `others`.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Form<'a> {
+            title: &'a str,
+            #[serde(flatten)]
+            first: Option<&'a Audited>,
+            screen: &'a Option<Screen>,
+            others: &'a [Audited],
+        }
+        let Self { title, screen, suites } = self;
+        let first = suites.first();
+        Form { title, first, screen, others: suites.get(1..).unwrap_or_default() }.serialize(serializer)
+    }
 }
 
 impl JsonArtefact for Report {
@@ -163,7 +184,8 @@ impl<'a> Audit<'a> {
         tried: &mut Vec<Tried>,
         mut sink: impl FnMut(&Tried) -> Result<(), Error>,
     ) -> Result<Report, Error> {
-        let mut suites = self.suites.iter().map(|suite| self.measured(suite)).collect::<Result<Vec<_>, Error>>()?;
+        let measured = (1..).zip(&self.suites).map(|(number, suite)| self.measured(number, suite));
+        let mut suites = measured.collect::<Result<Vec<_>, Error>>()?;
         let Self { study, suites: all, runs, .. } = self;
         let mutants = self.tried_mutants();
         let bout = Bout { study, suites: all, mutants, runs };
@@ -174,7 +196,7 @@ impl<'a> Audit<'a> {
         })?;
         if let Some(screen) = self.screen.as_ref().filter(|_| !mutants.is_empty()) {
             for (position, suite) in suites.iter_mut().enumerate() {
-                suite.mutants = Some(Score::of(tried, position));
+                suite.mutants = Some(Score::of(screen, tried, position));
                 let witness = suite.witness.as_ref();
                 suite.additions = Some(Additions::of(screen, tried, position, witness));
             }
@@ -186,28 +208,30 @@ impl<'a> Audit<'a> {
         self.screen.as_ref().map_or(&[], |screen| &screen.mutants)
     }
 
-    /// Measures a suite, and finds its witness.
-    fn measured(&self, suite: &Suite) -> Result<Audited, Error> {
+    /// Measures a suite with its number, from 1, and finds its witness.
+    fn measured(&self, number: usize, suite: &Suite) -> Result<Audited, Error> {
         let tests = TestSet::new(self.study.space().clone(), suite.points.clone());
         let part = self.limit.map(|limit| limit / 4);
         let deadline = || part.map_or_else(Deadline::never, Deadline::after);
-        let coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, part)?;
+        let mut coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, part)?;
         let holes = Holes::of(suite, self.study, deadline())?;
         let certificate = certified::certificate(&tests, &holes, deadline());
         let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs };
         let witness = search.run()?;
-        let better = Smaller::of(self.study, suite, &holes, self.screen.as_ref(), deadline())?;
+        let better = Better::of(number, self.study, suite, &holes, self.screen.as_ref(), deadline())?;
+        let k_wise = coverage.discrete.take().flatten();
         Ok(Audited {
             suite: suite.name.clone(),
             tests: suite.points.len(),
             left_out: suite.left_out,
-            coverage,
             holes,
+            k_wise,
+            coverage,
             certificate,
             witness,
             mutants: None,
             additions: None,
-            smaller: better,
+            better,
         })
     }
 }

@@ -1,5 +1,6 @@
 //! The mutation score of a suite: in all, and by the kind and the size of defects.
 
+use super::Screen;
 use super::bout::Tried;
 use crate::statistics::wilson;
 use paracosm_mutants::Mutant;
@@ -10,26 +11,45 @@ const CONFIDENCE: f64 = 0.95;
 /// The mutation score of a suite.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Score {
+    /// The number of mutants that were made for the screen.
+    pub made: usize,
+    /// The number of them that no test of the screen notices. They are equivalent to the driver as far as known, and do not count.
+    pub equivalent_so_far: usize,
     /// The score for all mutants.
     #[serde(flatten)]
     pub all: Share,
     /// The scores of mutants that are always on, that one condition turns on, that two conditions turn on, and so on.
     pub by_conditions: Vec<Share>,
     /// The scores by kind of defect, in the order of the list of kinds.
-    pub kinds: Vec<KindScore>,
+    pub by_kind: Vec<KindScore>,
 }
 
 /// A number of mutants, and how many of them a suite kills.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Share {
-    /// The number of mutants.
-    pub mutants: usize,
+    /// The number of mutants that count: a test of the screen notices each of them.
+    pub counted: usize,
     /// The number of mutants that the suite kills.
     pub killed: usize,
-    /// The mutation score: the share of mutants that the suite kills; `None` without mutants.
-    pub score: Option<f64>,
-    /// The interval of the score with 95 % confidence, if the mutants are a sample of many (Wilson).
-    pub interval: Option<[f64; 2]>,
+    /// The share of mutants that the suite kills; `None` without mutants. The interval takes the mutants as a sample of many (Wilson).
+    pub mutation_score: Option<Estimate>,
+}
+
+/// A share with its interval with 95 % confidence.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Estimate {
+    /// The share.
+    pub value: f64,
+    /// The lower end of the interval.
+    pub lower: f64,
+    /// The upper end of the interval.
+    pub upper: f64,
+}
+
+impl Estimate {
+    pub(super) fn of(value: f64, [lower, upper]: [f64; 2]) -> Self {
+        Self { value, lower, upper }
+    }
 }
 
 /// The score of a suite for a kind of defect.
@@ -60,28 +80,32 @@ pub struct SizeScore {
 }
 
 impl Share {
+    pub(super) fn new(killed: usize, counted: usize) -> Self {
+        let score = || Estimate::of(killed as f64 / counted as f64, wilson(killed, counted, CONFIDENCE));
+        Self { counted, killed, mutation_score: (counted > 0).then(score) }
+    }
+
     fn of<'t>(tried: impl Iterator<Item = &'t Tried>, suite: usize) -> Self {
-        let (mut mutants, mut killed) = (0, 0);
-        for one in tried {
-            mutants += 1;
-            killed += usize::from(one.kills[suite].is_some());
-        }
-        let score = (mutants > 0).then(|| killed as f64 / mutants as f64);
-        Self { mutants, killed, score, interval: score.map(|_| wilson(killed, mutants, CONFIDENCE)) }
+        let (killed, counted) = tried
+            .fold((0, 0), |(killed, counted), one| (killed + usize::from(one.kills[suite].is_some()), counted + 1));
+        Self::new(killed, counted)
     }
 }
 
 impl Score {
     /// Counts the kills of a suite, which is named by its position.
-    pub(super) fn of(tried: &[Tried], suite: usize) -> Self {
+    pub(super) fn of(screen: &Screen, tried: &[Tried], suite: usize) -> Self {
         let conditions = |one: &Tried| one.mutant.when.len();
         let most = tried.iter().map(conditions).max().map_or(0, |most| most + 1);
         let with = |count| tried.iter().filter(move |one| conditions(one) == count);
         let kinds = paracosm_mutants::ALL.iter().filter_map(|kind| KindScore::of(kind, tried, suite));
+        let equivalent_so_far = screen.equivalent_so_far;
         Self {
+            made: screen.mutants.len() + equivalent_so_far,
+            equivalent_so_far,
             all: Share::of(tried.iter(), suite),
             by_conditions: (0..most).map(|count| Share::of(with(count), suite)).collect(),
-            kinds: kinds.collect(),
+            by_kind: kinds.collect(),
         }
     }
 }
@@ -110,7 +134,7 @@ impl KindScore {
             unit: kind.unit,
             all: Share::of(of_kind.iter().copied(), suite),
             noticed_from,
-            sizes: sizes.filter(|size| size.all.mutants > 0).collect(),
+            sizes: sizes.filter(|size| size.all.counted > 0).collect(),
         })
     }
 }

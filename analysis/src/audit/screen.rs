@@ -28,7 +28,7 @@ pub struct Screen {
     /// The number of defects that some test notices.
     pub noticed: usize,
     /// The number of mutants with these defects that no test notices. They are equivalent as far as known, and are left out.
-    pub equivalent_as_far_as_known: usize,
+    pub equivalent_so_far: usize,
     /// The mutants, in the order of their defects.
     #[serde(skip)]
     pub mutants: Vec<Noticed>,
@@ -74,7 +74,7 @@ impl Screen {
             tests: suite.points.len(),
             defects: defects.len(),
             noticed: kills.iter().filter(|kills| !kills.is_empty()).count(),
-            equivalent_as_far_as_known: 0,
+            equivalent_so_far: 0,
             mutants: Vec::new(),
             values: suite.values(study),
         };
@@ -88,7 +88,7 @@ impl Screen {
                 }
                 match noticed_in(mutant) {
                     Some(noticed) => screen.mutants.push(noticed),
-                    None => screen.equivalent_as_far_as_known += 1,
+                    None => screen.equivalent_so_far += 1,
                 }
             }
             if set.len() < asked {
@@ -112,6 +112,6 @@ impl Screen {
             tried.push(one);
             Ok(())
         })?;
-        Ok((0..suites.len()).map(|suite| Score::of(&tried, suite)).collect())
+        Ok((0..suites.len()).map(|suite| Score::of(self, &tried, suite)).collect())
     }
 }

@@ -146,10 +146,7 @@ impl Suite {
     pub fn of(source: &Source, study: &Study, catalogue: &Catalogue) -> Result<Self, Error> {
         let space = study.space();
         let points = match source {
-            Source::Strategy(strategy, tests) => {
-                let sampling = Sampling { strategy: *strategy, budget: *tests, ..Sampling::default() };
-                study.sampled(sampling)?.generator(&[])?.ask(*tests)
-            }
+            Source::Strategy(strategy, tests) => first_tests(study, *strategy, *tests)?,
             Source::Grid(sizes) => even_grid(study, sizes)?,
             Source::Path(path) if path.is_dir() && !is_campaign(path) => {
                 TestSet::of_folder(path, study, catalogue)?.points
@@ -200,7 +197,10 @@ impl Suite {
     /// strategies refuse the space or the number of tests.
     pub fn rivals(&self, study: &Study) -> (Vec<Self>, Vec<Error>) {
         let strategies = Strategy::all().filter(|strategy| !strategy.is_adaptive());
-        let of = |strategy| Self::of(&Source::Strategy(strategy, self.points.len()), study);
+        let of = |strategy| {
+            let tests = self.points.len();
+            Self::new(Source::Strategy(strategy, tests).to_string(), first_tests(study, strategy, tests)?, study)
+        };
         let (mut suites, mut refusals) = (Vec::new(), Vec::new());
         for suite in strategies.map(of) {
             match suite {
@@ -238,6 +238,11 @@ fn tests_of(path: &Path) -> PathBuf {
 
 fn is_campaign(path: &Path) -> bool {
     path.join(CAMPAIGN).exists()
+}
+
+fn first_tests(study: &Study, strategy: Strategy, tests: usize) -> Result<Vec<Point>, Error> {
+    let sampling = Sampling { strategy, budget: tests, ..Sampling::default() };
+    Ok(study.sampled(sampling)?.generator(&[])?.ask(tests))
 }
 
 fn even_grid(study: &Study, sizes: &[usize]) -> Result<Vec<Point>, Error> {

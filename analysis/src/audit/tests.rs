@@ -37,7 +37,7 @@ fn the_hole_of_a_single_row_is_the_dispersion() {
     let audited = report(&study, &["halton:40"], 0, 1).suites.remove(0);
     assert_eq!(audited.coverage.continuous.unwrap().bracket(Measure::DISPERSION), Some(audited.holes.largest()));
     assert_eq!(audited.holes.rows.len(), 1);
-    assert!(audited.mutants.is_none_or(|score| score.all.mutants == 0));
+    assert!(audited.mutants.is_none_or(|score| score.all.counted == 0));
 }
 
 #[test]
@@ -60,15 +60,15 @@ fn a_witness_fails_in_a_box_that_no_test_has_entered() {
         let suite = suite("halton:40", &study);
         let report = Audit::of(&study, vec![suite.clone()]).unwrap().run(&mut Vec::new(), |_| Ok(())).unwrap();
         let witness = report.suites[0].witness.as_ref().unwrap_or_else(|| panic!("{scenario} has no witness"));
-        assert_eq!(witness.tests_inside, 0);
+        assert!(witness.agrees_on_suite);
         let active = |test: &Values| witness.mutant.is_active(test);
-        assert!(!suite.values(&study).iter().any(active) && active(&witness.test));
+        assert!(!suite.values(&study).iter().any(active) && active(&witness.fails_at));
         let blind = mutated(&study, witness.mutant.defect).unwrap();
-        let test = std::slice::from_ref(&witness.test);
+        let test = std::slice::from_ref(&witness.fails_at);
         let [given, trial] = [&study, &blind].map(|study| runs(1).of(study, test).unwrap().remove(0));
         assert_eq!(gives_away(&given, &trial), Some(witness.requirement.as_str()));
         assert!(witness.failing >= 1 && witness.failing <= witness.tried);
-        let [lower, upper] = witness.probability_interval;
+        let Estimate { lower, upper, .. } = witness.probability;
         assert!(lower <= witness.volume && witness.volume <= upper, "uniform distributions: {witness:?}");
     }
 }
@@ -113,18 +113,18 @@ fn a_suite_that_meets_more_failures_of_the_screen_kills_more_mutants() {
     let [few, many] = [0, 1].map(|at| report.suites[at].mutants.clone().unwrap());
     assert!(few.all.killed < many.all.killed, "{few:?} {many:?}");
     // Every test of the short suite is in the long one.
-    assert!(few.kinds.iter().zip(&many.kinds).all(|(few, many)| few.all.killed <= many.all.killed));
+    assert!(few.by_kind.iter().zip(&many.by_kind).all(|(few, many)| few.all.killed <= many.all.killed));
     for (at, score) in [(0, &few), (1, &many)] {
         let additions = report.suites[at].additions.clone().unwrap();
         assert_eq!(additions.missed, 100 - score.all.killed);
         let witness = report.suites[at].witness.as_ref().unwrap();
-        assert_eq!(additions.tests.last(), Some(&witness.test));
+        assert_eq!(additions.tests.last(), Some(&witness.fails_at));
         assert!(additions.at_least < additions.tests.len() && additions.tests.len() <= additions.missed + 1);
     }
     let screen = Screen::of(&study, 100, 16, 0, &runs(2)).unwrap();
     let suites = ["halton:4", "halton:200"].map(|text| suite(text, &study));
     assert_eq!(screen.scores(&study, &suites, &runs(2)).unwrap(), [few.clone(), many.clone()]);
-    let sum = |score: &Score| score.kinds.iter().map(|kind| kind.all.killed).sum::<usize>();
+    let sum = |score: &Score| score.by_kind.iter().map(|kind| kind.all.killed).sum::<usize>();
     assert_eq!((sum(&few), sum(&many)), (few.all.killed, many.all.killed));
 }
 

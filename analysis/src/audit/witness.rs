@@ -4,9 +4,9 @@
 //! the box, so all their verdicts stay as they are. A failing test in the box shows that the suite misses a real defect. So the volume
 //! of the largest such box has a meaning: it is the largest box-shaped defect that passes the suite.
 
-use super::Suite;
 use super::holes::{Holes, RowHole, empty_boxes, sides, tests_in};
 use super::runs::{Runs, gives_away, mutated};
+use super::{Estimate, Suite};
 use crate::statistics::clopper_pearson;
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::{Error, Study, Trial};
@@ -40,22 +40,21 @@ pub struct Witness {
     pub volume: f64,
     /// `true` if the box is the largest hole of the suite.
     pub is_largest_hole: bool,
-    /// The number of tests of the suite for which the defect is on. It is 0.
-    pub tests_inside: usize,
+    /// `true` if the defect is on in no test of the suite, so that the witness gets the verdicts of the given driver in all of them.
+    pub agrees_on_suite: bool,
     /// The number of tests in the box that were run.
     pub tried: usize,
     /// The number of them in which the witness violates a requirement that the driver of the study keeps.
     pub failing: usize,
     /// The values of a failing test: the one with the least robustness.
-    pub test: Values,
+    pub fails_at: Values,
     /// The requirement that the witness violates in this test.
     pub requirement: String,
     /// The robustness of the requirement with the witness, and with the driver of the study.
     pub robustness: [Option<f64>; 2],
-    /// The probability that a test with values from the distributions of the parameters is in the box, given that it is valid.
-    pub probability: f64,
-    /// The interval of this probability with 95 % confidence, from random draws (Clopper and Pearson).
-    pub probability_interval: [f64; 2],
+    /// The probability that a test with values from the distributions of the parameters is in the box, given that it is valid, from
+    /// random draws. The interval is that of Clopper and Pearson.
+    pub probability: Estimate,
 }
 
 impl Witness {
@@ -207,21 +206,23 @@ impl Search<'_> {
             sides.iter().map(|(name, [lo, hi])| Condition::Between { parameter: name.to_owned(), lo: *lo, hi: *hi });
         let is = row.iter().map(|(name, value)| Condition::Is { parameter: name.to_owned(), value: value.clone() });
         let mutant = Mutant { defect: NO_BRAKES, when: between.chain(is).collect() };
-        let tests_inside = self.suite.points.iter().filter(|point| mutant.is_active(&space.decode(point))).count();
+        let agrees_on_suite = !self.suite.points.iter().any(|point| mutant.is_active(&space.decode(point)));
         let (inside, valid) = draws(space, &mutant);
         Ok(Witness {
             row,
             sides,
             volume: place.volume,
             is_largest_hole: place.is_largest,
-            tests_inside,
+            agrees_on_suite,
             tried,
             failing: failing.count,
-            test: failing.test,
+            fails_at: failing.test,
             requirement: failing.requirement,
             robustness: failing.robustness,
-            probability: inside as f64 / valid.max(1) as f64,
-            probability_interval: clopper_pearson(inside, valid.max(1), CONFIDENCE),
+            probability: Estimate::of(
+                inside as f64 / valid.max(1) as f64,
+                clopper_pearson(inside, valid.max(1), CONFIDENCE),
+            ),
             mutant,
         })
     }

@@ -1,9 +1,12 @@
-//! The grids that UN R157 and Euro NCAP state, on trial: the largest hole, the witness, the mutation score, and a smaller suite.
+//! The grids that UN R157 and Euro NCAP state, on trial: the largest hole, the witness, the mutation score, and a better suite.
 
 use super::{files, name_of, study, write_rows};
+use crate::sampling::draw;
 use crate::{Done, print};
 use indicatif::ProgressBar;
 use paracosm::analysis::audit::{Audit, Audited, Runs, Screen, Suite};
+use paracosm::generators::{Look, MarkShape};
+use paracosm::report::{Entry, Picture, PlotFrame, Series, Shares};
 use paracosm::space::Value;
 use paracosm::{Error, Study};
 use serde::Serialize;
@@ -11,12 +14,16 @@ use std::path::Path;
 use std::time::Duration;
 
 const MUTANTS: usize = 200;
-/// The seeds of the mutants that choose a smaller suite, and of the mutants that grade it.
+/// The seeds of the mutants that choose a better suite, and of the mutants that grade it.
 const SEEDS: [u64; 2] = [0, 1];
 /// The time for the coverage and the holes of a suite.
 const LIMIT: Duration = Duration::from_secs(120);
 
-/// A stated suite with the results of its audit, and the smaller suite.
+/// The marks of stated suites and of better suites.
+const STATED: Look = Look::filled(0xd5_5e00, MarkShape::Square);
+const BETTER: Look = Look::filled(0x00_72b2, MarkShape::Circle);
+
+/// A stated suite with the results of its audit, and the better suite.
 #[derive(Debug, Clone, Serialize)]
 struct Row {
     scenario: String,
@@ -33,12 +40,12 @@ struct Row {
     witness_box: String,
     mutants: usize,
     score: Option<f64>,
-    smaller_tests: Option<usize>,
-    smaller_hole_upper: Option<f64>,
-    /// The scores of both suites for other mutants than those that chose the smaller suite.
+    better_tests: Option<usize>,
+    better_hole_upper: Option<f64>,
+    /// The scores of both suites for other mutants than those that chose the better suite.
     other_mutants: usize,
     other_score: Option<f64>,
-    smaller_other_score: Option<f64>,
+    better_other_score: Option<f64>,
 }
 
 /// The scores of a stated suite by kind of defect.
@@ -50,7 +57,7 @@ struct KindRow {
     killed: usize,
 }
 
-/// Runs the study and writes `audit.csv` and `audit-kinds.csv` to a folder.
+/// Runs the study and writes `audit.csv` and `audit-kinds.csv`, and draws `audit.svg` and `audit.png`.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let files = files();
     bar.inc_length(files.len() as u64);
@@ -60,22 +67,25 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         let (study, suite) = Suite::of_listed(&study(&file.to_string_lossy())?)?;
         let first = audited(&study, vec![suite.clone()], SEEDS[0])?.remove(0);
         let mut graded = vec![suite.clone()];
-        if let Some(smaller) = &first.smaller {
-            let points = smaller.tests.iter().map(|test| study.space().encode(test)).collect::<Result<Vec<_>, _>>()?;
-            graded.push(Suite::new("smaller".to_owned(), points, &study)?);
+        if let Some(better) = &first.better {
+            let points = better.suite.iter().map(|test| study.space().encode(test)).collect::<Result<Vec<_>, _>>()?;
+            graded.push(Suite::new("better".to_owned(), points, &study)?);
         }
         let runs = Runs::default();
         let other = Screen::of(&study, MUTANTS, Screen::TESTS, SEEDS[1], &runs)?;
-        let scores: Vec<Option<f64>> =
-            other.scores(&study, &graded, &runs)?.into_iter().map(|score| score.all.score).collect();
+        let scores: Vec<Option<f64>> = other
+            .scores(&study, &graded, &runs)?
+            .into_iter()
+            .map(|score| score.all.mutation_score.map(|score| score.value))
+            .collect();
         let row = row(&name, &study, &first, other.mutants.len(), &scores);
         print(&format!("{row:?}\n"))?;
         rows.push(row);
-        let of_kinds = first.mutants.iter().flat_map(|score| &score.kinds);
+        let of_kinds = first.mutants.iter().flat_map(|score| &score.by_kind);
         kinds.extend(of_kinds.map(|of| KindRow {
             scenario: name.clone(),
             kind: of.kind,
-            mutants: of.all.mutants,
+            mutants: of.all.counted,
             killed: of.all.killed,
         }));
         write_rows(&out.join("audit.csv"), &rows)?;
@@ -83,7 +93,32 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(())
+    draw(out, "audit", &Picture::of_shares(chart(&rows)))
+}
+
+/// Returns a chart of the largest holes over the numbers of tests, of the stated suites and of the better suites.
+fn chart(rows: &[Row]) -> Shares {
+    let stated: Vec<(f64, f64)> =
+        rows.iter().filter(|row| row.hole_lower > 0.0).map(|row| (row.tests as f64, row.hole_lower)).collect();
+    let better: Vec<(f64, f64)> =
+        rows.iter().filter_map(|row| Some((row.better_tests? as f64, row.better_hole_upper?))).collect();
+    let tests = || stated.iter().chain(&better).map(|mark| mark.0);
+    let range = (tests().fold(f64::INFINITY, f64::min), tests().fold(1.0, f64::max));
+    let entry =
+        |look, name: &str, marks: &[(f64, f64)]| Entry { look, name: name.to_owned(), number: marks.len().to_string() };
+    Shares {
+        frame: PlotFrame {
+            title: "What the grids of UN R157 and Euro NCAP cannot see".to_owned(),
+            note: "a mark for each logical scenario; stated: at least so large; better: at most so large".to_owned(),
+            legend: ["suite".to_owned(), "scenarios".to_owned()],
+            entries: vec![entry(STATED, "stated grid", &stated), entry(BETTER, "better suite", &better)],
+            cross: None,
+        },
+        x: "number of tests".to_owned(),
+        y: "largest box without a test, as a share of the valid part".to_owned(),
+        range,
+        series: vec![Series { look: STATED, marks: stated }, Series { look: BETTER, marks: better }],
+    }
 }
 
 fn audited(study: &Study, suites: Vec<Suite>, seed: u64) -> Result<Vec<Audited>, Error> {
@@ -94,7 +129,7 @@ fn audited(study: &Study, suites: Vec<Suite>, seed: u64) -> Result<Vec<Audited>,
 }
 
 fn row(name: &str, study: &Study, of: &Audited, other_mutants: usize, scores: &[Option<f64>]) -> Row {
-    let Audited { tests, holes, witness, mutants, smaller, .. } = of;
+    let Audited { tests, holes, witness, mutants, better, .. } = of;
     let place = witness.as_ref().map_or(String::new(), |witness| {
         let sides = witness.sides.iter().map(|(name, [lo, hi])| format!("{name} {lo:.4}..{hi:.4}"));
         let row = witness.row.iter().map(|(name, value): (&str, &Value)| format!("{name} {value}"));
@@ -110,14 +145,14 @@ fn row(name: &str, study: &Study, of: &Audited, other_mutants: usize, scores: &[
         witness_failing: witness.as_ref().map_or(0, |witness| witness.failing),
         witness_tried: witness.as_ref().map_or(0, |witness| witness.tried),
         witness_volume: witness.as_ref().map(|witness| witness.volume),
-        witness_probability: witness.as_ref().map(|witness| witness.probability),
+        witness_probability: witness.as_ref().map(|witness| witness.probability.value),
         witness_box: place,
-        mutants: mutants.as_ref().map_or(0, |score| score.all.mutants),
-        score: mutants.as_ref().and_then(|score| score.all.score),
-        smaller_tests: smaller.as_ref().map(|smaller| smaller.tests.len()),
-        smaller_hole_upper: smaller.as_ref().map(|smaller| smaller.largest_hole.upper),
+        mutants: mutants.as_ref().map_or(0, |score| score.all.counted),
+        score: mutants.as_ref().and_then(|score| score.all.mutation_score).map(|score| score.value),
+        better_tests: better.as_ref().map(|better| better.tests),
+        better_hole_upper: better.as_ref().map(|better| better.hole.upper),
         other_mutants,
         other_score: scores.first().copied().flatten(),
-        smaller_other_score: scores.get(1).copied().flatten(),
+        better_other_score: scores.get(1).copied().flatten(),
     }
 }

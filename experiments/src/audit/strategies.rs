@@ -9,7 +9,7 @@ use paracosm::campaign::TestSet;
 use paracosm::coverage::{Bracket, Measure};
 use paracosm::generators::Strategy;
 use paracosm::{Sampling, Study};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
@@ -30,7 +30,7 @@ const MUTANTS: usize = 150;
 const LIMIT: Duration = Duration::from_secs(60);
 
 /// A suite with its coverage and its score.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Graded {
     pub scenario: String,
     pub strategy: String,
@@ -52,16 +52,24 @@ pub(super) struct Graded {
 
 /// Runs the study and writes `audit-strategies.csv` and `audit-statistics.csv` to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let mut suites: Vec<Graded> = Vec::new();
+    // After a cut, the study goes on behind the scenarios that the file has.
+    let table = out.join("audit-strategies.csv");
+    let mut suites: Vec<Graded> = match csv::Reader::from_path(&table) {
+        Ok(mut known) => known.deserialize().collect::<Result<_, _>>()?,
+        Err(_) => Vec::new(),
+    };
     let catalogue = paracosm::catalogue();
     let own = catalogue.programs().iter().map(|program| (program.name().to_owned(), program.name().to_owned()));
     let of_files = files().into_iter().map(|file| (name_of(&file), file.to_string_lossy().into_owned()));
     for (name, source) in own.chain(of_files) {
+        if suites.iter().any(|suite| suite.scenario == name) {
+            continue;
+        }
         let builder = study(&source)?;
         // The ranges of a distribution are open as a whole.
         let study = if name == source { builder.build()? } else { Suite::of_listed(&builder)?.0 };
         suites.extend(of_scenario(&name, &study, bar)?);
-        write_rows(&out.join("audit-strategies.csv"), &suites)?;
+        write_rows(&table, &suites)?;
     }
     bar.finish_and_clear();
     write_rows(&out.join("audit-statistics.csv"), &statistics::of(&suites))
@@ -95,18 +103,18 @@ fn of_scenario(
         bar.inc(1);
         let [dispersion, pairs, pair_dispersion] = coverage(study, suite)?;
         let conditional = score.by_conditions.iter().skip(1);
-        let (killed, conditional) = conditional.fold((0, 0), |sum, one| (sum.0 + one.killed, sum.1 + one.mutants));
+        let (killed, conditional) = conditional.fold((0, 0), |sum, one| (sum.0 + one.killed, sum.1 + one.counted));
         Ok(Graded {
             scenario: name.to_owned(),
             strategy: strategy.to_string(),
             seed: *seed,
             tests: suite.points.len(),
-            mutants: score.all.mutants,
+            mutants: score.all.counted,
             conditional,
             dispersion,
             pairs,
             pair_dispersion,
-            score: score.all.killed as f64 / score.all.mutants as f64,
+            score: score.all.killed as f64 / score.all.counted as f64,
             score_conditional: (conditional > 0).then(|| killed as f64 / conditional as f64),
         })
     };

@@ -7,7 +7,7 @@ use paracosm_generators::Strategy;
 use paracosm_space::constraint::Expression;
 
 #[test]
-fn a_smaller_suite_has_fewer_tests_smaller_holes_and_kills_all_mutants_of_the_set() {
+fn a_better_suite_has_fewer_tests_smaller_holes_and_kills_all_mutants_of_the_set() {
     let crossing = paracosm_scenarios::find("pedestrian-crossing").unwrap();
     let constrained = Program::of("constrained", "a crossing with a constraint", |s| {
         crossing.build(s);
@@ -17,27 +17,28 @@ fn a_smaller_suite_has_fewer_tests_smaller_holes_and_kills_all_mutants_of_the_se
         let study = Study::of(program).driver("planner").build().unwrap();
         let whole = report(&study, &["grid:9x9"], 30, 2);
         let [audited] = &whole.suites[..] else { panic!("one suite") };
-        let smaller = audited.smaller.as_ref().unwrap();
-        assert!(smaller.tests.len() < audited.tests && smaller.killing < smaller.tests.len());
-        assert!(smaller.largest_hole.upper < audited.holes.largest().lower, "{smaller:?}");
+        let better = audited.better.as_ref().unwrap();
+        assert!(better.suite.len() < audited.tests && better.killing < better.tests);
+        assert!(better.hole.upper < audited.holes.largest().lower, "{better:?}");
+        assert_eq!(better.mutation_score.unwrap().value, 1.0);
         // A fresh audit of the tests agrees.
         let space = study.space();
-        let points = smaller.tests.iter().map(|test| space.encode(test)).collect::<Result<Vec<_>, _>>().unwrap();
-        let suite = Suite::new("smaller".to_owned(), points, &study).unwrap();
+        let points = better.suite.iter().map(|test| space.encode(test)).collect::<Result<Vec<_>, _>>().unwrap();
+        let suite = Suite::new("better".to_owned(), points, &study).unwrap();
         assert_eq!(suite.left_out, 0);
         let screen = Screen::of(&study, 30, 16, 0, &runs(2)).unwrap();
         let again = Audit::of(&study, vec![suite]).unwrap().mutants(screen).run(&mut Vec::new(), |_| Ok(())).unwrap();
         let [again] = &again.suites[..] else { panic!("one suite") };
-        assert_eq!(again.holes.largest(), smaller.largest_hole);
+        assert_eq!(again.holes.largest(), better.hole);
         let score = again.mutants.as_ref().unwrap().all;
-        assert_eq!((score.killed, score.mutants), (30, 30));
+        assert_eq!((score.killed, score.counted), (30, 30));
     }
 }
 
 #[test]
-fn no_smaller_suite_is_made_for_a_suite_of_few_tests_or_of_listed_values() {
+fn no_better_suite_is_made_for_a_suite_of_few_tests() {
     let study = study("pedestrian-crossing", "planner", &[]);
-    assert_eq!(report(&study, &["halton:4"], 30, 2).suites[0].smaller, None);
+    assert_eq!(report(&study, &["halton:4"], 30, 2).suites[0].better, None);
 }
 
 #[test]

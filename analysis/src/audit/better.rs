@@ -1,4 +1,4 @@
-//! A smaller suite: fewer tests than the audited suite, with smaller holes, that kill all mutants of the set.
+//! A better suite: fewer tests than the audited suite, with smaller holes, that kill all mutants of the set.
 //!
 //! The suite begins with the fewest tests of the screen that kill all mutants. Then it grows into its largest hole: for each row of
 //! discrete values, the valid test nearest to the centre of the largest empty box comes next, until each hole is smaller than the
@@ -8,7 +8,7 @@
 
 use super::cover::Cover;
 use super::holes::{empty_boxes, tests_in};
-use super::{Holes, Screen, Suite};
+use super::{Estimate, Holes, Screen, Share, Suite};
 use paracosm_campaign::{Error, Study};
 use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::{Bracket, Deadline};
@@ -20,19 +20,27 @@ const CANDIDATES: usize = 64;
 
 /// A suite with fewer tests and smaller holes than the audited suite.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Smaller {
-    /// The tests: first those that kill the mutants, then those in holes.
-    pub tests: Vec<Values>,
+pub struct Better {
+    /// The number of tests.
+    pub tests: usize,
     /// The number of tests that were chosen because they kill mutants.
     pub killing: usize,
-    /// The volume of the largest hole of the smaller suite.
-    pub largest_hole: Bracket,
+    /// The file of the tests in the folder of the audit.
+    pub file: String,
+    /// The volume of the largest hole of the better suite.
+    pub hole: Bracket,
+    /// The share of the mutants that the tests of the screen in the suite kill; `None` without mutants. These mutants chose the tests.
+    pub mutation_score: Option<Estimate>,
+    /// The tests: first those that kill the mutants, then those in holes.
+    #[serde(skip)]
+    pub suite: Vec<Values>,
 }
 
-impl Smaller {
-    /// Makes a smaller suite; `None` if this method finds none. `holes` are the holes of the audited suite, which are looked at for
-    /// no longer than until the deadline in the smaller suite.
+impl Better {
+    /// Makes a better suite; `None` if this method finds none. `holes` are the holes of the audited suite. The search for the holes of the
+    /// better suite ends at the deadline. `number` is the number of the audited suite, from 1.
     pub(super) fn of(
+        number: usize,
         study: &Study,
         suite: &Suite,
         holes: &Holes,
@@ -43,25 +51,33 @@ impl Smaller {
         if study.space().dims() == 0 || holes.only_tested_rows || goal <= 0.0 {
             return Ok(None);
         }
-        let mut points = screen.map_or_else(|| Ok(Vec::new()), |screen| killing(study.space(), screen))?;
-        let killing = points.len();
+        let chosen = screen.map_or_else(Vec::new, killing);
+        let encoded = |test: &usize| study.space().encode(&screen.expect("it chose the test").values[*test]);
+        let mut points = chosen.iter().map(encoded).collect::<Result<Vec<Point>, SpaceError>>()?;
         for row in &holes.rows {
             if !close(study, &row.levels, goal, suite.points.len(), &mut points)? {
                 return Ok(None);
             }
         }
-        let smaller = Suite::new(String::new(), points, study)?;
-        let largest_hole = Holes::of(&smaller, study, deadline)?.largest();
-        let tests = smaller.values(study);
-        Ok((largest_hole.upper < goal).then_some(Self { tests, killing, largest_hole }))
+        let better = Suite::new(String::new(), points, study)?;
+        let hole = Holes::of(&better, study, deadline)?.largest();
+        let mutants = screen.map_or(&[][..], |screen| &screen.mutants);
+        let killed = mutants.iter().filter(|mutant| mutant.tests.iter().any(|test| chosen.contains(test))).count();
+        Ok((hole.upper < goal).then(|| Self {
+            tests: better.points.len(),
+            killing: chosen.len(),
+            file: format!("better-{number}.csv"),
+            hole,
+            mutation_score: Share::new(killed, mutants.len()).mutation_score,
+            suite: better.values(study),
+        }))
     }
 }
 
-/// Returns the fewest tests of a screen that kill all its mutants.
-fn killing(space: &Space, screen: &Screen) -> Result<Vec<Point>, SpaceError> {
+/// Returns the fewest tests of a screen that kill all its mutants, as positions.
+fn killing(screen: &Screen) -> Vec<usize> {
     let mutants: Vec<&[usize]> = screen.mutants.iter().map(|noticed| &noticed.tests[..]).collect();
-    let Cover { tests, .. } = Cover::of(&mutants, screen.values.len());
-    tests.into_iter().map(|test| space.encode(&screen.values[test])).collect()
+    Cover::of(&mutants, screen.values.len()).tests
 }
 
 /// Adds tests to the largest empty box of a row until it is smaller than `goal`. Returns `false` if that takes `most` tests or more in
