@@ -69,8 +69,8 @@ pub(crate) fn dot(
             }
             Line::Leads(from, to) => writeln!(text, "  p{} -> p{};", from.0, to.0),
             Line::Shows(from, _) => {
-                let shown = ordered.iter().filter(|node| line.shows(node)).map(|node| number(node));
-                shown.map(|to| writeln!(text, "  p{} -> n{to} [style=dashed];", from.0)).collect()
+                let mut shown = ordered.iter().filter(|node| line.shows(node)).map(|node| number(node));
+                shown.try_for_each(|to| writeln!(text, "  p{} -> n{to} [style=dashed];", from.0))
             }
         };
     }

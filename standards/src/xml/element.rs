@@ -99,7 +99,7 @@ impl<'a, 'i> Element<'a, 'i> {
 
     /// Returns the text directly within the element.
     pub fn content(self) -> String {
-        let texts = self.node.children().filter(|node| node.is_text()).filter_map(|node| node.text());
+        let texts = self.node.children().filter(Node::is_text).filter_map(|node| node.text());
         texts.map(str::trim).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
