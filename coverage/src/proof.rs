@@ -128,13 +128,7 @@ pub struct Proved {
 ///
 /// # Panics
 /// A test does not belong to the space of the projections, or a part does not exist.
-pub fn prove(
-    targets: &[Target],
-    parts: &[Arc<ValidPart>],
-    tests: &[Point],
-    volume: Bracket,
-    budget: Budget,
-) -> Proved {
+pub fn prove(targets: &[Target], parts: &[Arc<ValidPart>], tests: &[Point], volume: Bracket, budget: Budget) -> Proved {
     let mut proved = Proved { upper: 1.0, proofs: Vec::new() };
     // Each projection needs a pivot.
     if targets.is_empty() || targets.len() > budget.pivots {

@@ -82,14 +82,7 @@ fn dispersion_of(dims: usize, tests: &[Point]) -> Bracket {
 }
 
 /// Proves a bound without constraints on continuous parameters.
-fn of_scope(
-    dims: usize,
-    levels: &[usize],
-    tests: &[Point],
-    scope: Scope,
-    volume: Bracket,
-    budget: Budget,
-) -> Proved {
+fn of_scope(dims: usize, levels: &[usize], tests: &[Point], scope: Scope, volume: Bracket, budget: Budget) -> Proved {
     let projections = scope.projections(dims, &Rules::free(levels), usize::MAX).unwrap();
     let targets: Vec<_> = projections.into_iter().map(|projection| Target { projection, part: None }).collect();
     prove(&targets, &[], tests, volume, budget)

@@ -44,7 +44,9 @@ pub(super) fn certificate(tests: &TestSet, holes: &Holes, deadline: Deadline) ->
         waiting -= 1;
     }
     let all = holes.rows.len();
-    draft.finish((all > MOST_ROWS).then(|| format!("the certificate is about the {MOST_ROWS} largest holes of {all} rows")))
+    draft.finish(
+        (all > MOST_ROWS).then(|| format!("the certificate is about the {MOST_ROWS} largest holes of {all} rows")),
+    )
 }
 
 fn measured(hole: &RowHole, target: Target) -> Measured {

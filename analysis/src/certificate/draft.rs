@@ -121,14 +121,7 @@ impl<'a> Draft<'a> {
         self.add(measured, upper, note, Vec::new(), Some(like));
     }
 
-    fn add(
-        &mut self,
-        measured: Measured,
-        upper: f64,
-        note: Option<String>,
-        proofs: Vec<Proof>,
-        like: Option<usize>,
-    ) {
+    fn add(&mut self, measured: Measured, upper: f64, note: Option<String>, proofs: Vec<Proof>, like: Option<usize>) {
         let Measured { measure, k, row, excluded, volume, place: Target { projection, part }, witness, .. } = measured;
         let Projection { fixed, axes } = projection;
         let witness = (volume.lower > 0.0).then(|| {

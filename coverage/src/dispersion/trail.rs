@@ -25,12 +25,7 @@ pub(crate) fn trail(
     }
 }
 
-fn walk(
-    points: &PointSet,
-    weight: impl Weight,
-    above: f64,
-    go_on: impl FnMut(usize) -> bool,
-) -> Option<Vec<u32>> {
+fn walk(points: &PointSet, weight: impl Weight, above: f64, go_on: impl FnMut(usize) -> bool) -> Option<Vec<u32>> {
     let mut search = BoxSearch::with_trail(points, weight, above);
     let found = search.explore(&Open::cube(points, weight), &Bar::new(0.0), above, go_on);
     (found.witness.is_none() && found.open.is_empty() && !found.lost).then(|| search.into_trail())
