@@ -1,7 +1,7 @@
 //! Certificates within the valid part of a space, and of the rows of an audit: the checker computes each cell itself.
 
 use crate::certificate::{check, claim};
-use crate::common::{cover, fuzz, stderr, stdout, succeeds};
+use crate::common::{cover, stderr, stdout, succeeds};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::fs;
@@ -116,7 +116,7 @@ fn a_valid_part_that_was_tampered_with_is_refused() {
     refuses("cannot be read", &|certificate| certificate["constraints"][0] = json!("ego - leader >= 10 + slack"));
     refuses("is marked", &|certificate| certificate["continuous"][0]["interval"] = json!([20.0, 61.0]));
     refuses("a row with it keeps the constraints", &|certificate| {
-        certificate["constraints"].as_array_mut().unwrap().truncate(2)
+        certificate["constraints"].as_array_mut().unwrap().truncate(2);
     });
     refuses("was not looked at", &|certificate| {
         for part in certificate["parts"].as_array_mut().unwrap() {
