@@ -43,7 +43,10 @@ from operator import lt, sub
 MARGIN = 1e-12
 MOST_PROJECTIONS = 1_000_000
 MOST_STEPS = 200_000  # of the search for rows of discrete values that keep the constraints
+MOST_NESTED = 10_000  # of calls, some three for each cell in a cell
 MOST_KNOWN = 500_000  # weights that are kept in memory
+COARSE = (2**-3, 2**-6, 2**-9, 2**-12)  # the least sizes of cells for bounds on weights
+CLOSE = 1e-9  # weights that differ by this share are not told apart by bounds
 LEAST_WEIGHT = 1e-200  # below, products may underflow
 SLACK = 5e-15  # a bound on the relative error of the functions of the module math
 
@@ -386,12 +389,12 @@ class Part:
         fit += [len(place) == len(beside) and all(0 <= x <= 1 for x in place) for place in places]
         check(all(fit), f"{where}: a row or a place does not exist")
         known = [space.row(dict(zip(self.discrete, row))) for row in self.rows]
-        cells, self.cuts, self.halves, self.sides, volumes, used = part["cells"], {}, {}, [], [], set()
+        cells, self.cuts, self.upper_half, self.sides, volumes, used = part["cells"], {}, {}, [], [], set()
         boxes = [({axis: (0.0, 1.0) for axis in self.axes}, 1.0, None)]
         for i, cell in enumerate(cells):
             check(boxes, f"{where}: the cells go on after their end")
             sides, volume, below = boxes.pop()
-            self.halves[below] = i  # the upper half of the cell `below`
+            self.upper_half[below] = i
             volumes.append(volume)
             self.sides.append(tuple(sides[self.axes[j]] for j in self.along))
             if type(cell) is int:
@@ -414,52 +417,67 @@ class Part:
                 check(keeps, f"{where}: cell {i} is marked valid, but is not shown to keep the constraints")
                 used.add(tuple(self.rows[cell[0]]))
         check(not boxes, f"{where}: the cells end too early")
-        self.used, self.leaves_out = used, "invalid" in cells
+        self.volumes, self.used, self.leaves_out = volumes, used, "invalid" in cells
         self.certain = self.summed([v if type(cell) is list else 0.0 for v, cell in zip(volumes, cells)])
         self.possible = self.summed([0.0 if cell == "invalid" else v for v, cell in zip(volumes, cells)])
-        self.possible_in = self.weigher(self.possible, float)
+        exact = lambda box: (self.within(0, box, self.possible),) * 2
+        self.known = lru_cache(MOST_KNOWN)(lambda box, size: self.bounds(0, box, size) if size else exact(box))
         self.rounding = 2.0 * (len(cells) + 2 * len(self.axes) + 2) * 2.0**-52
 
     def summed(self, weights):
         for i in reversed(self.cuts):
-            weights[i] = weights[i + 1] + weights[self.halves[i]]
+            weights[i] = weights[i + 1] + weights[self.upper_half[i]]
         return weights
 
-    def weigher(self, weights, number):
-        """The function that weighs the part of a box in a cell, in the software's order of operations."""
+    def halves_of(self, i, box, number=float):
+        """The halves of a cell, each with the part of a box that is in it."""
+        (j, at), (lo, hi) = self.cuts[i], box[self.cuts[i][0]]
+        at = number(at)
+        if lo < at:
+            yield i + 1, (*box[:j], (lo, min(hi, at)), *box[j + 1 :])
+        if hi > at:
+            yield self.upper_half[i], (*box[:j], (max(lo, at), hi), *box[j + 1 :])
 
-        def within(i, box):
-            if i not in self.cuts:
-                return prod(hi - lo for lo, hi in box) if weights[i] > 0 else 0
-            return weights[i] if weights[i] <= 0 or box == self.sides[i] else of_halves(i, box)
+    def within(self, i, box, weights, number=float):
+        """The weight of the part of a box that is in a cell, in the software's order of operations."""
+        if i not in self.cuts:
+            return prod(hi - lo for lo, hi in box) if weights[i] > 0 else 0
+        if weights[i] <= 0 or box == self.sides[i]:
+            return weights[i]
+        return sum(self.within(half, part, weights, number) for half, part in self.halves_of(i, box, number))
 
-        @lru_cache(MOST_KNOWN)
-        def of_halves(i, box):
-            (j, at), weight = self.cuts[i], 0
-            (lo, hi), at = box[j], number(at)
-            if lo < at:
-                weight += within(i + 1, (*box[:j], (lo, min(hi, at)), *box[j + 1 :]))
-            if hi > at:
-                weight += within(self.halves[i], (*box[:j], (max(lo, at), hi), *box[j + 1 :]))
-            return weight
+    def bounds(self, i, box, size):
+        """Bounds on the weight of the part of a box that is in a cell. Smaller cells than `size` are not looked into."""
+        if self.possible[i] <= 0 or box == self.sides[i]:
+            return (self.possible[i],) * 2
+        if i not in self.cuts or self.volumes[i] < size:
+            volume = prod(hi - lo for lo, hi in box)
+            return self.possible[i] - self.volumes[i] + volume, min(volume, self.possible[i])
+        of_halves = [self.bounds(half, part, size) for half, part in self.halves_of(i, box)]
+        return sum(least for least, _ in of_halves), sum(most for _, most in of_halves)
 
-        return within
-
-    def weight(self, lower, upper, within=None):
-        """The weight of the cells in a box that are not invalid, or the weight that another function gives."""
+    def split(self, lower, upper):
+        """The sides of a box along which cells are cut, and the product of the others."""
         free = prod(b - a for j, (a, b) in enumerate(zip(lower, upper)) if j not in self.along)
-        return free * (within or self.possible_in)(0, tuple((lower[j], upper[j]) for j in self.along))
+        return tuple((lower[j], upper[j]) for j in self.along), free
+
+    def exceeds(self, lower, upper, enough):
+        """Whether a box weighs more than enough: its cells that are not invalid. Bounds decide this faster if they can."""
+        box, free = self.split(lower, upper)
+        for size in COARSE:
+            least, most = self.known(box, size)
+            if free * most < enough * (1 - CLOSE) or free * (least - 1e-12) > enough * (1 + CLOSE):
+                return free * least > enough
+        return free * self.known(box, 0)[0] > enough
 
     def share(self, lower, upper):
         """The least share of a box, computed exactly."""
         if (known := (tuple(lower), tuple(upper))) in self.shares:
             return self.shares[known]
-        exact = []
-        for weights in (self.certain, self.possible):
-            weights = self.summed([Fraction(w) for w in weights])
-            box = [list(map(Fraction, corner)) for corner in (lower, upper)]
-            exact += [weights[0], self.weight(*box, self.weigher(weights, Fraction))]
-        _, certain, whole, possible = exact
+        box, free = self.split(list(map(Fraction, lower)), list(map(Fraction, upper)))
+        exact = [self.summed([Fraction(w) for w in weights]) for weights in (self.certain, self.possible)]
+        certain, possible = (free * self.within(0, box, weights, Fraction) for weights in exact)
+        whole = exact[1][0]
         self.shares[known] = certain / (whole - possible + certain) if certain else Fraction(0)
         return self.shares[known]
 
@@ -504,12 +522,12 @@ def follow(tests, axes, bound, pivots, part, where):
             section = volume / (upper[j] - lower[j])
             if x < begins_below[j]:
                 above = lower[:j] + [x] + lower[j + 1 :]
-                if (part.weight(above, upper) if part else section * (upper[j] - x)) > enough:
+                if part.exceeds(above, upper, enough) if part else section * (upper[j] - x) > enough:
                     boxes.append((above, upper, begins_below[:], ends_above[:]))
                 begins_below[j] = x
             if x > ends_above[j]:
                 below = upper[:j] + [x] + upper[j + 1 :]
-                if (part.weight(lower, below) if part else section * (x - lower[j])) > enough:
+                if part.exceeds(lower, below, enough) if part else section * (x - lower[j]) > enough:
                     boxes.append((lower, below, begins_below[:], ends_above[:]))
                 ends_above[j] = x
     check(next(pivots, None) is None, f"{where}: the proof goes on after its end")
@@ -608,8 +626,8 @@ def check_claim(claim, earlier, coordinates, levels, space, parts):
 
 
 def main(path):
-    sys.setrecursionlimit(20_000)
     certificate = read(path)
+    sys.setrecursionlimit(MOST_NESTED)
     check_form(certificate, CERTIFICATE, "the certificate")
     check(certificate["format"] in (1, 2), "this script knows the formats 1 and 2")
     for i, claim in enumerate(certificate["claims"]):
@@ -633,4 +651,7 @@ def main(path):
 
 if __name__ == "__main__":
     check(len(sys.argv) == 2, "expected the path of a certificate")
-    main(sys.argv[1])
+    try:
+        main(sys.argv[1])
+    except RecursionError:
+        check(False, "cells or parentheses are nested too deeply")

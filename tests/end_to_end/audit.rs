@@ -1,11 +1,13 @@
 //! `paracosm-fuzz audit`: a suite of tests on trial.
 
-use crate::common::{fuzz, refused, stdout, succeeds};
-use serde_json::Value;
+use crate::certificate::check;
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-const FILES: [&str; 3] = ["audit.json", "audit-settings.json", "mutants.jsonl"];
+const FILES: [&str; 5] =
+    ["audit.json", "audit-settings.json", "mutants.jsonl", "certificate-1.json", "certificate-2.json"];
 
 fn audit(dir: &Path, out: &str, more: &[&str]) -> Value {
     let given = [
@@ -89,6 +91,63 @@ fn the_additions_to_a_suite_kill_the_mutants_that_it_misses() {
     // The last test kills the witness.
     let tests = fs::read_to_string(dir.path().join("few/additions-1.csv")).unwrap().lines().count() - 2;
     assert!(tests < missed.len(), "{tests} tests for {} mutants", missed.len());
+}
+
+/// The certificate of the first suite of an audit of `scenario`.
+fn certified(dir: &Path, scenario: &str, more: &[&str]) -> (Value, String) {
+    let given = ["audit", scenario, "--mutants", "0", "--format", "table", "--out", "out"];
+    let table = stdout(&succeeds(fuzz(dir, &[&given, more].concat())));
+    (serde_json::from_slice(&fs::read(dir.join("out/certificate-1.json")).unwrap()).unwrap(), table)
+}
+
+#[test]
+fn the_certificate_of_an_audit_is_accepted_and_one_about_other_rows_is_not() {
+    let dir = tempfile::tempdir().unwrap();
+    let given = ["--driver", "fsm", "--open", "vehicle", "--tests", "grid:3x4x3x3"];
+    let (certificate, table) = certified(dir.path(), "cut-in", &given);
+    assert!(table.contains("certificate-1.json proves that no hole of a row is larger than 0.5"), "{table}");
+    let claims = certificate["claims"].as_array().unwrap();
+    assert!(claims.len() > 2 && claims[1]["like"] == 0, "{claims:?}");
+    let Some(checked) = check(dir.path(), &certificate) else { return };
+    let says = stdout(&succeeds(checked));
+    assert!(says.matches("has been hit: proved").count() == claims.len(), "{says}");
+    assert!(says.contains("in the row vehicle car has been hit: proved (1 projections"), "{says}");
+    assert!(says.contains("has been hit: proved (as another row with the same points)"), "{says}");
+    let refuses = |says: &str, tamper: &dyn Fn(&mut Value)| {
+        let mut changed = certificate.clone();
+        tamper(&mut changed);
+        let message = stderr(&check(dir.path(), &changed).unwrap());
+        assert!(message.starts_with("refused: ") && message.contains(says), "`{says}` is missing in: {message}");
+    };
+    refuses("no earlier claim is like this one", &|changed| changed["claims"][1]["like"] = json!(1));
+    refuses("has a weaker bound", &|changed| changed["claims"][1]["upper"] = json!(0.500_000_000_000_1));
+    refuses("is no row of discrete values", &|changed| changed["claims"][1]["row"] = json!([99]));
+    refuses("the witness is of another projection", &|changed| changed["claims"][1]["row"] = json!([0]));
+    refuses("the row has other points", &|changed| {
+        let of_row = changed["levels"].as_array().unwrap().iter().position(|levels| levels == &json!([1])).unwrap();
+        changed["coordinates"][of_row][1] = json!(0.3);
+    });
+}
+
+#[test]
+fn the_grid_that_a_regulation_lists_is_certified_within_its_constraints() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../shared/standards/alks/logical_scenarios/alks_scenario_4_4_1_cut_in_no_collision_variation.xosc");
+    if !file.exists() {
+        eprintln!("{} was not found: its grid is not certified", file.display());
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let (certificate, _) = certified(dir.path(), file.to_str().unwrap(), &["--driver", "fsm"]);
+    assert_eq!((certificate["format"].as_u64(), certificate["parts"].as_array().unwrap().len()), (Some(2), 1));
+    let claims = certificate["claims"].as_array().unwrap();
+    assert!(
+        claims.len() == 10 && claims.iter().all(|claim| claim["note"].is_null() && claim["upper"].as_f64() < Some(0.5))
+    );
+    if let Some(checked) = check(dir.path(), &certificate) {
+        let says = stdout(&succeeds(checked));
+        assert_eq!(says.matches("has been hit: proved").count(), 10, "{says}");
+    }
 }
 
 #[test]

@@ -169,8 +169,7 @@ fn a_certificate_claims_nothing_of_what_constraints_exclude() {
         Err(_) => eprintln!("python3 was not found: the certificate was not checked"),
         Ok(checked) => {
             let says = stdout(&succeeds(checked));
-            let proved =
-                "in any 2 parameters but 2 combinations of values, on trust excluded by constraints, has been hit";
+            let proved = "in any 2 parameters but 2 combinations of values, which constraints exclude, has been hit";
             assert!(says.contains(proved), "{says}");
         }
     }

@@ -50,7 +50,7 @@ pub struct Certificate {
     /// The valid parts of projections, if constraints depend on continuous parameters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<WrittenPart>,
-    /// What the certificate leaves out, if it leaves something out.
+    /// The holes that the certificate leaves out, in words; `None` if it leaves out none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// The claims about the largest holes that the certificate proves.
