@@ -196,7 +196,7 @@ impl<'a> Audit<'a> {
         })?;
         if let Some(screen) = self.screen.as_ref().filter(|_| !mutants.is_empty()) {
             for (position, suite) in suites.iter_mut().enumerate() {
-                suite.mutants = Some(Score::of(screen, tried, position));
+                suite.mutants = Some(Score::of(screen.equivalent_so_far, tried, position));
                 let witness = suite.witness.as_ref();
                 suite.additions = Some(Additions::of(screen, tried, position, witness));
             }

@@ -1,6 +1,5 @@
 //! The mutation score of a suite: in all, and by the kind and the size of defects.
 
-use super::Screen;
 use super::bout::Tried;
 use crate::statistics::wilson;
 use paracosm_mutants::Mutant;
@@ -93,15 +92,14 @@ impl Share {
 }
 
 impl Score {
-    /// Counts the kills of a suite, which is named by its position.
-    pub(super) fn of(screen: &Screen, tried: &[Tried], suite: usize) -> Self {
+    /// Counts the kills of a suite, which is named by its position. `equivalent_so_far` mutants besides do not count.
+    pub(super) fn of(equivalent_so_far: usize, tried: &[Tried], suite: usize) -> Self {
         let conditions = |one: &Tried| one.mutant.when.len();
         let most = tried.iter().map(conditions).max().map_or(0, |most| most + 1);
         let with = |count| tried.iter().filter(move |one| conditions(one) == count);
         let kinds = paracosm_mutants::ALL.iter().filter_map(|kind| KindScore::of(kind, tried, suite));
-        let equivalent_so_far = screen.equivalent_so_far;
         Self {
-            made: screen.mutants.len() + equivalent_so_far,
+            made: tried.len() + equivalent_so_far,
             equivalent_so_far,
             all: Share::of(tried.iter(), suite),
             by_conditions: (0..most).map(|count| Share::of(with(count), suite)).collect(),

@@ -112,6 +112,6 @@ impl Screen {
             tried.push(one);
             Ok(())
         })?;
-        Ok((0..suites.len()).map(|suite| Score::of(self, &tried, suite)).collect())
+        Ok((0..suites.len()).map(|suite| Score::of(self.equivalent_so_far, &tried, suite)).collect())
     }
 }
