@@ -4,6 +4,7 @@
 //! github.com/vectorgrp/OSC-NCAP-scenarios. They are not part of this repository. Without them, the study has the scenarios that come
 //! with the software.
 
+mod graded;
 mod stated;
 mod statistics;
 mod strategies;

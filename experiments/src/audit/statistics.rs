@@ -1,6 +1,6 @@
 //! Paired statistics over scenarios: does a strategy kill more mutants than random tests, and does better coverage go with a higher score?
 
-use super::strategies::Graded;
+use super::graded::Graded;
 use paracosm::analysis::statistics::{bootstrap_interval, holm, signed_rank_p, spearman};
 use paracosm::generators::Strategy;
 use serde::Serialize;

@@ -1,5 +1,6 @@
 //! Suites of one size by several strategies, on mutants that were fixed before: does an even suite kill more mutants?
 
+use super::graded::Graded;
 use super::{files, name_of, statistics, study, write_rows};
 use crate::{Done, print};
 use indicatif::ProgressBar;
@@ -9,7 +10,6 @@ use paracosm::campaign::TestSet;
 use paracosm::coverage::{Bracket, Measure};
 use paracosm::generators::Strategy;
 use paracosm::{Sampling, Study};
-use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
@@ -28,27 +28,6 @@ const TESTS: usize = 40;
 const MUTANTS: usize = 150;
 /// The time for the coverage of a suite. A measure that is not exact by then is left out, and the row says so.
 const LIMIT: Duration = Duration::from_secs(60);
-
-/// A suite with its coverage and its score.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Graded {
-    pub scenario: String,
-    pub strategy: String,
-    seed: u64,
-    tests: usize,
-    /// The number of mutants, and of those among them that conditions turn on.
-    mutants: usize,
-    conditional: usize,
-    /// The largest empty box of the continuous parameters; `None` if there are none, or if the box is not known exactly.
-    pub dispersion: Option<f64>,
-    /// The share of covered pairs of values of discrete parameters; `None` if there are not two such parameters.
-    pub pairs: Option<f64>,
-    /// The largest hole of any two parameters; `None` if it is not known exactly.
-    pub pair_dispersion: Option<f64>,
-    pub score: f64,
-    /// The score for mutants that conditions turn on.
-    pub score_conditional: Option<f64>,
-}
 
 /// Runs the study and writes `audit-strategies.csv` and `audit-statistics.csv` to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
