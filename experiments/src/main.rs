@@ -78,14 +78,14 @@ const STUDIES: &[Study] = &[
     },
     Study {
         name: "audit",
-        about: "what the grids of UN R157 and Euro NCAP cannot see: holes, witnesses, mutants, and smaller suites",
-        time: "30 min",
+        about: "what the grids of UN R157 and Euro NCAP cannot see: holes, witnesses, mutants, and better suites",
+        time: "hours",
         run: audit::run_stated,
     },
     Study {
         name: "audit-strategies",
         about: "whether suites of even strategies kill more mutants than random suites, in all scenarios",
-        time: "2 h",
+        time: "hours",
         run: audit::run_strategies,
     },
     Study {

@@ -51,7 +51,8 @@ pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
     /// A suite: a CSV file of tests, the folder of a campaign, a folder of concrete files .xosc of the scenario, STRATEGY:N for
-    /// the first N tests of a strategy, or grid:AxB for an even grid; the option can be repeated [default: the values of the parameters in a scenario file]
+    /// the first N tests of a strategy, or grid:AxB for an even grid; the option can be repeated [default: the values of the
+    /// parameters in a scenario file]
     #[arg(long, value_name = "SUITE")]
     tests: Vec<String>,
     /// The number of mutants

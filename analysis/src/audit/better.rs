@@ -37,8 +37,7 @@ pub struct Better {
 }
 
 impl Better {
-    /// Makes a better suite; `None` if this method finds none. `holes` are the holes of the audited suite. The search for the holes of the
-    /// better suite ends at the deadline. `number` is the number of the audited suite, from 1.
+    /// Makes a better suite; `None` if this method finds none until the deadline. `holes` are the holes of the audited suite. `number` is the number of the audited suite, from 1.
     pub(super) fn of(
         number: usize,
         study: &Study,
@@ -55,7 +54,7 @@ impl Better {
         let encoded = |test: &usize| study.space().encode(&screen.expect("it chose the test").values[*test]);
         let mut points = chosen.iter().map(encoded).collect::<Result<Vec<Point>, SpaceError>>()?;
         for row in &holes.rows {
-            if !close(study, &row.levels, goal, suite.points.len(), &mut points)? {
+            if !close(study, &row.levels, goal, suite.points.len(), deadline, &mut points)? {
                 return Ok(None);
             }
         }
@@ -81,8 +80,15 @@ fn killing(screen: &Screen) -> Vec<usize> {
 }
 
 /// Adds tests to the largest empty box of a row until it is smaller than `goal`. Returns `false` if that takes `most` tests or more in
-/// all, or if no valid test is found in a box.
-fn close(study: &Study, levels: &[usize], goal: f64, most: usize, points: &mut Vec<Point>) -> Result<bool, Error> {
+/// all, if it takes longer than until the deadline, or if no valid test is found in a box.
+fn close(
+    study: &Study,
+    levels: &[usize],
+    goal: f64,
+    most: usize,
+    deadline: Deadline,
+    points: &mut Vec<Point>,
+) -> Result<bool, Error> {
     let space = study.space();
     let mut boxes = empty_boxes(space, levels, points)?;
     loop {
@@ -91,7 +97,7 @@ fn close(study: &Study, levels: &[usize], goal: f64, most: usize, points: &mut V
         if boxes.dispersion().upper < goal {
             return Ok(points.len() < most);
         }
-        if points.len() + 1 >= most || largest.volume() < goal {
+        if points.len() + 1 >= most || largest.volume() < goal || deadline.passed() {
             return Ok(false);
         }
         let (lower, upper) = (0..space.dims()).map(|axis| largest.side(axis)).unzip();

@@ -21,6 +21,7 @@ pub(super) struct Cover {
 impl Cover {
     /// Chooses tests. `mutants` has the positions of the tests that notice each mutant, and there are `tests` tests in all.
     pub fn of(mutants: &[&[usize]], tests: usize) -> Self {
+        let mutants = &hardest(mutants)[..];
         let mut best = greedy(mutants, tests);
         let at_least = apart(mutants);
         if best.len() == at_least {
@@ -31,6 +32,20 @@ impl Cover {
         let at_least = if is_done { best.len() } else { at_least };
         Self { tests: best, at_least }
     }
+}
+
+/// Returns the mutants that decide a cover. A test that kills a mutant kills all mutants that the same tests and more notice, so these
+/// are left out.
+fn hardest<'a>(mutants: &[&'a [usize]]) -> Vec<&'a [usize]> {
+    let mut order = mutants.to_vec();
+    order.sort_by_key(|of| of.len());
+    let mut kept: Vec<&[usize]> = Vec::new();
+    for of in order {
+        if !kept.iter().any(|known| known.iter().all(|test| of.contains(test))) {
+            kept.push(of);
+        }
+    }
+    kept
 }
 
 /// Looks for a cover with fewer tests than `best`, which begins with the tests in `taken`. `left` has the mutants that these do not

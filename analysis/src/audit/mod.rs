@@ -93,7 +93,7 @@ pub struct Audited {
     pub tests: usize,
     /// The number of tests of the source that break a constraint and are left out.
     pub left_out: usize,
-    /// The holes of the suite: the largest, and that of each row of discrete values.
+    /// The largest hole of the suite, and the largest hole of each row of discrete values.
     #[serde(flatten)]
     pub holes: Holes,
     /// The k-wise coverage of the discrete parameters; `None` if there are none.
@@ -163,8 +163,8 @@ impl<'a> Audit<'a> {
         Self { screen: Some(screen), ..self }
     }
 
-    /// Limits the time for the coverage, the holes, the certificate and the better suite of each suite. Without a limit, the measures are
-    /// exact.
+    /// Limits the time for each suite. The coverage, the holes, the certificate and the search for a better suite have a quarter each.
+    /// Without a limit, the measures are exact.
     pub fn time_limit(self, limit: Duration) -> Self {
         Self { limit: Some(limit), ..self }
     }

@@ -9,7 +9,7 @@
 use super::bout::{Bout, Found, Kill, Known, Noticed};
 use super::runs::{Runs, Seats, check, mutated};
 use super::{Score, Suite};
-use paracosm_campaign::{Error, Sampling, Study};
+use paracosm_campaign::{Error, Study};
 use paracosm_generators::Strategy;
 use paracosm_mutants::{ALL, Defect, Mutant, mutants_where};
 use paracosm_space::Values;
@@ -49,10 +49,7 @@ impl Screen {
     /// The study cannot be audited, or the work was stopped.
     pub fn of(study: &Study, count: usize, tests: usize, seed: u64, runs: &Runs) -> Result<Self, Error> {
         check(study)?;
-        let drawn = Some(SEED.wrapping_add(seed));
-        let sampling = Sampling { strategy: Strategy::RANDOM, seed: drawn, budget: tests, ..Sampling::default() };
-        let points = study.sampled(sampling)?.generator(&[])?.ask(tests);
-        let suite = Suite::new("the screen".to_owned(), points, study)?;
+        let suite = Suite::of_strategy(study, Strategy::RANDOM, tests, Some(SEED.wrapping_add(seed)))?;
         let known = Known::of(&suite, study, runs)?;
         let seats = Seats::of(study)?;
         let defects: Vec<Defect> = ALL.iter().copied().flat_map(Defect::all_of).collect();

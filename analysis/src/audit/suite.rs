@@ -146,7 +146,7 @@ impl Suite {
     pub fn of(source: &Source, study: &Study, catalogue: &Catalogue) -> Result<Self, Error> {
         let space = study.space();
         let points = match source {
-            Source::Strategy(strategy, tests) => first_tests(study, *strategy, *tests)?,
+            Source::Strategy(strategy, tests) => return Self::of_strategy(study, *strategy, *tests, None),
             Source::Grid(sizes) => even_grid(study, sizes)?,
             Source::Path(path) if path.is_dir() && !is_campaign(path) => {
                 TestSet::of_folder(path, study, catalogue)?.points
@@ -193,14 +193,21 @@ impl Suite {
         Ok((study, suite))
     }
 
+    /// Makes the suite of the first tests of a strategy; `None` is the seed that the strategy has by default.
+    ///
+    /// # Errors
+    /// The strategy cannot propose tests, or no test keeps the constraints.
+    pub fn of_strategy(study: &Study, strategy: Strategy, tests: usize, seed: Option<u64>) -> Result<Self, Error> {
+        let sampling = Sampling { strategy, seed, budget: tests, ..Sampling::default() };
+        let points = study.sampled(sampling)?.generator(&[])?.ask(tests);
+        Self::new(Source::Strategy(strategy, tests).to_string(), points, study)
+    }
+
     /// Makes suites of as many tests as this suite has, one by each strategy that does not learn from outcomes. Also returns why
     /// strategies refuse the space or the number of tests.
     pub fn rivals(&self, study: &Study) -> (Vec<Self>, Vec<Error>) {
         let strategies = Strategy::all().filter(|strategy| !strategy.is_adaptive());
-        let of = |strategy| {
-            let tests = self.points.len();
-            Self::new(Source::Strategy(strategy, tests).to_string(), first_tests(study, strategy, tests)?, study)
-        };
+        let of = |strategy| Self::of_strategy(study, strategy, self.points.len(), None);
         let (mut suites, mut refusals) = (Vec::new(), Vec::new());
         for suite in strategies.map(of) {
             match suite {
@@ -238,11 +245,6 @@ fn tests_of(path: &Path) -> PathBuf {
 
 fn is_campaign(path: &Path) -> bool {
     path.join(CAMPAIGN).exists()
-}
-
-fn first_tests(study: &Study, strategy: Strategy, tests: usize) -> Result<Vec<Point>, Error> {
-    let sampling = Sampling { strategy, budget: tests, ..Sampling::default() };
-    Ok(study.sampled(sampling)?.generator(&[])?.ask(tests))
 }
 
 fn even_grid(study: &Study, sizes: &[usize]) -> Result<Vec<Point>, Error> {

@@ -1,8 +1,8 @@
 //! Puts test suites on trial: the grids that UN R157 and Euro NCAP state, and suites of many strategies.
 //!
 //! The scenarios of UN R157 are those of github.com/asam-oss/OSC-ALKS-scenarios, and the scenarios of Euro NCAP are those of
-//! github.com/vectorgrp/OSC-NCAP-scenarios. They are not part of this repository. Without them, the study has the scenarios that come
-//! with the software.
+//! github.com/vectorgrp/OSC-NCAP-scenarios. They are not part of this repository. Without them, the study of strategies has
+//! the scenarios that come with the software, and the study of stated grids has none.
 
 mod graded;
 mod stated;

@@ -60,6 +60,9 @@ struct KindRow {
 /// Runs the study and writes `audit.csv` and `audit-kinds.csv`, and draws `audit.svg` and `audit.png`.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let files = files();
+    if files.is_empty() {
+        return Err("found no logical scenario of UN R157 or Euro NCAP beside the repository".into());
+    }
     bar.inc_length(files.len() as u64);
     let (mut rows, mut kinds) = (Vec::new(), Vec::new());
     for file in files {

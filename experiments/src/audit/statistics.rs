@@ -39,7 +39,6 @@ pub(super) fn of(suites: &[Graded]) -> Vec<Finding> {
     let scenarios: Vec<Vec<&Graded>> =
         suites.chunk_by(|a, b| a.scenario == b.scenario).map(|of| of.iter().collect()).collect();
     let mut names: Vec<&str> = suites.iter().map(|suite| suite.strategy.as_str()).collect();
-    names.dedup();
     names.sort_unstable();
     names.dedup();
     let mut all = Vec::new();
@@ -77,4 +76,44 @@ fn finding(comparison: String, mutants: &'static str, values: &[f64], p: f64) ->
     let all: Vec<usize> = (0..values.len()).collect();
     let [lower, upper] = bootstrap_interval(values.len(), mean_of);
     Finding { comparison, mutants, scenarios: values.len(), mean: mean_of(&all), lower, upper, p }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn suite(scenario: usize, strategy: &str, dispersion: f64, score: f64) -> Graded {
+        Graded {
+            scenario: scenario.to_string(),
+            strategy: strategy.to_owned(),
+            seed: 0,
+            tests: 40,
+            mutants: 100,
+            conditional: 0,
+            dispersion: Some(dispersion),
+            pairs: None,
+            pair_dispersion: None,
+            score,
+            score_conditional: None,
+        }
+    }
+
+    #[test]
+    fn strategies_are_paired_by_scenario_and_measures_are_ranked_within_each() {
+        // In each of six scenarios, `lhs` has the smaller hole and kills more.
+        let of = |scenario| {
+            let base = 0.1 * scenario as f64;
+            let random =
+                [(0.30, base + 0.1), (0.25, base + 0.2)].map(|(hole, score)| suite(scenario, "random", hole, score));
+            let lhs = [(0.20, base + 0.3), (0.15, base + 0.4)].map(|(hole, score)| suite(scenario, "lhs", hole, score));
+            random.into_iter().chain(lhs)
+        };
+        let found = super::of(&(0..6).flat_map(of).collect::<Vec<_>>());
+        let words: Vec<&str> = found.iter().map(|one| one.comparison.as_str()).collect();
+        assert_eq!(words, ["lhs - random", "low dispersion ~ score"]);
+        let [lhs, dispersion] = &found[..] else { panic!("{found:?}") };
+        assert!(lhs.scenarios == 6 && (lhs.mean - 0.2).abs() < 1e-12 && (dispersion.mean - 1.0).abs() < 1e-12);
+        // All six of one sign have p = 2 / 2^6, and two comparisons double it (Holm).
+        assert!([lhs, dispersion].iter().all(|one| (one.p - 4.0 / 64.0).abs() < 1e-12), "{found:?}");
+    }
 }

@@ -4,12 +4,12 @@ use super::graded::Graded;
 use super::{files, name_of, statistics, study, write_rows};
 use crate::{Done, print};
 use indicatif::ProgressBar;
+use paracosm::Study;
 use paracosm::analysis::Coverage;
 use paracosm::analysis::audit::{Runs, Score, Screen, Suite};
 use paracosm::campaign::TestSet;
 use paracosm::coverage::{Bracket, Measure};
 use paracosm::generators::Strategy;
-use paracosm::{Sampling, Study};
 use std::path::Path;
 use std::time::Duration;
 
@@ -71,11 +71,7 @@ fn of_scenario(
         print(&format!("{name}: no defect is noticed in {} random tests\n", screen.tests))?;
         return Ok(Vec::new());
     }
-    let suites = of_all.iter().map(|(strategy, seed)| {
-        let sampling = Sampling { strategy: *strategy, seed: Some(*seed), budget: TESTS, ..Sampling::default() };
-        let points = study.sampled(sampling)?.generator(&[])?.ask(TESTS);
-        Suite::new(strategy.to_string(), points, study)
-    });
+    let suites = of_all.iter().map(|(strategy, seed)| Suite::of_strategy(study, *strategy, TESTS, Some(*seed)));
     let suites = suites.collect::<Result<Vec<_>, _>>()?;
     let scores = screen.scores(study, &suites, &runs)?;
     let of_one = |(((strategy, seed), suite), score): (((&Strategy, &u64), &Suite), &Score)| {
