@@ -35,8 +35,8 @@ An audit says what a suite of tests would have missed:
              a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
              are fixed before: each is noticed in one of the random tests of --screen
   additions  the fewest tests of the screen that kill the mutants which the suite misses, and a test that kills the witness
-  better     a suite with fewer tests and smaller holes that kills all mutants of this set, if one is found. Grade it with
-             other mutants: --seed 1
+  better     a suite with fewer tests than the first suite and smaller holes that kills as many mutants, if one is found. No
+             mutant chooses a test, but they say how many tests there are. Grade it with other mutants: --seed 1
 
 The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite certificate-1.json, a
 proof of its holes that tests/check_certificate.py checks, additions-1.csv, better-1.csv and witness-1.gif, and so on, to
@@ -67,8 +67,8 @@ pub(super) struct Options {
     /// Compare the first suite with suites of as many tests, one by each strategy that does not learn from outcomes
     #[arg(long)]
     compare: bool,
-    /// Limit the seconds for the coverage, the certificate and the better suite of each suite; holes are brackets if the time
-    /// is too short [default: no limit]
+    /// Limit the seconds for the coverage and the certificate of each suite and for the better suite; holes are brackets if the
+    /// time is too short [default: no limit]
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
     /// The number of tests that run at a time; results do not depend on this number [default: one per core]

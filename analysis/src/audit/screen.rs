@@ -35,6 +35,9 @@ pub struct Screen {
     /// The values of the tests.
     #[serde(skip)]
     pub values: Vec<Values>,
+    /// The seed of the tests and the mutants.
+    #[serde(skip)]
+    pub seed: u64,
 }
 
 impl Screen {
@@ -74,6 +77,7 @@ impl Screen {
             equivalent_so_far: 0,
             mutants: Vec::new(),
             values: suite.values(study),
+            seed,
         };
         // A longer set begins with the shorter one.
         let (mut asked, mut seen) = (count, 0);

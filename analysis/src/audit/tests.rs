@@ -1,5 +1,6 @@
 //! Audits of small suites of the catalogue's scenarios.
 
+use super::near_misses::NearMisses;
 use super::runs::{gives_away, mutated};
 use super::*;
 use paracosm_campaign::Catalogue;

@@ -15,10 +15,13 @@ pub use strategies::run as run_strategies;
 use crate::Done;
 use paracosm::{Error, StudyBuilder};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 
 /// The driver whose defects are on trial.
 const DRIVER: &str = "planner";
+/// The number of random tests in which each defect is on before. Some tests of the regulation last an hour, so they are few.
+const SCREEN: usize = 32;
 /// The folders of logical scenarios, from the folder of this crate, with the part of a name that a logical scenario has.
 const FOLDERS: [(&str, &str); 3] = [
     ("alks/logical_scenarios", "_variation."),
@@ -50,6 +53,14 @@ fn name_of(file: &Path) -> String {
 /// Begins the study of a scenario with the driver on trial.
 fn study(name: &str) -> Result<StudyBuilder, Error> {
     Ok(paracosm::Study::of(paracosm::catalogue().find(name)?).driver(DRIVER))
+}
+
+/// Returns the rows of a CSV file, if it is there. After a cut, a study goes on behind the scenarios that its file has.
+fn known_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, csv::Error> {
+    match csv::Reader::from_path(path) {
+        Ok(mut known) => known.deserialize().collect(),
+        Err(_) => Ok(Vec::new()),
+    }
 }
 
 /// Writes rows to a CSV file.

@@ -1,6 +1,6 @@
 //! The grids that UN R157 and Euro NCAP state, on trial: the largest hole, the witness, the mutation score, and a better suite.
 
-use super::{files, name_of, study, write_rows};
+use super::{SCREEN, files, known_rows, name_of, study, write_rows};
 use crate::sampling::draw;
 use crate::{Done, print};
 use indicatif::ProgressBar;
@@ -9,22 +9,22 @@ use paracosm::generators::{Look, MarkShape};
 use paracosm::report::{Entry, Picture, PlotFrame, Series, Shares};
 use paracosm::space::Value;
 use paracosm::{Error, Study};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
 const MUTANTS: usize = 200;
 /// The seeds of the mutants that choose a better suite, and of the mutants that grade it.
 const SEEDS: [u64; 2] = [0, 1];
-/// The time for the coverage and the holes of a suite.
-const LIMIT: Duration = Duration::from_secs(120);
+/// The time for the coverage and the holes of a suite, and the search for a better suite.
+const LIMIT: Duration = Duration::from_secs(600);
 
 /// The marks of stated suites and of better suites.
 const STATED: Look = Look::filled(0xd5_5e00, MarkShape::Square);
 const BETTER: Look = Look::filled(0x00_72b2, MarkShape::Circle);
 
 /// A stated suite with the results of its audit, and the better suite.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Row {
     scenario: String,
     /// The numbers of continuous parameters, and of rows of discrete values.
@@ -49,10 +49,10 @@ struct Row {
 }
 
 /// The scores of a stated suite by kind of defect.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct KindRow {
     scenario: String,
-    kind: &'static str,
+    kind: String,
     mutants: usize,
     killed: usize,
 }
@@ -64,9 +64,16 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         return Err("found no logical scenario of UN R157 or Euro NCAP beside the repository".into());
     }
     bar.inc_length(files.len() as u64);
-    let (mut rows, mut kinds) = (Vec::new(), Vec::new());
+    let tables = ["audit.csv", "audit-kinds.csv"].map(|table| out.join(table));
+    let mut rows: Vec<Row> = known_rows(&tables[0])?;
+    let mut kinds: Vec<KindRow> = known_rows(&tables[1])?;
+    kinds.retain(|kind| rows.iter().any(|row| row.scenario == kind.scenario));
     for file in files {
         let name = name_of(&file);
+        if rows.iter().any(|row| row.scenario == name) {
+            bar.inc(1);
+            continue;
+        }
         let (study, suite) = Suite::of_listed(&study(&file.to_string_lossy())?)?;
         let first = audited(&study, vec![suite.clone()], SEEDS[0])?.remove(0);
         let mut graded = vec![suite.clone()];
@@ -75,7 +82,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
             graded.push(Suite::new("better".to_owned(), points, &study)?);
         }
         let runs = Runs::default();
-        let other = Screen::of(&study, MUTANTS, Screen::TESTS, SEEDS[1], &runs)?;
+        let other = Screen::of(&study, MUTANTS, SCREEN, SEEDS[1], &runs)?;
         let scores: Vec<Option<f64>> = other
             .scores(&study, &graded, &runs)?
             .into_iter()
@@ -87,12 +94,12 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         let of_kinds = first.mutants.iter().flat_map(|score| &score.by_kind);
         kinds.extend(of_kinds.map(|of| KindRow {
             scenario: name.clone(),
-            kind: of.kind,
+            kind: of.kind.to_owned(),
             mutants: of.all.counted,
             killed: of.all.killed,
         }));
-        write_rows(&out.join("audit.csv"), &rows)?;
-        write_rows(&out.join("audit-kinds.csv"), &kinds)?;
+        write_rows(&tables[1], &kinds)?;
+        write_rows(&tables[0], &rows)?;
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -126,7 +133,7 @@ fn chart(rows: &[Row]) -> Shares {
 
 fn audited(study: &Study, suites: Vec<Suite>, seed: u64) -> Result<Vec<Audited>, Error> {
     let runs = Runs::default();
-    let screen = Screen::of(study, MUTANTS, Screen::TESTS, seed, &runs)?;
+    let screen = Screen::of(study, MUTANTS, SCREEN, seed, &runs)?;
     let audit = Audit::of(study, suites)?.mutants(screen).runs(runs).time_limit(LIMIT);
     Ok(audit.run(&mut Vec::new(), |_| Ok(()))?.suites)
 }

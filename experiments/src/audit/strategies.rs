@@ -1,7 +1,7 @@
 //! Suites of one size by several strategies, on mutants that were fixed before: does an even suite kill more mutants?
 
 use super::graded::Graded;
-use super::{files, name_of, statistics, study, write_rows};
+use super::{SCREEN, files, known_rows, name_of, statistics, study, write_rows};
 use crate::{Done, print};
 use indicatif::ProgressBar;
 use paracosm::Study;
@@ -31,12 +31,8 @@ const LIMIT: Duration = Duration::from_secs(60);
 
 /// Runs the study and writes `audit-strategies.csv` and `audit-statistics.csv` to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    // After a cut, the study goes on behind the scenarios that the file has.
     let table = out.join("audit-strategies.csv");
-    let mut suites: Vec<Graded> = match csv::Reader::from_path(&table) {
-        Ok(mut known) => known.deserialize().collect::<Result<_, _>>()?,
-        Err(_) => Vec::new(),
-    };
+    let mut suites: Vec<Graded> = known_rows(&table)?;
     let catalogue = paracosm::catalogue();
     let own = catalogue.programs().iter().map(|program| (program.name().to_owned(), program.name().to_owned()));
     let of_files = files().into_iter().map(|file| (name_of(&file), file.to_string_lossy().into_owned()));
@@ -62,7 +58,7 @@ fn of_scenario(
 ) -> Result<Vec<Graded>, Box<dyn std::error::Error + Send + Sync>> {
     let runs = Runs::default();
     // The mutants are fixed before any suite is made.
-    let screen = Screen::of(study, MUTANTS, Screen::TESTS, 0, &runs)?;
+    let screen = Screen::of(study, MUTANTS, SCREEN, 0, &runs)?;
     let of_all = STRATEGIES.into_iter().flat_map(|strategy| (0..SEEDS).map(move |seed| (strategy, seed)));
     let of_all: Vec<(Strategy, u64)> = of_all.collect();
     bar.inc_length(of_all.len() as u64);
