@@ -62,6 +62,6 @@ impl NearMisses {
 
 /// Returns the square of the distance of two points. Two values of a discrete parameter are as far apart as the ends of an interval.
 pub(super) fn squared(a: &Point, b: &Point) -> f64 {
-    let along = a.continuous.iter().zip(&b.continuous).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+    let along = a.continuous.iter().zip(&b.continuous).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
     along + a.discrete.iter().zip(&b.discrete).filter(|(a, b)| a != b).count() as f64
 }
