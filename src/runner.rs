@@ -1,6 +1,8 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
-use crate::analysis::{Coverage, Explanation, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport};
+use crate::analysis::{
+    Coverage, Effects, Explanation, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport,
+};
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
 };
@@ -79,6 +81,8 @@ pub struct Report {
     pub perceived: Option<Perceived>,
     /// The explanation of the failures in words, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
+    /// The effects of the open parameters; empty until they are known.
+    pub effects: Effects,
     /// The coverage guarantee of random rows of discrete values, or `None` if rows are not random, or if the campaign
     /// ended before all rows were run.
     pub promise: Option<Promise>,
@@ -108,6 +112,7 @@ impl Report {
         put(&self.modes)?;
         self.perceived.iter().try_for_each(|perceived| put(perceived))?;
         self.explanation.iter().try_for_each(|explanation| put(explanation))?;
+        put(&self.effects)?;
         self.located.iter().try_for_each(|located| put(located))?;
         self.junit.iter().try_for_each(|junit| put(junit))
     }
@@ -128,6 +133,7 @@ impl Report {
             modes: Modes::of(&log),
             perceived: Perceived::of(&log),
             explanation: Explanation::of(&log)?,
+            effects: Effects(Vec::new()),
             // Rows that were not run promise nothing.
             promise: if finish == Finish::Stopped { None } else { Promise::of_campaign(&log)? },
             junit: None,
@@ -222,6 +228,7 @@ impl<'a> Runner<'a> {
         }
         let mut report = Report::of(log, finish, summary)?;
         report.junit = self.junit.then(|| Junit::of_campaign(&report.log, folder, &self.program));
+        report.effects = self.effects(&report.log)?;
         report.artefacts(|artefact| kept.put(artefact))?;
         if let Some(limit) = self.locate {
             report.located = self.located(&report.log, limit)?;
@@ -240,6 +247,11 @@ impl<'a> Runner<'a> {
             Some(jobs) => campaign.jobs(jobs),
             None => campaign,
         })
+    }
+
+    fn effects(&self, log: &Log) -> Result<Effects, Error> {
+        let campaign = self.campaign()?;
+        Effects::of(log, |test, index| campaign.run_test(test, index))
     }
 
     fn located(&self, log: &Log, limit: usize) -> Result<Option<LocatedReport>, Error> {

@@ -1,7 +1,11 @@
 //! Artefacts: results that are derived from the trials of a campaign and written beside them.
 
+use crate::json_text::read_json;
 use crate::{Error, Folder};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::io::ErrorKind;
+use std::path::Path;
 
 /// A result of a campaign that is written to files in the campaign's folder.
 pub trait Artefact {
@@ -19,6 +23,23 @@ pub trait Artefact {
 pub trait JsonArtefact: Serialize {
     /// The name of the JSON file to which the result is written.
     const FILE: &'static str;
+
+    /// Reads the result from the folder of a campaign; `None` if the folder does not have it, because the campaign did not end, or
+    /// an earlier version of the software ran it.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    fn read(folder: &Path) -> Result<Option<Self>, Error>
+    where
+        Self: DeserializeOwned,
+    {
+        let file = folder.join(Self::FILE);
+        match std::fs::read_to_string(&file) {
+            Ok(text) => read_json(&text).map(Some).map_err(|flaw| Error::in_file(&file, flaw.line(), flaw)),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(Error::io("read", &file)(error)),
+        }
+    }
 }
 
 impl<T: JsonArtefact> Artefact for T {

@@ -64,7 +64,7 @@ pub use program::{Declaration, Program, ProgramError};
 pub use run::{Motion, Run, Setup, Step, Track, simulate, watch};
 pub use scenario::{
     AutonomousVehicle, Car, Conditions, Constraint, DEFAULT_DT, Environment, Lead, LedMotion, ObjectDraft, Param,
-    Place, RequirementDraft, Road, Scenario, Streets, Temporal, always, eventually, never,
+    Place, Reach, RequirementDraft, Road, Scenario, Streets, Temporal, always, eventually, never,
 };
 pub use stream::{Forward, Stream};
 pub use test::{Declared, Test};

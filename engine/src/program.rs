@@ -1,7 +1,7 @@
 //! Scenarios as functions, and the declaration that such a function makes when it is run without a test.
 
 use crate::flaw::WorldFlaw;
-use crate::scenario::{Constraint, Scenario};
+use crate::scenario::{Constraint, Reach, Scenario};
 use crate::stream::Sketch;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
@@ -174,6 +174,14 @@ impl Program {
     /// The program cannot build its world, or it asks for other parameters than the test gives.
     pub fn check<'a>(&self, test: impl Into<Test<'a>>) -> Result<(), ProgramError> {
         self.built(Some(test.into())).map(|_| ())
+    }
+
+    /// Returns how far each parameter reaches into the world of a test, in the order of the declaration.
+    ///
+    /// # Errors
+    /// The program cannot build its world, or it asks for other parameters than the test gives.
+    pub fn reaches<'a>(&self, test: impl Into<Test<'a>>) -> Result<Vec<(String, Reach)>, ProgramError> {
+        Ok(self.built(Some(test.into()))?.reaches())
     }
 
     /// Returns the remarks of the program on the world of a test, for example which parts of a file have no effect.

@@ -35,7 +35,7 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let study = self.subject.study(verbosity)?.describing().build()?;
+        let study = self.subject.study(verbosity)?.maybe_one_test().build()?;
         self.subject.note_unjudged(&study, verbosity);
         let program = study.program()?;
         let declaration = program.declare()?;

@@ -5,9 +5,9 @@ use super::output::{Format, Table, json, percent};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
-use paracosm_analysis::failure_estimate;
+use paracosm_analysis::{Effects, failure_estimate};
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Error, Log, Study};
+use paracosm_campaign::{Artefact, Error, JsonArtefact, Log, Study};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{FailureMap, Picture};
 use serde_json::json;
@@ -56,6 +56,10 @@ impl Options {
                 }
                 verbosity.note(format_args!("written to {}", self.dir.join("failure-map.svg").display()));
             }
+        }
+        let effects = Effects::read(&self.dir)?.unwrap_or_default();
+        for (name, why) in effects.without_effect().filter(|(name, _)| [&x, &y].iter().any(|axis| axis == name)) {
+            verbosity.note(format_args!("{name} has no effect: {why}"));
         }
         let estimate = map.estimate.as_ref();
         print(&match Format::or_fitting(self.format) {

@@ -2,16 +2,21 @@
 
 use super::output::domain_words;
 use crate::space::Parameter;
+use paracosm_analysis::Effects;
 use paracosm_campaign::Study;
 
 /// Returns a line for each attribute, and a line for open parameters that no attribute names. Empty if no design domain
 /// is stated.
-pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
+pub(super) fn lines(study: &Study, effects: &Effects) -> Vec<(String, String)> {
     let Some(odd) = study.odd() else { return Vec::new() };
     let mut lines: Vec<(String, String)> = Vec::new();
+    let range = |parameter: &Parameter| {
+        let has_none = effects.without_effect().any(|(name, _)| name == parameter.name);
+        format!("{}{}", range(parameter), if has_none { " (no effect)" } else { "" })
+    };
     for (name, attribute) in odd.iter() {
         let parameters = attribute.varied.iter().filter_map(|name| study.space().find(name));
-        let ranges: Vec<String> = parameters.map(range).collect();
+        let ranges: Vec<String> = parameters.map(&range).collect();
         let varied = (!ranges.is_empty()).then(|| format!("varied by {}", ranges.join(", ")));
         let fixed = attribute.fixed.as_ref().map(|fixed| format!("fixed: {fixed}"));
         let excluded = attribute.excluded.as_ref().map(|excluded| format!("excluded: {excluded}"));
@@ -19,7 +24,7 @@ pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
         lines.push((name.to_owned(), said.join("; ")));
     }
     let named = |parameter: &&Parameter| odd.iter().any(|(_, attribute)| attribute.varied.contains(&parameter.name));
-    let others: Vec<String> = study.space().parameters().iter().filter(|p| !named(p)).map(range).collect();
+    let others: Vec<String> = study.space().parameters().iter().filter(|p| !named(p)).map(&range).collect();
     if !others.is_empty() {
         lines.push(("no attribute".to_owned(), format!("varied by {}", others.join(", "))));
     }

@@ -31,12 +31,8 @@ impl Printed<'_> {
     pub(super) fn table(&self) -> String {
         let (study, summary) = (self.study(), &self.report.summary);
         let mut table = Table::default();
-        table.heading(&format!(
-            "{}, strategy {}: {}",
-            study.title(),
-            study.sampling(),
-            plural(summary.tests(), "test")
-        ));
+        let strategy = if study.is_one_test() { String::new() } else { format!(", strategy {}", study.sampling()) };
+        table.heading(&format!("{}{strategy}: {}", study.title(), plural(summary.tests(), "test")));
         for verdict in Verdict::ALL {
             let count = summary.count(verdict);
             if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
@@ -48,7 +44,7 @@ impl Printed<'_> {
         for (i, judged) in summary.requirements().iter().enumerate() {
             table.row(if i == 0 { "requirements" } else { "" }, &self.in_words(judged));
         }
-        for (i, (name, words)) in odd::lines(study).iter().enumerate() {
+        for (i, (name, words)) in odd::lines(study, &self.report.effects).iter().enumerate() {
             table.row(if i == 0 { "design domain" } else { "" }, &format!("{name}: {words}"));
         }
         if self.stopped() {
@@ -82,6 +78,10 @@ impl Printed<'_> {
             for (i, (name, line)) in lines.enumerate() {
                 table.row(if i == 0 { "explanation" } else { name }, line);
             }
+        }
+        let mut label = "no effect";
+        for line in self.report.effects.in_words() {
+            table.row(std::mem::take(&mut label), &line);
         }
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst(self.report.log.scales()) {
@@ -155,6 +155,7 @@ impl Printed<'_> {
         if let Some(perceived) = &self.report.perceived {
             printed["perception"] = json!(perceived);
         }
+        printed["without_effect"] = self.report.effects.without_effect().map(|(name, _)| name).collect();
         printed["modes"] = json!(self.report.modes.modes);
         printed
     }
@@ -274,5 +275,6 @@ pub(super) fn in_words(study: &Study, trial: &Trial) -> String {
         let unit = study.space().find(name).and_then(|p| p.unit.as_deref()).unwrap_or_default();
         format!("{name} {value} {unit}").trim_end().to_owned()
     };
-    trial.test.iter().map(value).collect::<Vec<_>>().join(", ")
+    let values = if study.is_one_test() { study.fixed() } else { &trial.test };
+    values.iter().map(value).collect::<Vec<_>>().join(", ")
 }

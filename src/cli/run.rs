@@ -93,7 +93,8 @@ impl Options {
             self.is_no_folder()?;
         }
         let study = prepare(self.subject.study(verbosity)?)?.sampling(self.sampling()?);
-        let study = self.reference.iter().fold(study, |study, name| study.reference(name)).build()?;
+        let study = self.reference.iter().fold(study, |study, name| study.reference(name)).maybe_one_test().build()?;
+        note_one_test(&study, verbosity);
         self.subject.note_before(&study, verbosity)?;
         let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
         if let Some(extension) = &extension {
@@ -170,6 +171,9 @@ impl Options {
 
     /// Notes why the campaign has fewer tests than its budget, and why it has no map.
     fn note_end(&self, report: &Report, extension: Option<&Extension>, verbosity: Verbosity) {
+        if report.log.study().is_one_test() {
+            return;
+        }
         let ran = report.log.trials().len();
         if ran < self.budget && report.finish != Finish::Stopped && (ran > 0 || extension.is_some()) {
             let beside =
@@ -231,6 +235,17 @@ impl Options {
             }
             (None, None) => Strategy::usual(Purpose::Cover),
         })
+    }
+}
+
+/// Notes that there is one test, and how to vary parameters.
+fn note_one_test(study: &Study, verbosity: Verbosity) {
+    if study.is_one_test() {
+        let names: Vec<&str> = study.fixed().iter().map(|(name, _)| name).collect();
+        verbosity.note(format_args!(
+            "no parameter is open, so there is one test; --open NAME=LO..HI varies one of {}",
+            names.join(", ")
+        ));
     }
 }
 

@@ -9,6 +9,7 @@ use crate::oracles::Semantics;
 use crate::space::{Domain, Value, did_you_mean, nearest};
 use crate::standards::openscenario::EGO;
 use clap::Args;
+use paracosm_analysis::effects::foreseen;
 use paracosm_campaign::study::Variation;
 use paracosm_campaign::{Error, StatedRequirement, Study, StudyBuilder};
 use std::path::Path;
@@ -152,6 +153,11 @@ impl Subject {
     /// Prints the notes on the study before its tests: the remarks on the worlds, and the requirements that are not judged.
     pub fn note_before(&self, study: &Study, verbosity: Verbosity) -> Result<(), Error> {
         study.notes()?.iter().for_each(|note| verbosity.note(note));
+        let unread = foreseen(study)?;
+        if !unread.is_empty() {
+            let (names, driver) = (unread.join(", "), study.subject().scenario()?.driver().name());
+            verbosity.note(format_args!("no effect: {names}: read by neither the world nor the driver `{driver}`"));
+        }
         self.note_unjudged(study, verbosity);
         Ok(())
     }

@@ -4,8 +4,8 @@ use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural};
 use super::{Failure, Status, odd, print};
 use clap::Args;
-use paracosm_analysis::{Gap, Traceability, Traced};
-use paracosm_campaign::{Log, Study};
+use paracosm_analysis::{Effects, Gap, Traceability, Traced};
+use paracosm_campaign::{JsonArtefact, Log, Study};
 use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
@@ -15,8 +15,8 @@ Examples:
 
 A requirement passed in a test if it holds and the situation of the test came about. If the situation never came about, the
 requirement was not reached. If the test ended too early, the requirement is undecided. The untested list has requirements
-that no test decided, levels and tenths of ranges without a test, parameters with the same value in all tests, and the
-exclusions of the operational design domain.";
+that no test decided, levels and tenths of ranges without a test, parameters with the same value in all tests or without an
+effect, and the exclusions of the operational design domain.";
 
 /// The options of `trace`.
 #[derive(Debug, Args)]
@@ -35,12 +35,13 @@ impl Options {
     pub fn execute(&self) -> Result<Status, Failure> {
         let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[FileKind::Csv], &[])).transpose()?;
         let log = Log::read(&self.dir, &crate::catalogue())?;
-        let traceability = Traceability::of(&log)?;
+        let effects = Effects::read(&self.dir)?.unwrap_or_default();
+        let traceability = Traceability::of(&log)?.with_effects(&effects);
         if let Some(target) = &target {
             target.write(|_| Ok(paracosm_report::traceability::csv(&traceability)))?;
         }
         print(&match Format::or_fitting(self.format) {
-            Format::Table => table(log.study(), &traceability),
+            Format::Table => table(log.study(), &traceability, &effects),
             Format::Json => json(&traceability),
         })?;
         Ok(Status::Nothing)
@@ -53,7 +54,7 @@ const PER_LINE: usize = 20;
 const HEADER: [&str; 8] =
     ["requirement", "passed", "failed", "undecided", "not reached", "worst", "severity", "source"];
 
-fn table(study: &Study, traceability: &Traceability) -> String {
+fn table(study: &Study, traceability: &Traceability, effects: &Effects) -> String {
     let mut table = Table::default();
     let Traceability { tests, broken, requirements, untested, .. } = traceability;
     let title = study.title();
@@ -82,7 +83,7 @@ fn table(study: &Study, traceability: &Traceability) -> String {
     for Gap { what, why } in untested {
         table.row(what, why);
     }
-    let domain = odd::lines(study);
+    let domain = odd::lines(study, effects);
     if !domain.is_empty() {
         table.heading("operational design domain, as stated");
     }

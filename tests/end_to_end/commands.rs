@@ -24,6 +24,26 @@ fn a_campaign_prints_a_summary_that_ends_with_the_replay_of_the_worst_test() {
 }
 
 #[test]
+fn a_scenario_without_an_open_parameter_is_one_test_like_any_other() {
+    let dir = tempfile::tempdir().unwrap();
+    let set = ["--set", "ego_speed=40", "--set", "overlap=50", "--set", "target=standing"];
+    let run = |more: &[&str]| fuzz(dir.path(), &[&["run", "ncap-ccr"], &set[..], more].concat());
+    let ran = succeeds(run(&["--out", "one", "--format", "table"]));
+    assert!(stderr(&ran).contains("no parameter is open, so there is one test"), "{}", stderr(&ran));
+    let text = stdout(&ran);
+    assert!(text.starts_with("ncap-ccr, driver aeb: 1 test\n"), "{text}");
+    assert!(text.contains("ego_speed 40") && text.contains("replay one 0"), "{text}");
+    // The test can be continued, replayed and measured, and fails the run if it fails.
+    let json: serde_json::Value = serde_json::from_str(&stdout(&succeeds(run(&["--out", "one", "--resume"])))).unwrap();
+    assert_eq!((&json["tests"], &json["coverage"]["tests"]), (&1.into(), &1.into()));
+    succeeds(fuzz(dir.path(), &["replay", "one", "0"]));
+    succeeds(fuzz(dir.path(), &["trace", "one"]));
+    succeeds(cover(dir.path(), &["estimate", "one"]));
+    let failing = run(&["--driver", "cruise", "--out", "failing", "--strategy", "random", "--fail-on-violation"]);
+    assert_eq!(failing.status.code(), Some(1), "{}", stderr(&failing));
+}
+
+#[test]
 fn a_campaign_leaves_its_folder_as_the_contract_says() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), &[]);
@@ -34,6 +54,7 @@ fn a_campaign_leaves_its_folder_as_the_contract_says() {
     let expected = [
         "campaign.json",
         "coverage.json",
+        "effects.json",
         "explanation.json",
         "failure-map.csv",
         "failure-map.png",

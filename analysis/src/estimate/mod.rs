@@ -77,6 +77,9 @@ pub fn measure_holes(
     watch: &mut Watch,
 ) -> Result<(Coverage, Holes), Error> {
     let parameters = tests.space.coordinates().count();
+    if parameters == 0 && k.is_none() {
+        return Ok((Coverage::of_one_test(tests.points.len()), Holes::default()));
+    }
     let k = k.or(tests.k).unwrap_or(parameters.min(2));
     if !(1..=parameters).contains(&k) {
         return Err(StrengthFlaw { k, parameters }.into());

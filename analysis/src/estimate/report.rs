@@ -29,6 +29,13 @@ pub struct Coverage {
     pub k_wise_dispersion: Option<KwiseHole>,
 }
 
+impl Coverage {
+    /// Returns the coverage of a space without parameters, in which there is nothing to cover.
+    pub(super) fn of_one_test(tests: usize) -> Self {
+        Self { tests, continuous: None, violating: 0, discrete: Some(None), k_epsilon: None, k_wise_dispersion: None }
+    }
+}
+
 /// The coverage of the continuous parameters, each scaled to `[0,1]`. The JSON object has the parameters, the valid
 /// share if constraints leave only a part, and each measure under its key.
 #[derive(Debug, Clone, PartialEq)]

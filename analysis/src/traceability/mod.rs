@@ -12,6 +12,7 @@ mod tried;
 
 pub use tried::Tried;
 
+use crate::effects::Effects;
 use paracosm_campaign::study::Odd;
 use paracosm_campaign::{Error, Log, Number, StatedRequirement, Study, Trial};
 use paracosm_oracles::Verdict;
@@ -237,6 +238,15 @@ impl Traceability {
             untested,
             requirements,
         })
+    }
+}
+
+impl Traceability {
+    /// Adds the parameters without effect to what is untested.
+    pub fn with_effects(mut self, effects: &Effects) -> Self {
+        let gaps = effects.without_effect().filter_map(|(name, why)| gap(name, format!("no effect: {why}")));
+        self.untested.extend(gaps);
+        self
     }
 }
 

@@ -48,7 +48,7 @@ pub struct StudyBuilder {
     driver_timeout: Option<f64>,
     references: Vec<String>,
     continuous: bool,
-    describes: bool,
+    may_be_one_test: bool,
     opened: Vec<Opened>,
     fixed: Vec<(String, Value)>,
     distributions: Vec<(String, Distribution)>,
@@ -107,7 +107,7 @@ impl StudyBuilder {
             driver_timeout: None,
             references: Vec::new(),
             continuous: false,
-            describes: false,
+            may_be_one_test: false,
             opened: Vec::new(),
             fixed: Vec::new(),
             distributions: Vec::new(),
@@ -164,9 +164,9 @@ impl StudyBuilder {
         self
     }
 
-    /// Lets the study have no open parameter. Such a study describes a scenario. It has no strategy that proposes tests.
-    pub fn describing(mut self) -> Self {
-        self.describes = true;
+    /// Lets the study have no open parameter. Such a study has one test.
+    pub fn maybe_one_test(mut self) -> Self {
+        self.may_be_one_test = true;
         self
     }
 
@@ -391,8 +391,7 @@ impl StudyBuilder {
             }
             study.distribute(name, distribution)?;
         }
-        let describes = self.describes && study.space.parameters().is_empty();
-        if !describes {
+        if !self.may_be_one_test {
             self.has_tests(&study)?;
         }
         self.models.iter().try_for_each(|(actor, file)| study.show(actor, file))?;
@@ -415,10 +414,8 @@ impl StudyBuilder {
             }
             study = study.with_references(references)?;
         }
-        if !describes {
-            // The strategy checks that it can do what is asked of it.
-            study.generator(&[])?;
-        }
+        // The strategy checks that it can do what is asked of it.
+        study.generator(&[])?;
         Ok(study)
     }
 

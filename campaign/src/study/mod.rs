@@ -221,11 +221,23 @@ impl Study {
         self.program().map(|program| Catalogue::of(&[program])).unwrap_or_default()
     }
 
-    /// Makes a generator that proposes the study's tests in addition to the existing tests.
+    /// Makes a generator that proposes the study's tests in addition to the existing tests. Without an open parameter, there is one
+    /// test, whatever the strategy is.
     ///
     /// # Errors
     /// The strategy cannot do what the study asks.
     pub fn generator(&self, existing: &[Point]) -> Result<Box<dyn Generator>, GeneratorError> {
+        if self.is_one_test() {
+            let request = self.sampling.request(&self.space, existing);
+            if request.budget == 0 {
+                return Err(GeneratorError::NoBudget);
+            }
+            // There are no combinations of k parameters.
+            if request.k.is_some() {
+                request.discrete_strength()?;
+            }
+            return Ok(Box::new(sampling::OneTest { is_asked: !existing.is_empty() }));
+        }
         self.sampling.strategy.build(&self.sampling.request(&self.space, existing))
     }
 
@@ -236,6 +248,11 @@ impl Study {
     /// The same errors as [`Study::generator`].
     pub fn independent_generator(&self) -> Result<Box<dyn Generator>, GeneratorError> {
         self.sampling.strategy.build_independent(&self.sampling.request(&self.space, &[]))
+    }
+
+    /// Returns `true` if a scenario has no open parameter, so that all tests are the same.
+    pub fn is_one_test(&self) -> bool {
+        self.space.parameters().is_empty() && matches!(self.subject, Subject::Scenario(_))
     }
 
     /// Returns the values of all parameters of a test's world, including the fixed parameters.

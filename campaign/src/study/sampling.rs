@@ -2,7 +2,7 @@
 
 use crate::Reason;
 use paracosm_coverage::Deadline;
-use paracosm_generators::{Aim, DiscreteFamily, Purpose, Request, Strategy};
+use paracosm_generators::{Aim, DiscreteFamily, Generator, Purpose, Request, Strategy};
 use paracosm_space::{Point, Space};
 use std::fmt;
 use thiserror::Error;
@@ -119,5 +119,17 @@ impl Sampling {
             aim: self.aim,
             existing,
         }
+    }
+}
+
+/// The generator of a study without an open parameter, which has one test.
+pub(super) struct OneTest {
+    pub is_asked: bool,
+}
+
+impl Generator for OneTest {
+    fn ask(&mut self, n: usize) -> Vec<Point> {
+        let is_new = n > 0 && !std::mem::replace(&mut self.is_asked, true);
+        is_new.then(|| Point { continuous: Vec::new(), discrete: Vec::new() }).into_iter().collect()
     }
 }

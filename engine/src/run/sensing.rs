@@ -57,6 +57,12 @@ impl Run {
         self.sensing.film = film.in_test(self.sensing.test);
     }
 
+    /// Returns `true` if the ego vehicle has a sensor or a camera, or if a camera films the run. Otherwise light, fog and the sun
+    /// change nothing, and rain changes only the friction.
+    pub fn has_senses(&self) -> bool {
+        !self.sensing.is_empty()
+    }
+
     /// Returns the ego vehicle's sensors, with the readings that have arrived since the last question to the driver.
     pub fn rig(&self) -> &Rig {
         &self.sensing.rig

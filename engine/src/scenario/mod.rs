@@ -9,6 +9,7 @@ mod draft;
 mod ego;
 mod environment;
 mod param;
+mod reach;
 mod requirement;
 mod road;
 
@@ -18,6 +19,7 @@ pub use ego::{AutonomousVehicle, Car, Lead, LedMotion};
 pub(crate) use ego::{Ego, EgoSetup};
 pub use environment::{Conditions, Environment};
 pub use param::Param;
+pub use reach::Reach;
 pub use requirement::{RequirementDraft, Temporal, always, eventually, never};
 pub use road::{Road, Streets};
 
@@ -49,6 +51,8 @@ pub struct Scenario {
     given: Vec<(String, param::Given)>,
     pub(crate) keys: Rc<Keys>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
+    /// The uses of the parameters by the program, in the order of the declaration.
+    uses: Rc<RefCell<Vec<reach::Use>>>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) flaws: Flaws,
     /// The networks that were placed; `None` for a network that cannot be built.
@@ -117,6 +121,7 @@ impl Scenario {
             given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
             keys: Rc::new(Keys { test: Cell::new(key), scenery: Cell::new(key) }),
             parameters: Rc::default(),
+            uses: Rc::default(),
             constraints: Vec::new(),
             flaws: Rc::default(),
             networks: Vec::new(),
@@ -195,6 +200,7 @@ impl Scenario {
         let name = &declared.parameter.name;
         let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
         self.parameters.borrow_mut().push(declared);
+        self.uses.borrow_mut().push(reach::Use::default());
         Param::new(self, given.unwrap_or_default(), read)
     }
 

@@ -5,6 +5,7 @@
 //! gets a [`Stream`] in both cases.
 
 use super::Scenario;
+use super::reach::Use;
 use crate::flaw::{Flaws, WorldFlaw};
 use crate::stream::{Datum, DatumSample, NodeKind, Stream, samples};
 use crate::test::{Declared, entry};
@@ -19,6 +20,7 @@ use std::rc::Rc;
 #[derive(Clone)]
 pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
+    uses: Rc<RefCell<Vec<Use>>>,
     index: usize,
     flaws: Flaws,
     keys: Rc<Keys>,
@@ -88,10 +90,10 @@ impl<T: Into<Value> + Clone + 'static> Read<T> {
 impl<T: Clone> Param<T> {
     /// Makes the parameter that was declared last.
     pub(super) fn new(scenario: &Scenario, given: Given, read: Read<T>) -> Self {
-        let Scenario { parameters, flaws, keys, .. } = scenario;
-        let (declared, flaws, keys) = (parameters.clone(), flaws.clone(), keys.clone());
+        let Scenario { parameters, uses, flaws, keys, .. } = scenario;
+        let (declared, uses, flaws, keys) = (parameters.clone(), uses.clone(), flaws.clone(), keys.clone());
         let index = declared.borrow().len() - 1;
-        let parameter = Self { declared, index, flaws, keys, atmospheric: false, given, read };
+        let parameter = Self { declared, uses, index, flaws, keys, atmospheric: false, given, read };
         for value in parameter.given.value.iter().flat_map(Value::scalars) {
             if (parameter.read.with)(value).is_none() {
                 parameter.flaw(WorldFlaw::OtherType { parameter: parameter.name(), value: value.clone() });
@@ -156,6 +158,7 @@ impl<T: Clone> Param<T> {
             let scenery = &self.keys.scenery;
             scenery.set(scenery.get().wrapping_sub(value).wrapping_add(nominal));
         }
+        self.uses.borrow_mut()[self.index].atmospheric = true;
         Self { atmospheric: true, ..self }
     }
 
@@ -165,6 +168,7 @@ impl<T: Clone> Param<T> {
         if self.shape().is_some() {
             self.flaw(WorldFlaw::Varies { parameter: self.name() });
         }
+        self.uses.borrow_mut()[self.index].value = true;
         self.read(self.given_or_nominal().scalars().first())
     }
 

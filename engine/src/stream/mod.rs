@@ -80,4 +80,5 @@ pub use forward::Forward;
 pub(crate) use graph::{Clock, Graph, Slot};
 pub(crate) use node::{Binary, Equation, Node, NodeKind, Source, Unary};
 pub use order::GraphFlaw;
+pub(crate) use order::order;
 pub use sketch::{Form, Part, Reader, Sketch};

@@ -123,6 +123,15 @@ pub(crate) struct Equation {
 }
 
 impl Node {
+    /// Returns the name of the parameter whose value the node has; `None` for all other nodes.
+    pub fn parameter(&self) -> Option<&str> {
+        match &self.kind {
+            NodeKind::Constant { parameter, .. } => parameter.as_deref(),
+            NodeKind::Signal { parameter, .. } => Some(parameter),
+            _ => None,
+        }
+    }
+
     /// Returns the label of the node in pictures that also show the inputs of the node.
     pub fn label(&self) -> String {
         match &self.kind {
