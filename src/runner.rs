@@ -250,8 +250,15 @@ impl<'a> Runner<'a> {
     }
 
     fn effects(&self, log: &Log) -> Result<Effects, Error> {
-        let campaign = self.campaign()?;
-        Effects::of(log, |test, index| campaign.run_test(test, index))
+        // A system or a driver in a process of its own is only started again if a pair has to be run.
+        let mut campaign = None;
+        Effects::of(log, |test, index| {
+            let campaign = match &mut campaign {
+                Some(campaign) => campaign,
+                none => none.insert(self.campaign()?),
+            };
+            campaign.run_test(test, index)
+        })
     }
 
     fn located(&self, log: &Log, limit: usize) -> Result<Option<LocatedReport>, Error> {

@@ -24,7 +24,8 @@ use thiserror::Error;
 /// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
 /// The names of the files that hold results derived from the trials of a campaign.
-pub const DERIVED: [&str; 14] = [
+pub const DERIVED: [&str; 15] = [
+    "effects.json",
     "trials.csv",
     "coverage.json",
     "failure-map.svg",

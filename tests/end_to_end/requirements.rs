@@ -82,7 +82,7 @@ fn a_file_adds_requirements_and_says_where_they_come_from() {
         assert!(summary.contains(text), "{text}: {summary}");
     }
     assert!(summary.contains("design domain         surface: fixed: dry asphalt; excluded: snow and ice"), "{summary}");
-    assert!(summary.contains("visibility: varied by fog 0..1, light 0..1"), "{summary}");
+    assert!(summary.contains("visibility: varied by fog 0..1 (no effect), light 0..1 (no effect)"), "{summary}");
     let study: Value =
         serde_json::from_str(&fs::read_to_string(dir.path().join("out/campaign.json")).unwrap()).unwrap();
     let ids: Vec<&Value> = study["requirements"].as_array().unwrap().iter().map(|stated| &stated["id"]).collect();
