@@ -81,8 +81,8 @@ pub struct Report {
     pub perceived: Option<Perceived>,
     /// The explanation of the failures in words, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
-    /// The effects of the open parameters; empty until they are known.
-    pub effects: Effects,
+    /// The effects of the open parameters; `None` until they are known.
+    pub effects: Option<Effects>,
     /// The coverage guarantee of random rows of discrete values, or `None` if rows are not random, or if the campaign
     /// ended before all rows were run.
     pub promise: Option<Promise>,
@@ -112,7 +112,7 @@ impl Report {
         put(&self.modes)?;
         self.perceived.iter().try_for_each(|perceived| put(perceived))?;
         self.explanation.iter().try_for_each(|explanation| put(explanation))?;
-        put(&self.effects)?;
+        self.effects.iter().try_for_each(|effects| put(effects))?;
         self.located.iter().try_for_each(|located| put(located))?;
         self.junit.iter().try_for_each(|junit| put(junit))
     }
@@ -133,7 +133,7 @@ impl Report {
             modes: Modes::of(&log),
             perceived: Perceived::of(&log),
             explanation: Explanation::of(&log)?,
-            effects: Effects(Vec::new()),
+            effects: None,
             // Rows that were not run promise nothing.
             promise: if finish == Finish::Stopped { None } else { Promise::of_campaign(&log)? },
             junit: None,
@@ -228,8 +228,10 @@ impl<'a> Runner<'a> {
         }
         let mut report = Report::of(log, finish, summary)?;
         report.junit = self.junit.then(|| Junit::of_campaign(&report.log, folder, &self.program));
-        report.effects = self.effects(&report.log)?;
         report.artefacts(|artefact| kept.put(artefact))?;
+        // Further tests may fail, so the results of the campaign are written before.
+        report.effects = Some(self.effects(&report.log)?);
+        report.effects.iter().try_for_each(|effects| kept.put(effects))?;
         if let Some(limit) = self.locate {
             report.located = self.located(&report.log, limit)?;
             report.located.iter().try_for_each(|located| kept.put(located))?;

@@ -68,7 +68,7 @@ pub struct ParameterEffect {
 }
 
 /// The effects of the open parameters of a campaign, in the order of the space.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Form", from = "Form")]
 pub struct Effects(pub Vec<ParameterEffect>);
 

@@ -57,8 +57,9 @@ impl Options {
                 verbosity.note(format_args!("written to {}", self.dir.join("failure-map.svg").display()));
             }
         }
-        let effects = Effects::read(&self.dir)?.unwrap_or_default();
-        for (name, why) in effects.without_effect().filter(|(name, _)| [&x, &y].iter().any(|axis| axis == name)) {
+        let effects = Effects::read(&self.dir)?;
+        let without = effects.iter().flat_map(Effects::without_effect);
+        for (name, why) in without.filter(|(name, _)| [&x, &y].iter().any(|axis| axis == name)) {
             verbosity.note(format_args!("{name} has no effect: {why}"));
         }
         let estimate = map.estimate.as_ref();

@@ -7,11 +7,12 @@ use paracosm_campaign::Study;
 
 /// Returns a line for each attribute, and a line for open parameters that no attribute names. Empty if no design domain
 /// is stated.
-pub(super) fn lines(study: &Study, effects: &Effects) -> Vec<(String, String)> {
+pub(super) fn lines(study: &Study, effects: Option<&Effects>) -> Vec<(String, String)> {
     let Some(odd) = study.odd() else { return Vec::new() };
     let mut lines: Vec<(String, String)> = Vec::new();
     let range = |parameter: &Parameter| {
-        let has_none = effects.without_effect().any(|(name, _)| name == parameter.name);
+        let has_none =
+            effects.iter().flat_map(|effects| effects.without_effect()).any(|(name, _)| name == parameter.name);
         format!("{}{}", range(parameter), if has_none { " (no effect)" } else { "" })
     };
     for (name, attribute) in odd.iter() {

@@ -7,7 +7,7 @@ use crate::Report;
 use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
-use paracosm_analysis::{Judged, Modes, RangeRecall, Segmented};
+use paracosm_analysis::{Effects, Judged, Modes, RangeRecall, Segmented};
 use paracosm_campaign::{Extension, ExtensionRecord, Finish, Number, Study, Trial};
 use paracosm_report::{command_option, shell_word};
 use serde_json::json;
@@ -44,7 +44,7 @@ impl Printed<'_> {
         for (i, judged) in summary.requirements().iter().enumerate() {
             table.row(if i == 0 { "requirements" } else { "" }, &self.in_words(judged));
         }
-        for (i, (name, words)) in odd::lines(study, &self.report.effects).iter().enumerate() {
+        for (i, (name, words)) in odd::lines(study, self.report.effects.as_ref()).iter().enumerate() {
             table.row(if i == 0 { "design domain" } else { "" }, &format!("{name}: {words}"));
         }
         if self.stopped() {
@@ -80,7 +80,7 @@ impl Printed<'_> {
             }
         }
         let mut label = "no effect";
-        for line in self.report.effects.in_words() {
+        for line in self.report.effects.iter().flat_map(Effects::in_words) {
             table.row(std::mem::take(&mut label), &line);
         }
         table.row("written to", &self.out.display().to_string());
@@ -155,7 +155,8 @@ impl Printed<'_> {
         if let Some(perceived) = &self.report.perceived {
             printed["perception"] = json!(perceived);
         }
-        printed["without_effect"] = self.report.effects.without_effect().map(|(name, _)| name).collect();
+        printed["without_effect"] =
+            self.report.effects.iter().flat_map(Effects::without_effect).map(|(name, _)| name).collect();
         printed["modes"] = json!(self.report.modes.modes);
         printed
     }

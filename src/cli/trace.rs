@@ -35,13 +35,13 @@ impl Options {
     pub fn execute(&self) -> Result<Status, Failure> {
         let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[FileKind::Csv], &[])).transpose()?;
         let log = Log::read(&self.dir, &crate::catalogue())?;
-        let effects = Effects::read(&self.dir)?.unwrap_or_default();
-        let traceability = Traceability::of(&log)?.with_effects(&effects);
+        let effects = Effects::read(&self.dir)?;
+        let traceability = effects.iter().fold(Traceability::of(&log)?, Traceability::with_effects);
         if let Some(target) = &target {
             target.write(|_| Ok(paracosm_report::traceability::csv(&traceability)))?;
         }
         print(&match Format::or_fitting(self.format) {
-            Format::Table => table(log.study(), &traceability, &effects),
+            Format::Table => table(log.study(), &traceability, effects.as_ref()),
             Format::Json => json(&traceability),
         })?;
         Ok(Status::Nothing)
@@ -54,7 +54,7 @@ const PER_LINE: usize = 20;
 const HEADER: [&str; 8] =
     ["requirement", "passed", "failed", "undecided", "not reached", "worst", "severity", "source"];
 
-fn table(study: &Study, traceability: &Traceability, effects: &Effects) -> String {
+fn table(study: &Study, traceability: &Traceability, effects: Option<&Effects>) -> String {
     let mut table = Table::default();
     let Traceability { tests, broken, requirements, untested, .. } = traceability;
     let title = study.title();

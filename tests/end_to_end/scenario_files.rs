@@ -237,7 +237,7 @@ fn a_scenario_file_without_open_parameters_is_described_with_its_closed_ones() {
     assert!(dot.contains("storyboard"), "{dot}");
     let drawn = succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc", "--draw", "world.svg"]));
     assert!(dir.path().join("world.svg").exists(), "{}", stderr(&drawn));
-    // Without an open parameter, a campaign is one test. A benchmark needs something to vary.
+    // Without an open parameter, a campaign is one test. A probability needs something to vary.
     let one = succeeds(fuzz(dir.path(), &["slow-leader.xosc", "--budget", "3", "--out", "one"]));
     assert!(stderr(&one).contains("so there is one test; --open NAME=LO..HI varies one of speed, gap, ego"));
     refused(

@@ -8,7 +8,7 @@
 
 use super::bout::{Bout, Noticed};
 use super::holes::{empty_boxes, tests_in};
-use super::near_misses::{NearMisses, squared};
+use super::near_misses::{NearMisses, nearest};
 use super::{Estimate, Holes, Runs, Screen, Share, Suite};
 use paracosm_campaign::{Error, Study};
 use paracosm_coverage::dispersion::LargestEmptyBox;
@@ -139,8 +139,7 @@ fn inside(space: &Space, levels: &[usize], of: &LargestEmptyBox, points: &[Point
     if tests.is_empty() {
         tests = tests_in(space, levels, of, CANDIDATES)?;
     }
-    let nearest = |test: &Point| points.iter().map(|point| squared(test, point)).fold(f64::INFINITY, f64::min);
-    Ok(tests.into_iter().max_by(|a, b| nearest(a).total_cmp(&nearest(b))))
+    Ok(tests.into_iter().max_by(|a, b| nearest(a, points).total_cmp(&nearest(b, points))))
 }
 
 /// The mutants of the audit, which say when a suite is large enough.

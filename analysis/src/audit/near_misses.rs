@@ -45,8 +45,8 @@ impl NearMisses {
         }
         let mut left = vec![Vec::new(); SHARES.len()];
         for (test, share) in shares {
-            let nearest = SHARES.iter().position(|limit| share < *limit).unwrap_or(SHARES.len() - 1);
-            left[SHARES.len() - 1 - nearest].push(study.space().encode(&values[test])?);
+            let part = SHARES.iter().position(|limit| share < *limit).unwrap_or(SHARES.len() - 1);
+            left[SHARES.len() - 1 - part].push(study.space().encode(&values[test])?);
         }
         Ok(Self { left })
     }
@@ -67,8 +67,7 @@ impl NearMisses {
 
 /// Moves up to `count` tests to points, each as far as possible from the points that are there then.
 fn spread(tests: &mut Vec<Point>, count: usize, points: &mut Vec<Point>) {
-    let nearest = |test: &Point| points.iter().map(|point| squared(test, point)).fold(f64::INFINITY, f64::min);
-    let mut distances: Vec<f64> = tests.iter().map(nearest).collect();
+    let mut distances: Vec<f64> = tests.iter().map(|test| nearest(test, points)).collect();
     for _ in 0..count.min(tests.len()) {
         let farthest = (0..distances.len()).rev().max_by(|a, b| distances[*a].total_cmp(&distances[*b]));
         let farthest = farthest.expect("one is left");
@@ -81,8 +80,13 @@ fn spread(tests: &mut Vec<Point>, count: usize, points: &mut Vec<Point>) {
     }
 }
 
+/// Returns the square of the distance of a test to the nearest of some points; infinity if there is none.
+pub(super) fn nearest(test: &Point, points: &[Point]) -> f64 {
+    points.iter().map(|point| squared(test, point)).fold(f64::INFINITY, f64::min)
+}
+
 /// Returns the square of the distance of two points. Two values of a discrete parameter are as far apart as the ends of an interval.
-pub(super) fn squared(a: &Point, b: &Point) -> f64 {
+fn squared(a: &Point, b: &Point) -> f64 {
     let along = a.continuous.iter().zip(&b.continuous).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
     along + a.discrete.iter().zip(&b.discrete).filter(|(a, b)| a != b).count() as f64
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use paracosm_campaign::{Catalogue, Learned, StudyBuilder};
+use paracosm_engine::Program;
 use paracosm_generators::Strategy;
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
@@ -56,10 +57,16 @@ fn a_driver_without_sensors_does_not_see_fog_light_or_the_sun() {
 
 #[test]
 fn pairs_of_tests_tell_what_has_an_effect_and_what_has_none() {
-    let study = builder("pedestrian-crossing", "aeb").open("friction").open("fog").build().unwrap();
-    let log = log(study, 100);
+    let crossing = paracosm_scenarios::find("pedestrian-crossing").unwrap();
+    // The program asks for the value and does nothing with it, which no graph of streams tells.
+    let program = Program::of("idle", "a crossing with an idle parameter", move |s| {
+        crossing.build(s);
+        s.interval("idle", 0.0..=1.0).value();
+    });
+    let log = log(Study::of(program).driver("aeb").open("fog").build().unwrap(), 100);
     let effects = effects(&log);
     assert_eq!([effect(&effects, "speed"), effect(&effects, "fog")], [Effect::Seen, Effect::Unread]);
+    assert_eq!(effect(&effects, "idle"), Effect::unseen(10));
     let Effect::Unseen { pairs, at_most } = Effect::unseen(10) else { panic!("ten pairs") };
     assert!(pairs == 10 && (at_most - 0.2589).abs() < 1e-4);
     let words = Effect::unseen(100).in_words().unwrap();

@@ -14,7 +14,7 @@ use std::path::Path;
 use std::time::Duration;
 
 const MUTANTS: usize = 200;
-/// The seeds of the mutants that choose a better suite, and of the mutants that grade it.
+/// The seeds of the mutants that set the size of a better suite, and of the mutants that grade it.
 const SEEDS: [u64; 2] = [0, 1];
 /// The time for the coverage and the holes of a suite, and the search for a better suite.
 const LIMIT: Duration = Duration::from_secs(600);
@@ -42,7 +42,7 @@ struct Row {
     score: Option<f64>,
     better_tests: Option<usize>,
     better_hole_upper: Option<f64>,
-    /// The scores of both suites for other mutants than those that chose the better suite.
+    /// The scores of both suites for mutants that had no part in the better suite.
     other_mutants: usize,
     other_score: Option<f64>,
     better_other_score: Option<f64>,
