@@ -5,6 +5,7 @@ use super::road::Road;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::Curve;
+use std::f64::consts::PI;
 
 /// The greatest distance in metres between a line and its arcs.
 const EXACT: f64 = 0.0005;
@@ -76,7 +77,9 @@ impl<F: Fn(f64) -> f64> Beside<'_, F> {
     }
 
     fn follows(&self, arc: &Curve, from: f64, to: f64) -> bool {
-        (arc.curvature() * arc.length()).abs() <= TURN
+        // A piece that turns by more than half a circle looks like a piece that turns less.
+        self.road.line.turns_at_most(from, to) <= PI
+            && (arc.curvature() * arc.length()).abs() <= TURN
             && [0.25, 0.5, 0.75].into_iter().all(|share| {
                 let point = self.point(from + share * (to - from));
                 (arc.point(arc.nearest(point)) - point).norm() <= EXACT
@@ -92,6 +95,6 @@ pub(super) fn just_before(end: f64, start: f64) -> f64 {
 /// Returns an arc in the opposite direction.
 pub(super) fn reversed(arc: &Curve) -> Curve {
     let end = arc.end();
-    let start = Pose { position: end.position, heading: wrapped(end.heading + std::f64::consts::PI) };
+    let start = Pose { position: end.position, heading: wrapped(end.heading + PI) };
     Curve::new(start, -arc.curvature(), arc.length())
 }

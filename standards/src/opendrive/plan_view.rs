@@ -75,6 +75,20 @@ impl PlanView {
         }
     }
 
+    /// Returns a bound on the angle in radians by which the line turns between two places of one piece. A piece of polynomials
+    /// may turn by 2 π more: the direction of a cubic is a parabola, which does not go around the origin twice.
+    pub(super) fn turns_at_most(&self, from: f64, to: f64) -> f64 {
+        let piece = self.piece(from);
+        match &piece.shape {
+            Shape::Line | Shape::Polynomials(_) => 0.0,
+            Shape::Arc { curvature } => curvature.abs() * (to - from),
+            Shape::Spiral(_) => {
+                let [start, end] = [from, to].map(|s| piece.curvature(s - piece.s).abs());
+                start.max(end) * (to - from)
+            }
+        }
+    }
+
     fn piece(&self, s: f64) -> &Geometry {
         let after = self.pieces.partition_point(|piece| piece.s <= s);
         &self.pieces[after.saturating_sub(1)]
@@ -237,6 +251,8 @@ impl Polynomials {
         let wanted = ds * self.scale;
         let knot = self.knots.partition_point(|length| *length <= wanted).saturating_sub(1);
         let start = knot as f64 * self.step;
+        // A step must not leave the piece between two knots: where the curve nearly stops, a step would be too long.
+        let inside = if ds >= 0.0 && knot < KNOTS { start..=start + self.step } else { f64::NEG_INFINITY..=f64::INFINITY };
         let mut p = start;
         // Newton's method; a few steps suffice, because the speed changes little between two knots.
         for _ in 0..8 {
@@ -245,7 +261,7 @@ impl Polynomials {
             if speed == 0.0 || wrong.abs() < 1e-13 {
                 break;
             }
-            p -= wrong / speed;
+            p = (p - wrong / speed).clamp(*inside.start(), *inside.end());
         }
         p
     }

@@ -189,11 +189,7 @@ fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
             };
             let u = numbers(element, ["aU", "bU", "cU", "dU"])?;
             let v = numbers(element, ["aV", "bV", "cV", "dV"])?;
-            let pair = Polynomials::new(u, v, [end, length]);
-            if pair.length() > LONGEST {
-                return Err(too_long(element, pair.length()));
-            }
-            polynomials(element, "bU", length, pair)?
+            polynomials(element, "bU", length, Polynomials::new(u, v, [end, length]))?
         }
     })
 }
@@ -201,20 +197,24 @@ fn shape(geometry: Element<'_, '_>, length: f64) -> Result<Shape, ReadError> {
 /// Makes the error that a curve is longer than any road. It names the coefficient with the greatest magnitude.
 fn too_long(element: Element<'_, '_>, metres: f64) -> ReadError {
     let magnitude = |name: &str| element.text(name).and_then(|text| text.parse().ok()).map_or(0.0, f64::abs);
-    let names = ["bU", "cU", "dU", "bV", "cV", "dV"].into_iter();
-    let greatest = names.max_by(|a, b| magnitude(a).total_cmp(&magnitude(b))).unwrap_or("bU");
-    let expected = format!("coefficients of a curve that is at most {LONGEST} m long, and this one has {metres:.0} m");
+    let names = ["b", "c", "d", "bU", "cU", "dU", "bV", "cV", "dV"].into_iter();
+    let greatest = names.max_by(|a, b| magnitude(a).total_cmp(&magnitude(b))).unwrap_or("b");
+    let has = if metres < 1e9 { format!("{metres:.0}") } else { format!("{metres:.0e}") };
+    let expected = format!("coefficients of a curve that is at most {LONGEST} m long, and this one has {has} m");
     element.unexpected(greatest, expected)
 }
 
-/// Checks that a curve of polynomials has a length. `attribute` is the coefficient that usually gives it.
+/// Checks that a curve of polynomials has a length, and is no longer than a road. `attribute` is the coefficient that usually
+/// gives the length.
 fn polynomials(
     element: Element<'_, '_>,
     attribute: &'static str,
     length: f64,
     pair: Polynomials,
 ) -> Result<Shape, ReadError> {
-    if length == 0.0 || pair.length() > 0.0 && pair.length().is_finite() {
+    if pair.length() > LONGEST {
+        Err(too_long(element, pair.length()))
+    } else if length == 0.0 || pair.length() > 0.0 {
         Ok(Shape::Polynomials(pair))
     } else {
         Err(element.unexpected(attribute, format!("coefficients of a curve that is about {length} m long")))

@@ -8,4 +8,5 @@ mod networks;
 mod objects;
 mod others;
 mod round_trip;
+mod shapes;
 mod traffic;
