@@ -252,7 +252,8 @@ impl Polynomials {
         let knot = self.knots.partition_point(|length| *length <= wanted).saturating_sub(1);
         let start = knot as f64 * self.step;
         // A step must not leave the piece between two knots: where the curve nearly stops, a step would be too long.
-        let inside = if ds >= 0.0 && knot < KNOTS { start..=start + self.step } else { f64::NEG_INFINITY..=f64::INFINITY };
+        let inside =
+            if ds >= 0.0 && knot < KNOTS { start..=start + self.step } else { f64::NEG_INFINITY..=f64::INFINITY };
         let mut p = start;
         // Newton's method; a few steps suffice, because the speed changes little between two knots.
         for _ in 0..8 {

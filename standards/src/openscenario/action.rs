@@ -164,10 +164,21 @@ impl Action {
             "ControllerAction" => {
                 // An action that assigns a controller may activate it, too.
                 let activate = kind.first("ActivateControllerAction").or_else(|| kind.first("AssignControllerAction"));
-                activate.map_or(Ok(Self::Nothing), Self::activate)
+                Self::activate(
+                    activate.ok_or_else(|| kind.element.lacks("ActivateControllerAction or AssignControllerAction"))?,
+                )
             }
             "ActivateControllerAction" => Self::activate(kind),
-            "VisibilityAction" | "AppearanceAction" => Ok(Self::Nothing),
+            "VisibilityAction" => {
+                for attribute in ["sensors", "traffic"] {
+                    if !kind.truth_or(attribute, true)? {
+                        let found = kind.required(attribute)?;
+                        return Err(kind.unexpected(attribute, &found, "true: sensors and drivers see all entities"));
+                    }
+                }
+                Ok(Self::Nothing)
+            }
+            "AppearanceAction" => Ok(Self::Nothing),
             _ => Err(kind.refused("use a longitudinal, lateral, routing, teleport or controller action")),
         }
     }
@@ -254,7 +265,7 @@ impl Action {
                     how: Metric::read(node, MetricKind::Longitudinal)?,
                     continuous: node.truth_or("continuous", false)?,
                     ahead,
-                    limits: limits(node)?,
+                    limits: limits(node, names)?,
                 })
             }
             _ => Err(node.refused("use a SpeedAction, a SpeedProfileAction or a LongitudinalDistanceAction")),
@@ -307,7 +318,7 @@ impl Action {
                     freespace: node.truth_or("freespace", false)?,
                     left: given.flatten(),
                     continuous: node.truth_or("continuous", false)?,
-                    limits: limits(node)?,
+                    limits: limits(node, names)?,
                 }))
             }
             _ => Err(node.refused("use a LaneChangeAction or a LaneOffsetAction")),
@@ -342,8 +353,14 @@ impl Action {
 }
 
 /// Reads the greatest acceleration, deceleration and speed within an element; `None` if it has no limits.
-fn limits(node: Node<'_>) -> Result<Option<[f64; 3]>, ReadError> {
+fn limits(node: Node<'_>, names: Names<'_>) -> Result<Option<[f64; 3]>, ReadError> {
     let Some(limits) = node.first("DynamicConstraints") else { return Ok(None) };
+    for rate in ["maxAccelerationRate", "maxDecelerationRate"] {
+        if limits.element.has(rate) {
+            limits.limit(rate)?;
+            names.catalogs.remark(limits, rate, "only a SpeedProfileAction limits the changes of accelerations");
+        }
+    }
     let most = |name| if limits.element.text(name).is_some() { limits.limit(name) } else { Ok(f64::INFINITY) };
     Ok(Some([most("maxAcceleration")?, most("maxDeceleration")?, most("maxSpeed")?]))
 }

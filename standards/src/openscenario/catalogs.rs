@@ -210,7 +210,7 @@ impl<'a> Catalogs<'a> {
     /// Remarks that an attribute of an element has no effect with its value, or another one.
     pub fn remark(&self, node: Node<'_>, attribute: &str, reason: &'static str) {
         let (name, line) = (format!("{}.{attribute}", node.name()), node.element.line());
-        let remark = NoEffect { name, reason, count: 1, line };
+        let remark = NoEffect { name, reason, nearest: None, count: 1, line };
         self.found.borrow_mut().remarks.push((node.element.file().to_owned(), remark));
     }
 

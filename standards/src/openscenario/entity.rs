@@ -49,6 +49,8 @@ pub(super) struct Limits {
     pub acceleration: f64,
     /// The greatest deceleration in m/s².
     pub deceleration: f64,
+    /// The greatest speed in m/s.
+    pub speed: f64,
 }
 
 impl Entity {
@@ -104,16 +106,16 @@ impl Entity {
 
     /// Returns the least of the given limits and the entity's own: the greatest acceleration, deceleration and speed.
     pub fn within(&self, limits: [f64; 3]) -> [f64; 3] {
+        let Some(own) = self.vehicle else { return limits };
         let [acceleration, deceleration, speed] = limits;
-        self.vehicle
-            .map_or(limits, |own| [acceleration.min(own.acceleration), deceleration.min(own.deceleration), speed])
+        [acceleration.min(own.acceleration), deceleration.min(own.deceleration), speed.min(own.speed)]
     }
 
     fn one(node: Node<'_>, name: &str) -> Result<Self, ReadError> {
         let class = match node.name() {
             "Vehicle" => node.one_of("vehicleCategory", &VEHICLES)?,
-            "Pedestrian" => Class::Pedestrian,
-            "MiscObject" => Class::Prop,
+            "Pedestrian" => node.one_of("pedestrianCategory", &PEDESTRIANS)?,
+            "MiscObject" => node.one_of("miscObjectCategory", &THINGS.map(|name| (name, Class::Prop)))?,
             _ => return Err(node.refused("use a Vehicle, a Pedestrian or a MiscObject")),
         };
         let vehicle = (node.name() == "Vehicle").then(|| Limits::read(node)).transpose()?;
@@ -154,11 +156,34 @@ const VEHICLES: [(&str, Class); 10] = [
     ("tram", Class::Prop),
 ];
 
+const PEDESTRIANS: [(&str, Class); 3] =
+    [("pedestrian", Class::Pedestrian), ("wheelchair", Class::Pedestrian), ("animal", Class::Pedestrian)];
+
+const THINGS: [&str; 17] = [
+    "none",
+    "obstacle",
+    "pole",
+    "tree",
+    "vegetation",
+    "barrier",
+    "building",
+    "parkingSpace",
+    "patch",
+    "railing",
+    "roadMark",
+    "trafficIsland",
+    "crosswalk",
+    "streetLamp",
+    "gantry",
+    "soundBarrier",
+    "wind",
+];
+
 impl Limits {
     fn read(vehicle: Node<'_>) -> Result<Self, ReadError> {
         let performance = vehicle.child("Performance")?;
-        performance.limit("maxSpeed")?;
         Ok(Self {
+            speed: performance.limit("maxSpeed")?,
             acceleration: performance.limit("maxAcceleration")?,
             deceleration: performance.limit("maxDeceleration")?,
         })

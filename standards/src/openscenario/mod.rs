@@ -15,6 +15,8 @@ mod entity;
 mod environment;
 mod export;
 mod instance;
+#[cfg(test)]
+mod judge;
 mod kind;
 mod linked;
 mod local;

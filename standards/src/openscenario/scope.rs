@@ -1,6 +1,6 @@
 //! The parameters that an element sees, and the values of attributes with parameters in them.
 
-use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, Value};
+use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, Value, brief};
 use paracosm_space::nearest;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -182,7 +182,7 @@ impl<'a> Node<'a> {
         let Some(text) = self.element.text(attribute) else { return Ok(None) };
         let resolved = self.scope.resolve_among(among, text).map_err(|flaw| {
             let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
-            self.error(Flaw::Expression { element, attribute, text: text.to_owned(), flaw })
+            self.error(Flaw::Expression { element, attribute, text: brief(text), flaw })
         })?;
         Ok(Some(resolved))
     }

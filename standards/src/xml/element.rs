@@ -66,6 +66,11 @@ impl<'a, 'i> Element<'a, 'i> {
         ReadError { file: self.file().to_owned(), line: Some(self.line()), flaw: Box::new(flaw) }
     }
 
+    /// Makes an error at a line of the file of the element.
+    pub(super) fn error_at(&self, line: u32, flaw: Flaw) -> ReadError {
+        ReadError { line: Some(line), ..self.error(flaw) }
+    }
+
     /// Returns all elements directly within this one, in the order of the file.
     pub fn elements(self) -> impl Iterator<Item = Self> {
         self.node.children().filter(Node::is_element).map(move |node| Self { node, ..self })
@@ -103,6 +108,21 @@ impl<'a, 'i> Element<'a, 'i> {
         texts.map(str::trim).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
+    /// Returns the first text directly within the element that is more than white space, with its line.
+    pub(super) fn stray_text(self) -> Option<(u32, String)> {
+        let texts = self.node.children().filter(Node::is_text);
+        let says = |node: &Node<'_, '_>| node.text().is_some_and(|text| !text.trim().is_empty());
+        let node = texts.into_iter().find(says)?;
+        let text = node.text().unwrap_or_default();
+        let before = text.len() - text.trim_start().len();
+        Some((self.source.line(node.range().start + before), brief(text.trim())))
+    }
+
+    /// Returns `true` if the element has an attribute, which may be empty.
+    pub fn has(self, attribute: &str) -> bool {
+        self.node.has_attribute(attribute)
+    }
+
     /// Returns the names of all attributes without namespaces; declarations of namespaces are no attributes.
     pub fn attributes(self) -> impl Iterator<Item = &'a str> {
         self.node.attributes().filter(|attribute| attribute.namespace().is_none()).map(|attribute| attribute.name())
@@ -122,7 +142,7 @@ impl<'a, 'i> Element<'a, 'i> {
     pub fn missing(self, attribute: &'static str) -> ReadError {
         match self.node.attribute(attribute) {
             Some(_) => self.unexpected(attribute, "a value"),
-            None => self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute }),
+            None => self.error(Flaw::MissingAttribute { element: self.name().to_owned(), attribute, similar: None }),
         }
     }
 
@@ -141,7 +161,7 @@ impl<'a, 'i> Element<'a, 'i> {
     ) -> ReadError {
         let nearest = nearest(found, names).map(str::to_owned);
         let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
-        self.error(Flaw::Value { element, attribute, found: found.to_owned(), expected: expected.into(), nearest })
+        self.error(Flaw::Value { element, attribute, found: brief(found), expected: expected.into(), nearest })
     }
 
     /// Makes the error that an attribute names an element that does not exist. `names` are the existing names.
@@ -163,13 +183,7 @@ impl<'a, 'i> Element<'a, 'i> {
         names: impl IntoIterator<Item = &'n str>,
     ) -> ReadError {
         let nearest = nearest(found, names).map(str::to_owned);
-        self.error(Flaw::Dangling {
-            element: self.name().to_owned(),
-            attribute,
-            found: found.to_owned(),
-            kind,
-            nearest,
-        })
+        self.error(Flaw::Dangling { element: self.name().to_owned(), attribute, found: brief(found), kind, nearest })
     }
 
     /// Returns the number in an attribute, which must exist and be finite.
@@ -201,5 +215,16 @@ impl<'a, 'i> Element<'a, 'i> {
             let all: Vec<_> = names.iter().map(|(name, _)| *name).collect();
             self.unexpected_value(attribute, text, format!("one of {}", all.join(", ")), all.iter().copied())
         })
+    }
+}
+
+/// The number of characters of a text of a file that messages show.
+const MOST_SHOWN: usize = 80;
+
+/// Returns the beginning of a text of a file for a message.
+pub(crate) fn brief(text: &str) -> String {
+    match text.char_indices().nth(MOST_SHOWN) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}…", &text[..end]),
     }
 }

@@ -94,12 +94,25 @@ pub enum Flaw {
         first: String,
     },
     /// An element lacks a required attribute.
-    #[error("<{element}> has no attribute `{attribute}`, which the standard requires")]
+    #[error(
+        "<{element}> has no attribute `{attribute}`, which the standard requires{}",
+        similar.as_ref().map(|name| format!("; it has `{name}`, which the standard does not have")).unwrap_or_default()
+    )]
     MissingAttribute {
         /// The name of the element.
         element: String,
         /// The name of the missing attribute.
         attribute: &'static str,
+        /// The name of an attribute that the standard does not have, and that is similar to the missing one.
+        similar: Option<String>,
+    },
+    /// An element contains a text where the standard wants elements only.
+    #[error("<{element}> contains the text `{text}`, expected elements only")]
+    Text {
+        /// The name of the element.
+        element: String,
+        /// The beginning of the text.
+        text: String,
     },
     /// An element has none or both of two attributes.
     #[error(

@@ -5,46 +5,11 @@
 
 use super::element::Element;
 use super::error::{Flaw, ReadError};
-use paracosm_space::nearest;
+use super::row::{Row, Support};
+use paracosm_space::{did_you_mean, nearest};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
-
-/// The way in which an element of a standard is supported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Support {
-    /// The element is read.
-    Read,
-    /// The element and all that it contains have no effect, for the given reason. A note reports it.
-    NoEffect(&'static str),
-    /// A file with the element is refused, for the given reason.
-    Refused(&'static str),
-}
-
-/// Elements of a standard with the same attributes and the same support.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
-    /// The elements that can contain these elements, with `|` between them. `*` stands for all elements.
-    pub parents: &'static str,
-    /// The names of the elements, with `|` between them.
-    pub names: &'static str,
-    /// The names of the attributes of the element, with spaces between them.
-    pub attributes: &'static str,
-    pub support: Support,
-    /// `true` if a parent can contain several of these elements.
-    pub repeats: bool,
-}
-
-/// An element of a standard within another element, and how it is supported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Supported {
-    /// The name of the containing element; `*` if any element can contain it.
-    pub parent: &'static str,
-    /// The name of the element.
-    pub name: &'static str,
-    /// The way in which the element is supported.
-    pub support: Support,
-}
 
 /// The numbers of elements that a parent can contain.
 #[derive(Debug, Clone, Copy)]
@@ -65,40 +30,13 @@ pub(crate) struct Choice {
     pub beside: &'static str,
 }
 
-impl Row {
-    /// Returns the same row of elements of which a parent can contain several.
-    pub const fn several(self) -> Self {
-        Self { repeats: true, ..self }
-    }
-
-    /// Returns each element of the row within each of its parents.
-    pub fn each(&self) -> impl Iterator<Item = Supported> + use<'_> {
-        let Self { names, support, .. } = *self;
-        let within = move |parent| names.split('|').map(move |name| Supported { parent, name, support });
-        self.parents.split('|').flat_map(within)
-    }
-}
-
-/// Describes an element that is read.
-pub(crate) const fn read(parents: &'static str, names: &'static str, attributes: &'static str) -> Row {
-    Row { parents, names, attributes, support: Support::Read, repeats: false }
-}
-
-/// Describes an element that has no effect.
-pub(crate) const fn no_effect(parents: &'static str, names: &'static str, reason: &'static str) -> Row {
-    Row { parents, names, attributes: "", support: Support::NoEffect(reason), repeats: false }
-}
-
-/// Describes an element that is refused.
-pub(crate) const fn refused(parents: &'static str, names: &'static str, reason: &'static str) -> Row {
-    Row { parents, names, attributes: "", support: Support::Refused(reason), repeats: false }
-}
-
 /// The elements of a standard by their parents.
 #[derive(Debug)]
 pub(crate) struct Schema {
     counts: Counts,
     children: BTreeMap<&'static str, BTreeMap<&'static str, &'static Row>>,
+    /// The elements that an element must contain.
+    needed: BTreeMap<&'static str, Vec<&'static str>>,
 }
 
 /// The part of a file that has no effect.
@@ -108,6 +46,8 @@ pub struct NoEffect {
     pub name: String,
     /// The reason.
     pub reason: &'static str,
+    /// The name in the standard that is most similar to a name that the standard does not have; `None` if no name is similar.
+    pub nearest: Option<&'static str>,
     /// The number of times that the file has it.
     pub count: usize,
     /// The line of the first, from 1.
@@ -123,9 +63,9 @@ impl NoEffect {
 
 impl fmt::Display for NoEffect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, reason, count, .. } = self;
+        let Self { name, reason, nearest, count, .. } = self;
         let times = if *count == 1 { String::new() } else { format!(" ({count} times)") };
-        write!(f, "`{name}`{times} has no effect: {reason}")
+        write!(f, "`{name}`{times} has no effect: {reason}{}", did_you_mean(nearest))
     }
 }
 
@@ -136,39 +76,54 @@ const NOT_IN_STANDARD: &str = "the standard does not have this attribute";
 impl Schema {
     /// Makes the table of a standard.
     pub fn new(rows: &'static [Row], counts: Counts) -> Self {
-        let mut children: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
+        let (mut children, mut needed): (BTreeMap<_, BTreeMap<_, _>>, BTreeMap<_, Vec<_>>) = Default::default();
         for row in rows {
-            for parent in row.parents.split('|') {
+            for (parent, is_needed) in row.parents() {
                 for name in row.names.split('|') {
                     children.entry(parent).or_default().insert(name, row);
+                    if is_needed {
+                        needed.entry(parent).or_default().push(name);
+                    }
                 }
             }
         }
-        Self { counts, children }
+        Self { counts, children, needed }
     }
 
-    /// Checks an element and all that it contains. Returns the parts that have no effect.
+    /// Checks an element and all that it contains. Returns the parts that have no effect. An element that is not supported is reported
+    /// before an element that lacks something.
     pub fn check(&self, root: Element<'_, '_>) -> Result<Vec<NoEffect>, ReadError> {
         let mut found = BTreeMap::new();
+        let mut lacks = None;
         // A stack of our own: a file may nest elements deeply.
         let mut open = vec![root];
         while let Some(parent) = open.pop() {
+            if let Some((line, text)) = parent.stray_text() {
+                return Err(parent.error_at(line, Flaw::Text { element: parent.name().to_owned(), text }));
+            }
             let mut seen = Seen::default();
+            let first = open.len();
             for element in parent.elements() {
                 let row = self.row(parent, element)?;
                 self.count(parent, element, row, &mut seen)?;
                 match row.support {
                     Support::Read => {
-                        self.check_attributes(row, element, &mut found);
+                        self.check_attributes(row, element, &mut found)?;
+                        lacks = lacks.or_else(|| self.lacks(row, element));
                         open.push(element);
                     }
                     Support::NoEffect(_) if element.is_empty() => (),
-                    Support::NoEffect(reason) => note(&mut found, element.name().to_owned(), reason, element),
+                    Support::NoEffect(reason) => note(&mut found, element.name().to_owned(), (reason, None), element),
                     Support::Refused(reason) => {
                         return Err(element.error(Flaw::Refused { element: element.name().to_owned(), reason }));
                     }
                 }
             }
+            // The first of the elements is checked next.
+            open[first..].reverse();
+        }
+        if let Some(error) = lacks {
+            return Err(error);
         }
         let mut found: Vec<_> = found.into_values().collect();
         found.sort_by_key(|note| note.line);
@@ -204,17 +159,41 @@ impl Schema {
         Ok(())
     }
 
-    /// Notes the attributes of an element that have no effect. In the table, their names begin with `@`.
-    fn check_attributes(&self, row: &Row, element: Element<'_, '_>, found: &mut BTreeMap<String, NoEffect>) {
-        let known: Vec<&str> = row.attributes.split(' ').collect();
-        for attribute in element.attributes().filter(|attribute| !known.contains(attribute)) {
-            let row = self.children.get(element.name()).and_then(|rows| rows.get(format!("@{attribute}").as_str()));
-            let reason = match row.map(|row| row.support) {
-                Some(Support::NoEffect(reason)) => reason,
-                _ => NOT_IN_STANDARD,
+    /// Checks the attributes of an element, and notes the attributes that have no effect.
+    fn check_attributes(
+        &self,
+        row: &Row,
+        element: Element<'_, '_>,
+        found: &mut BTreeMap<String, NoEffect>,
+    ) -> Result<(), ReadError> {
+        for attribute in element.attributes() {
+            let why = match self.attribute_row(element, attribute) {
+                Some(row) if !row.form.check(element, attribute, row.usual)? => continue,
+                Some(Row { support: Support::NoEffect(reason), .. }) => (*reason, None),
+                _ if row.knows(attribute) => continue,
+                _ => (NOT_IN_STANDARD, nearest(attribute, row.attributes().map(|(name, _)| name))),
             };
-            note(found, format!("{}.{attribute}", element.name()), reason, element);
+            note(found, format!("{}.{attribute}", element.name()), why, element);
         }
+        Ok(())
+    }
+
+    /// Makes the error that an element lacks an attribute or an element that it must have.
+    fn lacks(&self, row: &Row, element: Element<'_, '_>) -> Option<ReadError> {
+        let mut needed = row.attributes().filter(|(_, is_needed)| *is_needed);
+        if let Some((attribute, _)) = needed.find(|(name, _)| !element.has(name)) {
+            let is_strange = |name: &&str| !row.knows(name) && self.attribute_row(element, name).is_none();
+            let similar = nearest(attribute, element.attributes().filter(is_strange)).map(str::to_owned);
+            let name = element.name().to_owned();
+            return Some(element.error(Flaw::MissingAttribute { element: name, attribute, similar }));
+        }
+        let mut needed = self.needed.get(element.name()).into_iter().flatten();
+        needed.find(|name| element.first(name).is_none()).map(|absent| element.lacks(absent))
+    }
+
+    /// Returns the row of an attribute that has no effect.
+    fn attribute_row(&self, element: Element<'_, '_>, attribute: &str) -> Option<&'static Row> {
+        self.children.get(element.name())?.get(format!("@{attribute}").as_str()).copied()
     }
 
     fn row(&self, parent: Element<'_, '_>, element: Element<'_, '_>) -> Result<&'static Row, ReadError> {
@@ -247,10 +226,15 @@ impl Choice {
     }
 }
 
-fn note(found: &mut BTreeMap<String, NoEffect>, name: String, reason: &'static str, element: Element<'_, '_>) {
+fn note(
+    found: &mut BTreeMap<String, NoEffect>,
+    name: String,
+    (reason, nearest): (&'static str, Option<&'static str>),
+    element: Element<'_, '_>,
+) {
     let line = element.line();
     let key = name.clone();
-    let note = found.entry(key).or_insert(NoEffect { name, reason, count: 0, line });
+    let note = found.entry(key).or_insert(NoEffect { name, reason, nearest, count: 0, line });
     note.count += 1;
     note.line = note.line.min(line);
 }

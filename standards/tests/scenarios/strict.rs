@@ -153,24 +153,27 @@ fn a_name_is_taken_once() {
     }
     let message = message_of("catalogs/entities.xosc", "<Pedestrian name", "<Vehicle name=\"car\"/>\n<Pedestrian name");
     assert!(
-        message.starts_with("catalogs/entities.xosc:16: `name=\"car\"` of <Vehicle> is taken: the element in line 5 "),
+        message.starts_with("catalogs/entities.xosc:17: `name=\"car\"` of <Vehicle> is taken: the element in line 5 "),
         "{message}"
     );
 }
 
 #[test]
 fn siblings_of_the_storyboard_have_different_names() {
+    let group = "<ManeuverGroup name=\"group\" maximumExecutionCount=\"1\"><Actors selectTriggeringEntities=\"false\"/></ManeuverGroup>";
+    let act = format!("<Act name=\"act\">{group}</Act>");
     for (found, by, says) in [
-        ("</Story>", "<Act name=\"act\"/></Story>", "68: `name=\"act\"` of <Act> is taken: the element in line 44 "),
-        ("</Act>", "<ManeuverGroup name=\"group\"/></Act>", "`name=\"group\"` of <ManeuverGroup> is taken"),
+        ("</Story>", format!("{act}</Story>"), "68: `name=\"act\"` of <Act> is taken: the element in line 44 "),
+        ("</Act>", format!("{group}</Act>"), "`name=\"group\"` of <ManeuverGroup> is taken"),
         (
             "</CatalogReference>\n        </ManeuverGroup>",
-            "</CatalogReference>\n<CatalogReference catalogName=\"entities\" entryName=\"slow-down\"/></ManeuverGroup>",
+            "</CatalogReference>\n<CatalogReference catalogName=\"entities\" entryName=\"slow-down\"/></ManeuverGroup>"
+                .to_owned(),
             "50: `entryName=\"slow-down\"` of <CatalogReference> is taken: the element in line 47 ",
         ),
-        ("</Story>", "</Story><Story name=\"story\"/>", "`name=\"story\"` of <Story> is taken"),
+        ("</Story>", format!("</Story><Story name=\"story\">{act}</Story>"), "`name=\"story\"` of <Story> is taken"),
     ] {
-        refuses(LEADER, found, by, says);
+        refuses(LEADER, found, &by, says);
     }
 }
 
