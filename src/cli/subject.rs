@@ -7,7 +7,7 @@ use crate::campaign;
 use crate::engine::vehicle::VehicleModel;
 use crate::oracles::Semantics;
 use crate::space::{Domain, Value, did_you_mean, nearest};
-use crate::standards::openscenario::EGO;
+use crate::standards::openscenario::{DURATION, EGO};
 use clap::Args;
 use paracosm_analysis::effects::foreseen;
 use paracosm_campaign::study::Variation;
@@ -32,6 +32,10 @@ pub(super) struct Subject {
     /// Let the driver have this entity of a scenario file [default: Ego, or the first entity with a controller]
     #[arg(long, value_name = "NAME")]
     ego: Option<String>,
+    /// End a run of a scenario file after this time if its stop trigger does not come. A stop trigger at a later time still comes
+    /// [default: 40]
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
     /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver or of the car:
     /// driver.NAME=VALUE, vehicle.NAME=VALUE, vehicle=jointed
     #[arg(long, value_name = "NAME=VALUE")]
@@ -99,6 +103,9 @@ impl Subject {
         }
         if let Some(entity) = &self.ego {
             study = study.fix(EGO, Value::from(entity.as_str()));
+        }
+        if let Some(seconds) = self.duration {
+            study = study.fix(DURATION, Value::from(seconds));
         }
         for text in &self.set {
             let (name, value) = text.split_once('=').ok_or_else(|| {

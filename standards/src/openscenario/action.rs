@@ -1,5 +1,6 @@
 //! Actions as a scenario describes them.
 
+use super::handover::Handover;
 use super::measure::{Metric, MetricKind};
 use super::names::Names;
 use super::position::{Position, Route, Way};
@@ -45,11 +46,8 @@ pub(super) enum Action {
     /// Follows the shortest route to a position.
     Acquire(Position),
     Synchronize(Box<Synchronization>),
-    /// Hands the entity over to its controller.
-    Activate {
-        lateral: Option<bool>,
-        longitudinal: Option<bool>,
-    },
+    /// Changes the controller of the entity.
+    Control(Handover),
     /// Puts the entity into the world.
     Add(Position),
     /// Takes the entity out of the world.
@@ -161,14 +159,7 @@ impl Action {
             "LateralAction" => Self::lateral(inner()?, names),
             "RoutingAction" => Self::routing(inner()?, names),
             "SynchronizeAction" => Self::synchronize(kind, names),
-            "ControllerAction" => {
-                // An action that assigns a controller may activate it, too.
-                let activate = kind.first("ActivateControllerAction").or_else(|| kind.first("AssignControllerAction"));
-                Self::activate(
-                    activate.ok_or_else(|| kind.element.lacks("ActivateControllerAction or AssignControllerAction"))?,
-                )
-            }
-            "ActivateControllerAction" => Self::activate(kind),
+            "ControllerAction" | "ActivateControllerAction" => Handover::read(kind).map(Self::Control),
             "VisibilityAction" => {
                 for attribute in ["sensors", "traffic"] {
                     if !kind.truth_or(attribute, true)? {
@@ -181,12 +172,6 @@ impl Action {
             "AppearanceAction" => Ok(Self::Nothing),
             _ => Err(kind.refused("use a longitudinal, lateral, routing, teleport or controller action")),
         }
-    }
-
-    /// Returns `true` if the action hands an entity over to its controller.
-    pub fn hands_over(&self) -> bool {
-        let is_on = |part: &Option<bool>| *part != Some(false);
-        matches!(self, Self::Activate { lateral, longitudinal } if is_on(lateral) && is_on(longitudinal))
     }
 
     fn synchronize(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
@@ -215,16 +200,6 @@ impl Action {
             steady,
             tolerances: [within("targetToleranceMaster")?, within("targetTolerance")?],
         })))
-    }
-
-    fn activate(node: Node<'_>) -> Result<Self, ReadError> {
-        let truth = |name| node.element.text(name).map(|_| node.truth_or(name, false)).transpose();
-        if node.name() == "AssignControllerAction" {
-            let [lateral, longitudinal] = [truth("activateLateral")?, truth("activateLongitudinal")?];
-            let is_active = [lateral, longitudinal].contains(&Some(true));
-            return Ok(if is_active { Self::Activate { lateral, longitudinal } } else { Self::Nothing });
-        }
-        Ok(Self::Activate { lateral: truth("lateral")?, longitudinal: truth("longitudinal")? })
     }
 
     fn longitudinal(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {

@@ -102,12 +102,13 @@ pub(super) struct Valued<'v> {
 impl Valued<'_> {
     fn written(self, roads: &str) -> Result<Concrete, ReadError> {
         let Self { root, catalogs, map, board, ego } = self;
+        let is_activated = board.activates(ego);
         let ego = board.entities[ego].name.clone();
         let renamed = Renamed::of(&board);
         let notes = renamed.notes().collect();
         let mut writing = Writing { catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
         let mut edits = writing.edits(root.element, root.scope, "", &[])?;
-        if !board.activates(&ego) {
+        if !is_activated {
             let is_first_version = root.child("FileHeader")?.element.text("revMinor") == Some("0");
             let [begin, end] = if is_first_version { ["", ""] } else { ["<ControllerAction>", "</ControllerAction>"] };
             let ego = escaped(&ego);

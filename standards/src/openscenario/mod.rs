@@ -14,6 +14,7 @@ mod elements;
 mod entity;
 mod environment;
 mod export;
+mod handover;
 mod instance;
 #[cfg(test)]
 mod judge;
@@ -51,6 +52,6 @@ mod weather;
 pub use concrete::Concrete;
 pub use elements::elements;
 pub use export::{EgoAs, Export, Original};
-pub use parameters::EGO;
+pub use parameters::{DURATION, EGO};
 pub use program::Xosc;
 pub use value_sets::{DATE, ValueSetFlaw, value_sets};

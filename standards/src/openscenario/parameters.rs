@@ -11,6 +11,10 @@ use paracosm_space::{Domain, Parameter, Value, Values};
 
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
+/// The name of the parameter that gives the least duration in seconds of a run whose stop trigger does not come.
+pub const DURATION: &str = "run_duration";
+/// The names that declarations must not have, with the reasons.
+const RESERVED: [(&str, &str); 2] = [(EGO, "chooses the ego vehicle"), (DURATION, "gives the duration of a run")];
 /// The values of a parameter of the type of truths.
 const TRUTHS: [&str; 2] = ["true", "false"];
 /// The bound of a parameter that is a number without a distribution.
@@ -47,8 +51,8 @@ impl Parameters {
     pub fn read(root: Node<'_>, distribution: Distribution) -> Result<Self, ReadError> {
         let declaration = |element| {
             let node = Node { element, ..root };
-            if element.text("name") == Some(EGO) {
-                return Err(node.unexpected("name", EGO, "another name, because this one chooses the ego vehicle"));
+            if let Some((name, what)) = RESERVED.iter().find(|(name, _)| element.text("name") == Some(name)) {
+                return Err(node.unexpected("name", name, format!("another name, because this one {what}")));
             }
             let demand = Demand::read(node)?;
             let declared = Declaration { text: element.text("value").unwrap_or_default().to_owned(), demand };

@@ -9,7 +9,7 @@ use super::entity::Entity;
 use super::linked;
 use super::local::Local;
 use super::measure::Measure;
-use super::parameters::{EGO, Parameters, declared_kinds, declared_values};
+use super::parameters::{DURATION, EGO, Parameters, declared_kinds, declared_values};
 use super::play::{Stage, check_goals};
 use super::scope::{Node, Scope};
 use super::site::Sites;
@@ -30,12 +30,14 @@ use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 use xxhash_rust::xxh3::Xxh3;
 
-/// The least duration in seconds of a scenario whose stop trigger does not come.
-const LONGEST: f64 = 60.0;
+/// The usual duration in seconds of a run whose stop trigger does not come.
+const USUAL: f64 = 40.0;
 /// The seconds that a scenario goes on after the latest time in its stop trigger.
 const BEYOND: f64 = 1.0;
-/// The greatest duration in seconds of a run.
-const LATEST: f64 = 3600.0;
+/// The greatest duration in seconds of a run: a day.
+const LATEST: f64 = 86_400.0;
+/// The duration of a tick in seconds.
+pub(super) const TICK: f64 = 0.01;
 /// The distance in metres for which the way of the ego vehicle goes on beyond its lane.
 const ONWARD: f64 = 5000.0;
 /// The outermost element of a file.
@@ -201,6 +203,7 @@ impl Xosc {
         parameter.default = Some(usual.as_str().into());
         let chosen = s.parameter(Declared { open: false, ..Declared::open(parameter) }).value();
         let ego = board.entities.iter().position(|entity| chosen == entity.name.as_str().into()).unwrap_or_default();
+        s.note(|| board.handover_remarks(ego, self.document.file()));
         if !board.places(ego) {
             let Entity { name, line, .. } = &board.entities[ego];
             return s.refuse(&format!(
@@ -211,10 +214,13 @@ impl Xosc {
         if let Err(nowhere) = check_goals(&board, &roads.map) {
             return s.refuse(&nowhere.to_string());
         }
+        let mut parameter = Parameter::new(DURATION, Domain::Interval { lo: TICK, hi: LATEST });
+        (parameter.default, parameter.unit) = (Some(USUAL.into()), Some("s".to_owned()));
+        let least = s.parameter(Declared { open: false, ..Declared::open(parameter) }).value();
+        let longest = longest(&board, least.number().unwrap_or(USUAL));
         let lead = Lead::new();
         let conditions: Vec<_> = Stage::conditions(&board).cloned().collect();
         let has_stop = board.stop.is_some();
-        let longest = longest(&board);
         let weather_changes = board.weather_changes();
         let drawn = s.sketch().is_some().then(|| board.clone());
         let stage = match Stage::new(board, roads.map.clone(), ego, lead.clone()) {
@@ -308,12 +314,12 @@ fn folder_of(file: &FilePath) -> PathBuf {
     file.parent().unwrap_or(FilePath::new(".")).to_owned()
 }
 
-/// Returns the duration in seconds of a run in which the stop trigger does not come: time enough for a trigger at a time.
-fn longest(board: &Storyboard) -> f64 {
+/// Returns the duration in seconds of a run in which the stop trigger does not come: `least`, or more if a trigger at a time needs more.
+fn longest(board: &Storyboard, least: f64) -> f64 {
     let conditions = board.stop.iter().flatten().flatten();
     let at_time = conditions.filter(|condition| condition.check.measures == [Measure::Time]);
     let latest = at_time.map(|condition| condition.check.value + condition.delay + BEYOND);
-    latest.fold(LONGEST, f64::max).min(LATEST)
+    latest.fold(least, f64::max).min(LATEST)
 }
 
 /// Returns the ego vehicle, with the way along its lane and straight on.

@@ -2,6 +2,7 @@
 
 use super::action::Action;
 use super::condition::{Condition, Edge, Trigger};
+use super::handover::Handover;
 use super::measure::{Bearing, Goal, Measure};
 use super::story::{Item, Kind, Storyboard};
 use paracosm_engine::object::{Input, Output};
@@ -164,7 +165,8 @@ fn name(action: &Action) -> &'static str {
         Action::Route(_) => "AssignRouteAction",
         Action::Acquire(_) => "AcquirePositionAction",
         Action::Synchronize(_) => "SynchronizeAction",
-        Action::Activate { .. } => "ActivateControllerAction",
+        Action::Control(Handover { assigns: true, .. }) => "AssignControllerAction",
+        Action::Control(_) => "ActivateControllerAction",
         Action::Add(_) => "AddEntityAction",
         Action::Delete => "DeleteEntityAction",
         Action::Nothing => "an action without effect",

@@ -172,29 +172,6 @@ impl Storyboard {
 }
 
 impl Storyboard {
-    /// Returns the index of the entity that the system under test drives if nobody chooses another: `Ego`, or the first entity
-    /// with a controller, or the first entity.
-    pub fn usual_ego(&self) -> usize {
-        let named = self.entities.iter().position(|entity| entity.name == "Ego");
-        named.or_else(|| self.entities.iter().position(|entity| entity.is_controlled)).unwrap_or(0)
-    }
-
-    /// Returns `true` if an action of a story activates the controller of an entity, or says that it is not active.
-    pub fn controls(&self, entity: usize) -> bool {
-        self.items.iter().any(|item| match &item.kind {
-            Kind::Action(actors, Action::Activate { .. }) => actors.contains(&entity),
-            _ => false,
-        })
-    }
-
-    /// Returns `true` if an action activates the controller of an entity.
-    pub fn activates(&self, entity: &str) -> bool {
-        let at_first =
-            |(of, action, _): &(usize, Action, u32)| self.entities[*of].name == entity && action.hands_over();
-        let index = self.entities.iter().position(|known| known.name == entity);
-        index.is_some_and(|index| self.controls(index)) || self.init.iter().any(at_first)
-    }
-
     /// Returns `true` if an initial action gives an entity a place.
     pub fn places(&self, entity: usize) -> bool {
         let puts = |action: &Action| matches!(action, Action::Teleport(_) | Action::Add(_) | Action::Trajectory(_));

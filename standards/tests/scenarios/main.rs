@@ -12,6 +12,7 @@ mod others;
 mod page;
 mod parameters;
 mod places;
+mod runs;
 mod semantics;
 mod strict;
 mod strict_values;

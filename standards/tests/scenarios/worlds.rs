@@ -184,7 +184,7 @@ fn tuples_of_values_are_one_choice() {
     let program = program("slow-leader-tuples.xosc");
     let declaration = program.declare().unwrap();
     let names: Vec<_> = declaration.parameters.iter().map(|declared| declared.parameter.name.as_str()).collect();
-    assert_eq!(names, ["speed|gap", "ego"]);
+    assert_eq!(names, ["speed|gap", "ego", "run_duration"]);
     assert_eq!(declaration.nominal().get("speed|gap"), Some(&Value::from("30|50")));
     let mut test = declaration.nominal();
     test.set("speed|gap", Value::from("20|20"));

@@ -4,6 +4,7 @@ mod entity;
 mod original;
 
 use super::polyline::simplified;
+use super::program::TICK;
 use crate::opendrive::Map;
 use crate::xml::Writer;
 use entity::{Entity, stays};
@@ -16,8 +17,6 @@ pub use original::Original;
 /// The seconds between a trigger and the moment at which a body enters or leaves the world: a tick and a half. An action has its
 /// effect at the end of the tick in which it begins, and ticks are sums of rounded numbers.
 const BEFOREHAND: f64 = 0.015;
-/// The seconds of a tick of a scenario of a file.
-const TICK: f64 = 0.01;
 
 /// The greatest difference in m/s between the recorded speed of an entity of a file and the speed on its trajectory.
 const SPEED: f64 = 0.005;

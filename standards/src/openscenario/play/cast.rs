@@ -15,6 +15,8 @@ pub(in crate::openscenario) struct Cast {
     /// The index of the entity that the system under test drives.
     pub(super) ego: usize,
     pub lead: Lead,
+    /// `true` where the controller of the ego vehicle is active: to the side, and along the way.
+    pub(super) controlled: [bool; 2],
     /// The time of day and the weather.
     pub surroundings: Surroundings,
     /// The seconds since the run began.

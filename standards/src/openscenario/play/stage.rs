@@ -52,7 +52,7 @@ impl Stage {
         let asked =
             Self::conditions(&board).flat_map(|condition| &condition.check.measures).filter_map(Measure::offroad);
         let asked: Vec<usize> = asked.collect();
-        let is_controlled = board.controls(ego);
+        let is_activated = board.activates(ego);
         let Storyboard { entities, variables, surroundings, init, items, stop } = board;
         let mut inputs = 0..;
         let mut watch = |trigger: &Option<Trigger>| trigger.as_ref().map(|trigger| Watch::new(trigger, &mut inputs));
@@ -75,7 +75,7 @@ impl Stage {
         }
         let actors = entities.into_iter().map(Actor::new).collect();
         let mut stage = Self {
-            cast: Cast { map, actors, variables, ego, lead, surroundings, time: 0.0 },
+            cast: Cast { map, actors, variables, ego, lead, controlled: [false; 2], surroundings, time: 0.0 },
             items,
             stop: None,
             behind: None,
@@ -114,7 +114,7 @@ impl Stage {
         let (state, transition) = (State::Running, None);
         stage.items.push(Playing { item, last: 0, state, transition, runs: 0, start: None, stop: None, motions });
         // If nothing activates the controller of the ego vehicle, the controller is active from the beginning.
-        if !is_controlled {
+        if !is_activated {
             stage.cast.lead.hand_over();
         }
         stage.cast.lead.to(stage.cast.actors[ego].motion());

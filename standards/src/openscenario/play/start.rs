@@ -14,9 +14,14 @@ impl Cast {
     pub(super) fn begin(&mut self, entity: usize, action: &Action) -> Result<Option<Motion>, Lost> {
         Ok(match action {
             Action::Nothing => None,
-            Action::Activate { .. } => {
-                if entity == self.ego && action.hands_over() {
-                    self.lead.hand_over();
+            Action::Control(handover) => {
+                if entity == self.ego {
+                    let [lateral, longitudinal] = self.controlled;
+                    self.controlled =
+                        [handover.lateral.unwrap_or(lateral), handover.longitudinal.unwrap_or(longitudinal)];
+                    if self.controlled == [true, true] {
+                        self.lead.hand_over();
+                    }
                 }
                 None
             }
