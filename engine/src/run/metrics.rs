@@ -10,10 +10,15 @@ const STANDING: f64 = 0.1;
 /// The deceleration in m/s² above which the car brakes at a contact. Rolling resistance and noise make less.
 const BRAKING: f64 = 0.5;
 
-/// Returns the measurements of a run at the end of the run.
-pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
-    let car = scene.ego.dynamics().state();
-    let contact = scene.contact.map(|touching| {
+/// Returns the measurements of a run at the end of the run. `contact` is the first contact of the car.
+pub(super) fn measured(scene: &Scene, contact: Option<Contact>, triggered: bool) -> Measurements {
+    Measurements { travelled: scene.ego.travelled(), contact, triggered }
+}
+
+/// Returns the contact of the car at the present tick; `None` without a contact.
+pub(super) fn contact(scene: &Scene) -> Option<Contact> {
+    scene.contact.map(|touching| {
+        let car = scene.ego.dynamics().state();
         let touched = &scene.bodies[touching.body];
         Contact {
             with: scene.name(touching.body).to_owned(),
@@ -23,8 +28,7 @@ pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
             speed: car.speed(),
             other_speed: touched.velocity.norm(),
         }
-    });
-    Measurements { travelled: scene.ego.travelled(), contact, triggered }
+    })
 }
 
 /// Returns the motion of the car at a contact.

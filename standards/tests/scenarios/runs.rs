@@ -118,3 +118,17 @@ fn an_entity_that_gets_a_controller_is_the_usual_ego_vehicle() {
     std::fs::write(&path, assigned).unwrap();
     assert_eq!(nominal(&program(&path)).get("ego"), Some(&Value::from("Leader")));
 }
+
+#[test]
+fn a_contact_that_does_not_end_the_run_is_in_the_measurements() {
+    let (_folder, path) = changed_in(LEADER, ACTIVATION, ACTIVATION);
+    let program = program(&path);
+    let mut test = nominal(&program);
+    (test.set("speed", Value::from(45.0)), test.set("gap", Value::from(20.0)));
+    let outcome = led_with(&program, &test).unwrap();
+    let contact = outcome.measured.unwrap().contact.expect("the ego vehicle goes through the leader");
+    assert_eq!(contact.with, "Leader");
+    assert!((contact.speed - 45.0).abs() < 1e-9 && contact.other_speed < 45.0, "{contact:?}");
+    let trace = outcome.trace.unwrap();
+    assert!((trace.len() - 1) as f64 * trace.dt() > 15.0, "the contact ended the run");
+}
