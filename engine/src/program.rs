@@ -30,8 +30,20 @@ pub struct Program {
     name: Cow<'static, str>,
     about: Cow<'static, str>,
     build: Build,
-    /// The hash of the files from which the program was made.
-    files: Option<String>,
+    files: Option<Files>,
+}
+
+/// The files that the worlds of a program read.
+#[derive(Clone)]
+struct Files {
+    chosen_by: Arc<[String]>,
+    hash: Arc<dyn Fn(&Values) -> Option<String> + Send + Sync>,
+}
+
+impl fmt::Debug for Files {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Files").field("chosen_by", &self.chosen_by).finish_non_exhaustive()
+    }
 }
 
 /// The function of a program.
@@ -121,14 +133,24 @@ impl Program {
         Self { name, about, build: Build::Shared(Arc::new(build)), files: None }
     }
 
-    /// Says the hash of the files from which the program was made, so that a campaign is not continued after a file has changed.
-    pub fn of_files(self, hash: String) -> Self {
-        Self { files: Some(hash), ..self }
+    /// Says which files the worlds read, so that a campaign is not continued after a file has changed. `hash` returns the hash of the
+    /// files of a test; `None` if the test reads none. The parameters `chosen_by` choose among files.
+    pub fn of_files(
+        self,
+        chosen_by: impl IntoIterator<Item = String>,
+        hash: impl Fn(&Values) -> Option<String> + Send + Sync + 'static,
+    ) -> Self {
+        Self { files: Some(Files { chosen_by: chosen_by.into_iter().collect(), hash: Arc::new(hash) }), ..self }
     }
 
-    /// Returns the hash of the files from which the program was made; `None` if it was made from none.
-    pub fn files_hash(&self) -> Option<&str> {
-        self.files.as_deref()
+    /// Returns the hash of the files that the world of a test reads; `None` if it reads none.
+    pub fn files_hash(&self, test: &Values) -> Option<String> {
+        self.files.as_ref().and_then(|files| (files.hash)(test))
+    }
+
+    /// Returns the names of the parameters that choose among files.
+    pub fn files_chosen_by(&self) -> &[String] {
+        self.files.as_ref().map_or(&[], |files| &files.chosen_by)
     }
 
     /// Returns the name of the scenario.

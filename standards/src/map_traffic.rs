@@ -21,7 +21,10 @@ use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
+use xxhash_rust::xxh3::xxh3_128;
 
+/// The parameter with the path of the file of the roads.
+const ROADS: &str = "roads";
 /// The name of the town that comes with the software.
 const TOWN: &str = "town";
 /// The speed limit in m/s where the map says nothing: 50 km/h.
@@ -56,7 +59,12 @@ const FORESEEN: f64 = 300.0;
 pub fn map_traffic() -> Program {
     let known = Arc::new(Known::default());
     let about = "a way over the roads of any map (OpenDRIVE), in traffic";
-    Program::of("map-traffic", about, move |s| build(&known, s))
+    let reads = known.clone();
+    Program::of("map-traffic", about, move |s| build(&known, s)).of_files([ROADS.to_owned()], move |test| {
+        let file = test.get(ROADS)?.to_string();
+        let read = if file == TOWN { None } else { read(&reads, &file).ok() }?;
+        Some(format!("{:032x}", xxh3_128(read.text.as_bytes())))
+    })
 }
 
 /// The networks of the files that were read, by the value of the parameter.
@@ -69,6 +77,8 @@ struct Roads {
     things: Arc<[Thing]>,
     /// The remarks on the file.
     notes: Arc<[String]>,
+    /// The text of the file.
+    text: Arc<str>,
 }
 
 /// The reason why the roads of a test cannot be used.
@@ -88,7 +98,7 @@ enum NoRoads {
 }
 
 fn build(known: &Known, s: &mut Scenario) {
-    let roads = s.text("roads", TOWN).value();
+    let roads = s.text(ROADS, TOWN).value();
     let cars = s.interval("cars", 0.0..=40.0).default(12.0).value().round() as usize;
     let route = s.choice("route", [1, 2, 3, 4, 5, 6, 7, 8]).default(1).value();
     let pace = s.interval("pace", 0.6..=1.2).default(1.0).value();
@@ -99,7 +109,7 @@ fn build(known: &Known, s: &mut Scenario) {
     let [fog, light, rain] = air.map(|(name, nominal)| s.nominal(name, 0.0..=1.0, nominal).atmospheric());
     let fullness = s.nominal("roadside", 0.0..=1.0, 0.0).value();
 
-    let planned = read(known, &roads).and_then(|Roads { network, things, notes }| {
+    let planned = read(known, &roads).and_then(|Roads { network, things, notes, .. }| {
         s.note(|| notes.to_vec());
         let begin = |seed| places(&network, &things, seed);
         let way = Way::drawn(&network, &roads, begin(route as u64))?;
@@ -145,7 +155,7 @@ fn read(known: &Known, roads: &str) -> Result<Roads, NoRoads> {
     add_limits(&mut map);
     let network = map.network().map_err(|error| NoRoads::Network { file: roads.to_owned(), error: error.into() })?;
     let notes = map.notes.iter().map(|note| note.in_file(file)).collect();
-    let read = Roads { things: Thing::all(&map, &network), network: network.clone(), notes };
+    let read = Roads { things: Thing::all(&map, &network), network: network.clone(), notes, text: map.text.clone() };
     known.insert(roads.to_owned(), read.clone());
     Ok(read)
 }

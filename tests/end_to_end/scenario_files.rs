@@ -448,11 +448,18 @@ fn a_campaign_is_not_resumed_after_a_road_that_a_parameter_chooses_has_changed()
                   </DistributionSet></DeterministicSingleParameterDistribution></Deterministic>";
     fs::write(dir.path().join("slow-leader-variation.xosc"), variation.replace("</Deterministic>", chosen))
         .expect("it is writable");
-    let run = |more: &[&str]| {
-        fuzz(dir.path(), &[&["slow-leader-variation.xosc", "--budget", "6", "--out", "c"][..], more].concat())
-    };
-    succeeds(run(&[]));
-    succeeds(run(&["--resume"]));
+    let given = ["slow-leader-variation.xosc", "--budget", "6"];
+    let other = [&given[..], &["--set", "road=other.xodr"]].concat();
+    let opened = [&["slow-leader.xosc"], &given[1..], &["--open", "road=straight.xodr,other.xodr"]].concat();
+    let of_map = ["map-traffic", "--set", "roads=other.xodr", "--set", "cars=0", "--budget", "2"];
+    let all: [(&str, &[&str]); 4] = [("a", &given), ("b", &other), ("c", &opened), ("d", &of_map)];
+    let run = |(out, given): (&str, &[&str]), more: &[&str]| fuzz(dir.path(), &[given, &["--out", out], more].concat());
+    for one in all {
+        succeeds(run(one, &[]));
+        succeeds(run(one, &["--resume"]));
+    }
     fs::write(dir.path().join("other.xodr"), road.replacen("name=", " name=", 1)).expect("it is writable");
-    refused(&run(&["--resume"]), &["`scenario_files`"]);
+    for one in all {
+        refused(&run(one, &["--resume"]), &["`scenario_files`"]);
+    }
 }

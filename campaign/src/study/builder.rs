@@ -414,6 +414,7 @@ impl StudyBuilder {
             }
             study = study.with_references(references)?;
         }
+        study.hash_files()?;
         // The strategy checks that it can do what is asked of it.
         study.generator(&[])?;
         Ok(study)

@@ -21,6 +21,7 @@ mod rates;
 mod requirement;
 mod requirements_file;
 mod sampling;
+mod scenario_files;
 mod subject;
 mod toml_file;
 

@@ -123,7 +123,7 @@ impl Simulation {
         let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
         let simulation = Self {
             scenario: program.name().to_owned(),
-            files: program.files_hash().map(str::to_owned),
+            files: None,
             vehicle: VehicleSetup::default(),
             fixed: fixed.collect(),
             driver: DriverChoice::usual(),

@@ -190,15 +190,6 @@ impl Opened {
         }
     }
 
-    /// Returns the values that the distribution lists; none for an interval.
-    pub fn levels(&self) -> Vec<Value> {
-        match &self.values {
-            Choices::Tuples(levels) => levels.iter().map(|level| self.value(level)).collect(),
-            Choices::Range { levels, .. } | Choices::Chance(Domain::Choice(levels), _) => levels.clone(),
-            Choices::Chance(Domain::Interval { .. }, _) => Vec::new(),
-        }
-    }
-
     /// Returns the tuples of values of parameters that change together; `None` for a single parameter.
     pub fn tuples(&self) -> Option<Vec<Value>> {
         match &self.values {

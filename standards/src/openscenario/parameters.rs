@@ -199,19 +199,20 @@ impl Parameters {
         own.map_or_else(|| value.clone(), |(_, text)| declaration.demand.kind.value(&text))
     }
 
-    /// Returns the listed values of the open parameters of tests on which a text depends, each with the name of its parameter.
-    pub fn choices_behind(&self, text: &str) -> Vec<(String, Value)> {
+    /// Returns the names of the parameters of tests on whose values a text depends.
+    pub fn behind(&self, text: &str) -> Vec<String> {
         let mut open: Vec<&str> = references(text).collect();
-        let (mut seen, mut choices) = (Vec::new(), Vec::new());
+        let (mut seen, mut names) = (Vec::new(), Vec::new());
         while let Some(name) = open.pop() {
             let Some(at) = self.find(name).filter(|at| !seen.contains(at)) else { continue };
             seen.push(at);
             match self.distribution.of(name) {
-                Some(opened) => choices.extend(opened.levels().into_iter().map(|value| (opened.name(), value))),
-                None => open.extend(references(&self.declarations[at].text)),
+                Some(opened) => names.push(opened.name()),
+                None if self.declarations[at].follows() => open.extend(references(&self.declarations[at].text)),
+                None => names.push(name.to_owned()),
             }
         }
-        choices
+        names
     }
 
     /// Returns the parameters of tests behind declared parameters for whose values, one by one, constraints have to be

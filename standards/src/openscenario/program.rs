@@ -22,7 +22,7 @@ use paracosm_engine::object::{Geometric, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
 use paracosm_engine::vehicle::Vehicle;
 use paracosm_engine::{AutonomousVehicle, Constraint, Declared, Lead, Monitor, Pose, Program, Scenario};
-use paracosm_space::{Domain, Parameter};
+use paracosm_space::{Domain, Parameter, Values};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path as FilePath, PathBuf};
@@ -151,40 +151,41 @@ impl Xosc {
 
     /// Makes the program of the scenario. Its name is the path of the file.
     pub fn program(self) -> Program {
-        let hash = self.files_hash();
-        Program::of(self.name.clone(), "a scenario of a file", move |s| self.build(s)).of_files(hash)
+        let scenario = Arc::new(self);
+        let (name, chosen_by) = (scenario.name.clone(), scenario.roads_chosen_by());
+        let reads = scenario.clone();
+        Program::of(name, "a scenario of a file", move |s| scenario.build(s))
+            .of_files(chosen_by, move |test| Some(reads.files_hash(test)))
     }
 
-    /// Returns the 128-bit XXH3 of the scenario, its catalogs, the roads that have been read, and the roads that the distribution of
-    /// the parameters can choose.
-    fn files_hash(&self) -> String {
-        let chosen = self.roads_to_choose().unwrap_or_default();
-        let roads = self.roads.lock().unwrap_or_else(PoisonError::into_inner);
-        let read = roads.iter().map(|(name, roads)| (name.clone(), roads.map.text.to_string()));
-        let maps: BTreeMap<String, String> = chosen.into_iter().chain(read).collect();
+    /// Returns the names of the parameters of tests that choose the file of the roads.
+    fn roads_chosen_by(&self) -> Vec<String> {
+        let named = |tree: &roxmltree::Document<'_>| {
+            let root = self.document.root(tree, ROOT)?;
+            let logic = root.child("RoadNetwork")?.child("LogicFile")?;
+            Ok(self.parameters.behind(logic.required("filepath")?))
+        };
+        self.document.tree().and_then(|tree| named(&tree)).unwrap_or_default()
+    }
+
+    /// Returns the 128-bit XXH3 of the scenario, its catalogs, and the roads of a test. Roads that cannot be read make the test invalid.
+    fn files_hash(&self, test: &Values) -> String {
+        let roads = self.roads_of(test).ok();
         let mut hash = Xxh3::new();
-        let maps = maps.values().map(String::as_str);
-        for text in [self.document.text()].into_iter().chain(self.catalogs.texts()).chain(maps) {
+        let map = roads.iter().map(|roads| &*roads.map.text);
+        for text in [self.document.text()].into_iter().chain(self.catalogs.texts()).chain(map) {
             hash.update(&(text.len() as u64).to_le_bytes());
             hash.update(text.as_bytes());
         }
         format!("{:032x}", hash.digest128())
     }
 
-    /// Returns the names and the texts of the files of roads that the values of an open parameter name. A file that cannot be read
-    /// makes its tests invalid.
-    fn roads_to_choose(&self) -> Result<Vec<(String, String)>, ReadError> {
+    fn roads_of(&self, test: &Values) -> Result<Roads, ReadError> {
         let tree = self.document.tree()?;
         let none = Scope::default();
         let root = Node { element: self.document.root(&tree, ROOT)?, scope: &none };
-        let logic = root.child("RoadNetwork")?.child("LogicFile")?;
-        let mut files = Vec::new();
-        for (name, value) in self.parameters.choices_behind(logic.element.required("filepath")?) {
-            let scope = self.parameters.values(root, &[(name, value)].into_iter().collect())?;
-            let named = Node { scope: &scope, ..logic }.required("filepath")?.into_owned();
-            files.extend(std::fs::read_to_string(self.folder.join(&named)).ok().map(|text| (named, text)));
-        }
-        Ok(files)
+        let scope = self.parameters.values(root, test)?;
+        self.roads_in(Node { scope: &scope, ..root }.child("RoadNetwork")?.child("LogicFile")?)
     }
 
     fn build(&self, s: &mut Scenario) {
