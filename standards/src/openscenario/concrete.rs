@@ -12,6 +12,7 @@ use super::scope::{Node, Scope};
 use super::site::Sites;
 use super::story::Storyboard;
 use super::unique::Renamed;
+use super::version::Version;
 use crate::opendrive::Map;
 use crate::xml::{Edits, Element, ReadError, escaped};
 use paracosm_space::Values;
@@ -106,11 +107,12 @@ impl Valued<'_> {
         let ego = board.entities[ego].name.clone();
         let renamed = Renamed::of(&board);
         let notes = renamed.notes().collect();
-        let mut writing = Writing { catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, notes };
+        let version = Version::usual();
+        let mut writing = Writing { catalogs, roads, ego: &ego, renamed: &renamed, depth: 0, version, notes };
         let mut edits = writing.edits(root.element, root.scope, "", &[])?;
+        edits.set(root.child("FileHeader")?.element, "revMinor", &writing.version.minor().to_string());
         if !is_activated {
-            let is_first_version = root.child("FileHeader")?.element.text("revMinor") == Some("0");
-            let [begin, end] = if is_first_version { ["", ""] } else { ["<ControllerAction>", "</ControllerAction>"] };
+            let [begin, end] = ["<ControllerAction>", "</ControllerAction>"];
             let ego = escaped(&ego);
             edits.append(
                 root.child("Storyboard")?.child("Init")?.child("Actions")?.element,
@@ -134,6 +136,7 @@ struct Writing<'w> {
     renamed: &'w Renamed<'w>,
     /// The number of entries of catalogs around the present element.
     depth: usize,
+    version: Version,
     notes: Vec<String>,
 }
 
@@ -151,6 +154,7 @@ impl Writing<'_> {
         // A stack of our own: a file may nest elements deeply.
         let mut open = vec![(root, Arc::new(scope.clone()), Arc::<str>::from(around))];
         while let Some((element, mut scope, around)) = open.pop() {
+            self.version.hold(element)?;
             // The parameters of the whole scenario are in the scope already.
             if declarations(element).next().is_some() && element.name() != ROOT {
                 let given = if element == root { assignments } else { &[] };

@@ -2,6 +2,7 @@
 //! checker the test is skipped; `tests/run` installs it.
 
 use super::elements::ROWS;
+use super::version::{ATTRIBUTES_OF_NEWEST, OF_NEWEST};
 use crate::xml::{Form, Row, Support};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,14 +15,23 @@ const FOLDER: &str = "../target/checker/lib/python3.11/site-packages/qc_openscen
 /// An element or an attribute in the schemas: the number of versions that have it, and the number that demand it.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct Seen {
+    /// The index of the last version without it, from 1; 0 if the first version has it.
+    absent: usize,
     versions: usize,
     demanded: usize,
 }
 
 impl Seen {
-    fn add(&mut self, is_demanded: bool) {
+    fn add(&mut self, version: usize, is_demanded: bool) {
+        if self.versions == 0 {
+            self.absent = version;
+        }
         self.versions += 1;
         self.demanded += usize::from(is_demanded);
+    }
+
+    fn is_of_newest(self) -> bool {
+        self.absent == VERSIONS.len() - 1
     }
 
     fn is_always_demanded(self) -> bool {
@@ -72,7 +82,7 @@ fn particles<'a>(
 }
 
 impl Schemas {
-    fn add(&mut self, text: &str) {
+    fn add(&mut self, version: usize, text: &str) {
         let tree = Document::parse(text).expect("the schema is well-formed");
         let root = tree.root_element();
         let whole = root.children().find(|node| node.tag_name().name() == "element").expect("an outermost element");
@@ -89,14 +99,14 @@ impl Schemas {
             });
             for (name, (kind, is_demanded)) in within {
                 let key = (parent.to_owned(), name.to_owned());
-                self.elements.entry(key).or_default().add(is_demanded);
-                self.add_attributes(root, parent, name, kind);
+                self.elements.entry(key).or_default().add(version, is_demanded);
+                self.add_attributes(root, version, [parent, name, kind]);
                 open.push((name, kind));
             }
         }
     }
 
-    fn add_attributes(&mut self, root: Node<'_, '_>, parent: &str, name: &str, kind: &str) {
+    fn add_attributes(&mut self, root: Node<'_, '_>, version: usize, [parent, name, kind]: [&str; 3]) {
         let attributes = root
             .children()
             .find(|node| node.tag_name().name() == "complexType" && node.attribute("name") == Some(kind));
@@ -106,7 +116,7 @@ impl Schemas {
             }
             let of = attribute.attribute("name").expect("an attribute has a name");
             let key = (parent.to_owned(), name.to_owned(), of.to_owned());
-            self.attributes.entry(key).or_default().add(attribute.attribute("use") == Some("required"));
+            self.attributes.entry(key).or_default().add(version, attribute.attribute("use") == Some("required"));
             let kind = attribute.attribute("type").unwrap_or_default();
             let values = root
                 .children()
@@ -170,11 +180,11 @@ impl Schemas {
 fn the_table_has_the_elements_and_attributes_of_the_schemas() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(FOLDER);
     let mut schemas = Schemas::default();
-    for version in VERSIONS {
+    for (index, version) in VERSIONS.into_iter().enumerate() {
         let Ok(text) = fs::read_to_string(folder.join(version).join("OpenSCENARIO.xsd")) else {
             return eprintln!("no schema of version {version}: the test is skipped");
         };
-        schemas.add(&text);
+        schemas.add(index, &text);
     }
     let mut wrong = Vec::new();
     ROWS.iter().for_each(|row| schemas.check(row, &mut wrong));
@@ -198,6 +208,27 @@ fn the_table_has_the_elements_and_attributes_of_the_schemas() {
             wrong.push(format!("the table lacks {attribute} of {name} in {parent}"));
         }
     }
+    // The elements of the newest version, of which no older version has one elsewhere.
+    let is_supported = |name: &str| of(name).any(|row| !matches!(row.support, Support::Refused(_)));
+    let mut newest: BTreeMap<&str, bool> = BTreeMap::new();
+    for ((parent, name), seen) in
+        schemas.elements.iter().filter(|((parent, name), _)| is_read(parent) && is_supported(name))
+    {
+        *newest.entry(name).or_insert(true) &= seen.is_of_newest();
+        if seen.is_of_newest() && !newest[name.as_str()] && !OF_NEWEST.contains(&parent.as_str()) {
+            println!("{name} in {parent} is of the newest version");
+        }
+    }
+    let newest: Vec<&str> = newest.into_iter().filter(|(_, is_newest)| *is_newest).map(|(name, _)| name).collect();
+    assert_eq!(newest, OF_NEWEST);
+    let mut attributes: BTreeSet<(&str, &str)> = BTreeSet::new();
+    for ((parent, name, attribute), seen) in &schemas.attributes {
+        let is_old = !schemas.elements[&(parent.clone(), name.clone())].is_of_newest();
+        if is_read(parent) && is_supported(name) && is_old && seen.is_of_newest() {
+            attributes.insert((name, attribute));
+        }
+    }
+    assert_eq!(attributes, ATTRIBUTES_OF_NEWEST.into_iter().collect());
     assert!(schemas.elements.len() > 400 && schemas.attributes.len() > 300, "{}", schemas.elements.len());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -26,6 +26,11 @@ impl<'a, 'i> Element<'a, 'i> {
         Self { source, node }
     }
 
+    /// Returns the outermost element of the file.
+    pub fn outermost(self) -> Self {
+        Self { node: self.node.document().root_element(), ..self }
+    }
+
     /// Returns the name of the element without its namespace.
     pub fn name(&self) -> &'a str {
         self.node.tag_name().name()
