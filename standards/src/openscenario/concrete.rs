@@ -16,6 +16,7 @@ use super::version::Version;
 use crate::opendrive::Map;
 use crate::xml::{Edits, Element, ReadError, escaped};
 use paracosm_space::Values;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A scenario of a file with the values of one test.
@@ -161,17 +162,24 @@ impl Writing<'_> {
                 declare(element, Arc::make_mut(&mut scope), given)?;
             }
             for declaration in declarations(element) {
+                // A later parameter hides an earlier one with its name, and all values are written.
+                let same = |other: &Element<'_, '_>| other.text("name") == declaration.text("name");
+                if declarations(element).filter(same).last() != Some(declaration) {
+                    edits.replace(declaration, String::new());
+                    continue;
+                }
                 let value = declaration.text("name").and_then(|name| scope.get(name));
                 edits.set(declaration, "value", value.unwrap_or_default());
                 open.extend(declaration.elements().map(|group| (group, scope.clone(), around.clone())));
             }
             let expressions = element.attributes().filter_map(|name| Some((name, element.text(name)?)));
             for (name, text) in expressions.filter(|(_, text)| text.starts_with("${")) {
-                // An expression that has no value here stands where nothing reads it, such as in the name of a condition.
-                if let Ok(value) = scope.resolve(text) {
-                    edits.set(element, name, &value);
-                }
+                // An expression that has no value here stands where nothing reads it, such as in the name of a condition. The checker
+                // of ASAM wants sound expressions everywhere, so the signs of an expression are left out.
+                let plain = || text.replace(['$', '{', '}'], "").into();
+                edits.set(element, name, &scope.resolve(text).unwrap_or_else(|_| plain()));
             }
+            self.tell_properties_apart(element, &mut edits);
             let node = Node { element, scope: &scope };
             let is_ego = element.name() == "ScenarioObject" && node.text("name")?.as_deref() == Some(self.ego);
             if is_ego && element.first("ObjectController").is_none() {
@@ -186,6 +194,25 @@ impl Writing<'_> {
             }
         }
         Ok(edits)
+    }
+
+    /// Gives the second and further properties of a name other names: the checker of ASAM wants different names (rule
+    /// `reference_control.unique_element_names_on_same_level`).
+    fn tell_properties_apart<'a>(&mut self, element: Element<'a, 'a>, edits: &mut Edits<'a>) {
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        for property in element.all("Property") {
+            let Some(name) = property.text("name") else { continue };
+            let count = counts.entry(name).or_default();
+            *count += 1;
+            if *count > 1 {
+                let new = format!("{name} {count}");
+                let (file, line) = (property.file().display(), property.line());
+                self.notes.push(format!(
+                    "{file}:{line}: the property `{name}` is called `{new}`, because another one has its name"
+                ));
+                edits.set(property, "name", &new);
+            }
+        }
     }
 
     /// Writes the new name of an element of the storyboard, or of the element to which a condition refers. Returns the names of the

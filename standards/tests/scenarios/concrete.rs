@@ -9,6 +9,7 @@ use paracosm_space::{Value, Values};
 use paracosm_standards::openscenario::{Concrete, Xosc};
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 fn read(path: &Path) -> Xosc {
@@ -84,9 +85,28 @@ fn the_controller_of_the_chosen_ego_vehicle_is_activated() {
     assert!(concrete.scenario.contains(activation), "{}", concrete.scenario);
     let leader = concrete.scenario.find("name=\"Leader\"").unwrap();
     assert!(concrete.scenario[leader..].contains("<Controller name=\"system under test\">"));
-    let (_folder, first) = changed_in("slow-leader.xosc", "revMinor=\"3\"", "revMinor=\"0\"");
-    let concrete = same_when_written(&first, &test(&first, &[("ego", "Leader".into())]));
-    assert!(concrete.scenario.contains("<PrivateAction><ActivateControllerAction"), "{}", concrete.scenario);
+}
+
+#[test]
+fn an_export_has_the_version_that_all_its_parts_have() {
+    let version = |folder: &TempDir, path: &Path, catalog: (&str, &str)| {
+        let file = folder.path().join("catalogs/entities.xosc");
+        let text = fs::read_to_string(&file).unwrap().replacen("revMinor=\"3\"", "revMinor=\"0\"", 1);
+        fs::write(&file, text.replacen(catalog.0, catalog.1, 1)).unwrap();
+        let scenario = same_when_written(path, &test(path, &[])).scenario;
+        let at = scenario.find("revMinor=\"").unwrap() + "revMinor=\"".len();
+        scenario[at..=at].to_owned()
+    };
+    for (minor, catalog, expected) in [
+        ("3", ("", ""), "3"),
+        ("2", ("", ""), "2"),
+        ("0", ("", ""), "2"),
+        ("0", ("revMinor=\"0\"", "revMinor=\"3\""), "3"),
+        ("1", ("</Axles>", "</Axles><TrailerHitch dx=\"1\"/>"), "3"),
+    ] {
+        let (folder, path) = changed_in("slow-leader.xosc", "revMinor=\"3\"", &format!("revMinor=\"{minor}\""));
+        assert_eq!(version(&folder, &path, catalog), expected, "{minor} {catalog:?}");
+    }
 }
 
 #[test]
@@ -177,4 +197,71 @@ fn scenarios_of_others_are_written_and_read_with_the_same_traces() {
         }
     }
     assert!(count >= 30, "{count} scenarios");
+}
+
+#[test]
+fn a_second_property_of_a_name_and_an_expression_without_a_value_have_other_names() {
+    let twice = "<Properties><Property name=\"colour\" value=\"blue\"/>";
+    let (folder, path) =
+        changed_in("slow-leader.xosc", "name=\"5 s after the maneuver\"", "name=\"${5 s + _ + $gap}\"");
+    let catalog = folder.path().join("catalogs/entities.xosc");
+    let text = fs::read_to_string(&catalog).unwrap().replacen("<Properties>", twice, 1);
+    fs::write(&catalog, text).unwrap();
+    let (_folder, _, concrete) = written(&path, &test(&path, &[]));
+    for part in
+        ["name=\"colour\" value=\"blue\"", "name=\"colour 2\" value=\"red\"", "<Condition name=\"5 s + _ + gap\""]
+    {
+        assert!(concrete.scenario.contains(part), "{part} is missing in {}", concrete.scenario);
+    }
+    assert!(concrete.notes[0].contains("the property `colour` is called `colour 2`"), "{:?}", concrete.notes);
+}
+
+/// Returns the exports of the scenarios of others, each in a folder of its own.
+fn exports_of_others(folder: &Path) -> Vec<std::path::PathBuf> {
+    let Some(others) = files_of_others() else { return Vec::new() };
+    let mut files = Vec::new();
+    for suite in ["alks/logical_scenarios", "ncap/OpenSCENARIO/NCAP", "esmini/resources/xosc"] {
+        for path in with_ending(&others.join(suite), "xosc") {
+            let Ok(scenario) = Xosc::read(&path) else { continue };
+            let Ok(declaration) = Xosc::read(&path).map(Xosc::program).unwrap().declare() else { continue };
+            let Ok(concrete) = scenario.concrete(&declaration.nominal(), "roads.xodr") else { continue };
+            let case = folder.join(files.len().to_string());
+            fs::create_dir(&case).unwrap();
+            fs::write(case.join("roads.xodr"), concrete.roads.as_bytes()).unwrap();
+            files.push(case.join("case.xosc"));
+            fs::write(&files[files.len() - 1], concrete.scenario).unwrap();
+        }
+    }
+    files
+}
+
+#[test]
+fn exported_storyboards_of_others_pass_the_quality_checker_of_asam() {
+    let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/checker/bin/python3");
+    let found = Command::new(&python).args(["-c", "import qc_openscenario"]).stderr(Stdio::null()).status();
+    let folder = tempfile::tempdir().unwrap();
+    let files = exports_of_others(folder.path());
+    if files.is_empty() || !found.is_ok_and(|status| status.success()) {
+        return eprintln!("no checker of ASAM, or no scenarios of others: the test is skipped");
+    }
+    assert!(files.len() >= 40, "{} files", files.len());
+    let program = "import sys; from qc_openscenario.main import main\n\
+                   for file in sys.argv[1:]: sys.argv = ['qc_openscenario', '-c', file + '.xml']; main()";
+    for file in &files {
+        let (input, output) = (file.display(), file.with_extension("xqar"));
+        let settings = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Config><Param name=\"InputFile\" value=\"{input}\"/>\
+             <CheckerBundle application=\"xoscBundle\"><Param name=\"resultFile\" value=\"{}\"/></CheckerBundle></Config>",
+            output.display()
+        );
+        fs::write(format!("{input}.xml"), settings).unwrap();
+    }
+    let run = Command::new(&python).args(["-c", program]).args(&files).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    for file in &files {
+        let report = fs::read_to_string(file.with_extension("xqar")).unwrap();
+        assert!(report.matches("status=\"completed\"").count() >= 15, "{report}");
+        let text = fs::read_to_string(file).unwrap();
+        assert!(!report.contains("<Issue"), "{report}\n{}", &text[..200]);
+    }
 }
