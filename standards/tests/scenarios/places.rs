@@ -245,10 +245,42 @@ fn a_set_of_very_many_values_is_read_soon() {
     assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
 }
 
+/// Adds a road to the map of a folder, to which the first road does not lead.
+fn add_second_road(folder: &std::path::Path) {
+    let map = folder.join("straight.xodr");
+    let text = std::fs::read_to_string(&map).unwrap();
+    let (start, close) = (text.find("<road ").unwrap(), text.find("</road>").unwrap() + "</road>".len());
+    let second = text[start..close].replacen("id=\"1\"", "id=\"2\"", 1).replacen(" y=\"0", " y=\"500", 1);
+    std::fs::write(&map, format!("{}{second}{}", &text[..close], &text[close..])).unwrap();
+}
+
+fn waypoint(position: &str) -> String {
+    format!("<Waypoint routeStrategy=\"shortest\"><Position>{position}</Position></Waypoint>")
+}
+
+#[test]
+fn a_route_or_a_target_of_an_action_without_a_way_is_refused() {
+    let here = waypoint("<LanePosition roadId=\"1\" laneId=\"-1\" s=\"10\"/>");
+    let there = waypoint("<LanePosition roadId=\"2\" laneId=\"-1\" s=\"10\"/>");
+    let assign =
+        format!("<AssignRouteAction><Route name=\"r\" closed=\"false\">{here}{there}</Route></AssignRouteAction>");
+    let acquire =
+        "<AcquirePositionAction><Position><WorldPosition x=\"9000\" y=\"9000\"/></Position></AcquirePositionAction>";
+    for (action, expected) in
+        [(&*assign, "no road leads from road `1` to road `2`"), (acquire, "the way leads to a place beside all roads")]
+    {
+        let by = format!("<PrivateAction><RoutingAction>{action}</RoutingAction></PrivateAction>");
+        let (folder, path) = changed_in("slow-leader.xosc", ACTIVATION, &by);
+        add_second_road(folder.path());
+        let declared = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program().declare();
+        let message = declared.unwrap_err().to_string();
+        let says = format!("bad.xosc:55: the action `activation` cannot begin: {expected}");
+        assert!(message.contains(&says), "{message}");
+    }
+}
+
 #[test]
 fn a_condition_on_a_place_of_a_route_without_a_way_is_refused() {
-    let waypoint =
-        |position: &str| format!("<Waypoint routeStrategy=\"shortest\"><Position>{position}</Position></Waypoint>");
     let [here, there] = [10, 400].map(|s| waypoint(&format!("<LanePosition roadId=\"1\" laneId=\"-1\" s=\"{s}\"/>")));
     let [other, beside] =
         ["<LanePosition roadId=\"2\" laneId=\"-1\" s=\"10\"/>", "<WorldPosition x=\"9000\" y=\"9000\"/>"].map(waypoint);
@@ -266,12 +298,7 @@ fn a_condition_on_a_place_of_a_route_without_a_way_is_refused() {
         );
         let by = format!("{}<ConditionGroup>", stop_trigger(&condition));
         let (folder, path) = changed_in("slow-leader.xosc", "<StopTrigger><ConditionGroup>", &by);
-        // A second road, to which the first one does not lead.
-        let map = folder.path().join("straight.xodr");
-        let text = std::fs::read_to_string(&map).unwrap();
-        let (start, close) = (text.find("<road ").unwrap(), text.find("</road>").unwrap() + "</road>".len());
-        let second = text[start..close].replacen("id=\"1\"", "id=\"2\"", 1).replacen(" y=\"0", " y=\"500", 1);
-        std::fs::write(&map, format!("{}{second}{}", &text[..close], &text[close..])).unwrap();
+        add_second_road(folder.path());
         let declared = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program().declare();
         match expected {
             None => assert!(declared.is_ok(), "{declared:?}"),

@@ -31,6 +31,8 @@ pub(in crate::openscenario) enum Lost {
     Own { entity: String },
     #[error("a waypoint of the route is beside all roads")]
     OffRoute,
+    #[error("the way leads to a place beside all roads")]
+    Beside,
     #[error("no road leads from road `{from}` to road `{to}`")]
     NoRoute { from: String, to: String },
 }

@@ -120,7 +120,7 @@ impl Cast {
             Action::Acquire(position) => {
                 let from = self.on_lane(entity)?;
                 let Whereabouts::OnLane(to) = find(position, &self.actors, &self.map)? else {
-                    return Err(Lost::OffRoute);
+                    return Err(Lost::Beside);
                 };
                 self.actors[entity].route = Some(through(&[from, to], &self.map)?);
                 None
