@@ -33,11 +33,14 @@ pub struct Program {
     files: Option<Files>,
 }
 
+/// A function that returns the hash of the files of a test.
+type Hash = dyn Fn(&Values) -> Option<String> + Send + Sync;
+
 /// The files that the worlds of a program read.
 #[derive(Clone)]
 struct Files {
     chosen_by: Arc<[String]>,
-    hash: Arc<dyn Fn(&Values) -> Option<String> + Send + Sync>,
+    hash: Arc<Hash>,
 }
 
 impl fmt::Debug for Files {

@@ -75,8 +75,10 @@ impl Options {
         let fitting = if io::stdout().is_terminal() { Form::Table } else { Form::Json };
         let form = self.format.unwrap_or(fitting);
         let text = match form {
-            form if self.kind == Some(ListKind::Opendrive) => standard(opendrive::elements(), form),
-            form if self.kind == Some(ListKind::Openscenario) => standard(openscenario::elements(), form),
+            form if self.kind == Some(ListKind::Opendrive) => standard(opendrive::elements(), &standards::ROADS, form),
+            form if self.kind == Some(ListKind::Openscenario) => {
+                standard(openscenario::elements(), &standards::SCENARIOS, form)
+            }
             Form::Table => table(&lists, &kinds)?,
             Form::Json => json(&as_json(&lists, &kinds)?),
             Form::Markdown => markdown(&lists, &kinds)?,

@@ -32,8 +32,8 @@ pub(super) struct Subject {
     /// Let the driver have this entity of a scenario file [default: Ego, or the first entity with a controller]
     #[arg(long, value_name = "NAME")]
     ego: Option<String>,
-    /// End a run of a scenario file after this time if its stop trigger does not come. A stop trigger at a later time still comes
-    /// [default: 40]
+    /// End a run of a scenario file after this time, and after the delay of its stop trigger, if the trigger does not come. A
+    /// trigger at a later time still comes [default: 40]
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
     /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver or of the car:

@@ -379,9 +379,15 @@ fn the_elements_of_the_standards_are_listed() {
         let table = stdout(&succeeds(fuzz(dir.path(), &["list", standard, "--format", "table"])));
         let line = table.lines().find(|line| line.starts_with(element)).expect("it is listed");
         assert!(line.ends_with("read"), "{line}");
+        assert!(line.contains(".xosc") || line.contains(".xodr"), "{line}");
         let json = stdout(&succeeds(fuzz(dir.path(), &["list", standard, "--format", "json"])));
         let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
-        assert!(json.as_array().is_some_and(|rows| rows.iter().any(|row| row["support"] == "refused")));
+        let rows = json.as_array().expect("a list");
+        assert!(rows.iter().any(|row| row["support"] == "refused"));
+        let tests = rows.iter().map(|row| row["test"].as_str().expect("a path"));
+        for test in tests {
+            assert!(!test.is_empty() && Path::new(env!("CARGO_MANIFEST_DIR")).join(test).is_file(), "`{test}`");
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The elements of ASAM OpenDRIVE 1.4 to 1.8, and how each is supported.
 
-use crate::xml::{Counts, Row, Schema, Supported, no_effect, read, refused};
+use crate::xml::{Counts, Form, Row, Schema, Supported, no_effect, read, refused};
 
 const FLAT: &str = "the world is flat";
 const RAILWAY: &str = "there are no railways";
@@ -48,6 +48,9 @@ pub(super) const ROWS: &[Row] = &[
     read("center", "lane", "id type level"),
     read("lane", "width|border", "sOffset a b c d"),
     read("lane", "roadMark", "sOffset type weight color material width laneChange height"),
+    no_effect("lane", "@level", FLAT).valued(Form::Truth, "false"),
+    no_effect("object|signal", "@pitch|@roll", "objects stand upright").valued(Form::Number, "0"),
+    no_effect("object", "@dynamic", "objects of a map do not move").valued(Form::OneOf("yes|no"), "no"),
     no_effect("roadMark", "type", "road marks have the usual lines of their type"),
     no_effect("roadMark", "sway", "road marks are straight"),
     no_effect("roadMark", "explicit", "road marks have the usual lines of their type"),

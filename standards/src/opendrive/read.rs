@@ -2,8 +2,10 @@
 
 use super::bodies;
 use super::cubics::{Cubic, Cubics, Extreme};
+use super::limits;
 use super::links::{self, Names};
 use super::map::Map;
+use super::place::place;
 use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
@@ -86,7 +88,7 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         elevation: profile("elevationProfile", "elevation")?,
         superelevation: profile("lateralProfile", "superelevation")?,
         sections: sections(lanes, length)?,
-        limits: road_limits(element)?,
+        limits: limits::of_road(element)?,
         objects: Vec::new(),
     };
     road.objects = bodies::objects(element, &road)?;
@@ -97,16 +99,6 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
 fn positive(element: Element<'_, '_>, attribute: &'static str) -> Result<f64, ReadError> {
     let number = element.number(attribute)?;
     if number > 0.0 { Ok(number) } else { Err(element.unexpected(attribute, "a positive number")) }
-}
-
-/// Returns the place in an attribute, which must not lie before the place `before`.
-fn place(element: Element<'_, '_>, attribute: &'static str, before: &mut f64) -> Result<f64, ReadError> {
-    let s = element.length(attribute)?;
-    if s < *before {
-        return Err(element.unexpected(attribute, format!("at least {before}, the value of the element before")));
-    }
-    *before = s;
-    Ok(s)
 }
 
 /// Reads the polynomials in the children of an element. `from` is the place at which the places in `attribute` begin.
@@ -237,6 +229,9 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
     let mut sections: Vec<Section> = Vec::new();
     for element in lanes.all("laneSection") {
         let s = place(element, "s", &mut before)?;
+        if element.text("singleSide").is_some() && element.one_of("singleSide", TRUTHS)? {
+            return Err(element.unexpected("singleSide", "false: write the lanes of both sides into each section"));
+        }
         if s > length + CLOSE || (sections.is_empty() && s > CLOSE) {
             let expected =
                 if sections.is_empty() { "0 for the first section".to_owned() } else { format!("at most {length}") };
@@ -258,6 +253,9 @@ const WIDTHS: RangeInclusive<f64> = -0.05..=1000.0;
 
 /// The offsets of lane 0 and the borders in metres that a lane may have.
 const BORDERS: RangeInclusive<f64> = -1000.0..=1000.0;
+
+/// The names of the truths.
+const TRUTHS: &[(&str, bool)] = &[("true", true), ("false", false)];
 
 /// Checks the widths and borders of the lanes of a section.
 fn check_extents(section: &Section, element: Element<'_, '_>) -> Result<(), ReadError> {
@@ -348,7 +346,7 @@ fn lane(element: Element<'_, '_>, number: i32, from: f64) -> Result<Lane, ReadEr
         predecessors: linked("predecessor").collect::<Result<_, _>>()?,
         successors: linked("successor").collect::<Result<_, _>>()?,
         marks: marks(element, from)?,
-        limits: lane_limits(element, from)?,
+        limits: limits::of_lane(element, from)?,
     })
 }
 
@@ -375,31 +373,4 @@ fn marks(lane: Element<'_, '_>, from: f64) -> Result<Vec<RoadMark>, ReadError> {
         Ok(RoadMark { s, kind: element.one_of("type", MARK_TYPES)?, width, change })
     };
     lane.all("roadMark").map(mark).collect()
-}
-
-fn road_limits(road: Element<'_, '_>) -> Result<Vec<(f64, Option<f64>)>, ReadError> {
-    let mut before = 0.0;
-    let limit = |element: Element<'_, '_>| {
-        let s = place(element, "s", &mut before)?;
-        Ok((s, element.first("speed").map(limit).transpose()?.flatten()))
-    };
-    road.all("type").map(limit).collect()
-}
-
-fn lane_limits(lane: Element<'_, '_>, from: f64) -> Result<Vec<(f64, Option<f64>)>, ReadError> {
-    let mut before = 0.0;
-    let limit = |element: Element<'_, '_>| Ok((from + place(element, "sOffset", &mut before)?, limit(element)?));
-    lane.all("speed").map(limit).collect()
-}
-
-/// Returns a speed limit in m/s; `None` if there is no limit.
-fn limit(speed: Element<'_, '_>) -> Result<Option<f64>, ReadError> {
-    if ["no limit", "undefined"].contains(&speed.required("max")?) {
-        return Ok(None);
-    }
-    let unit = match speed.text("unit") {
-        None => 1.0,
-        Some(_) => speed.one_of("unit", &[("m/s", 1.0), ("km/h", 1.0 / 3.6), ("mph", 0.44704)])?,
-    };
-    Ok(Some(speed.length("max")? * unit))
 }

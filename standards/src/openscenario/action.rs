@@ -206,7 +206,7 @@ impl Action {
         match node.name() {
             "SpeedAction" => {
                 let target = node.child("SpeedActionTarget")?.choice("AbsoluteTargetSpeed or RelativeTargetSpeed")?;
-                let dynamics = Dynamics::read(node.child("SpeedActionDynamics")?)?;
+                let dynamics = Dynamics::read(node.child("SpeedActionDynamics")?, names)?;
                 Ok(Self::Speed { dynamics, target: Target::read(target, names)? })
             }
             "SpeedProfileAction" => {
@@ -260,7 +260,7 @@ impl Action {
                         Lane::Absolute(target.lane("value")?)
                     }
                 };
-                let dynamics = Dynamics::read(node.child("LaneChangeActionDynamics")?)?;
+                let dynamics = Dynamics::read(node.child("LaneChangeActionDynamics")?, names)?;
                 Ok(Self::LaneChange { dynamics, lane, offset: node.number_or("targetLaneOffset", 0.0)? })
             }
             "LaneOffsetAction" => {

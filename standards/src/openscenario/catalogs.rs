@@ -21,8 +21,8 @@ const MOST_REFERENCES: usize = 100_000;
 pub(super) struct CatalogFiles {
     /// The files by the names of the catalogs. The parts of a catalog may be in several files.
     all: BTreeMap<String, Vec<Document>>,
-    /// The first folder that does not exist, with the file and the line of the element that names it.
-    absent: Option<(PathBuf, u32, PathBuf)>,
+    /// The folders that do not exist, each with the file and the line of the element that names it.
+    absent: Vec<(PathBuf, u32, PathBuf)>,
 }
 
 /// The trees of the catalogs of a scenario.
@@ -71,14 +71,14 @@ impl CatalogFiles {
 
     /// Reads all catalogs in the folders that a scenario names. `folder` is the folder of the scenario.
     pub fn read(locations: Option<Node<'_>>, folder: &Path) -> Result<Self, ReadError> {
-        let (mut all, mut absent): (BTreeMap<String, Vec<Document>>, _) = (BTreeMap::new(), None);
+        let (mut all, mut absent): (BTreeMap<String, Vec<Document>>, _) = (BTreeMap::new(), Vec::new());
         for location in locations.into_iter().flat_map(Node::elements) {
             let directory = location.child("Directory")?;
             let path = linked::within(directory, "path", folder)?;
             // A scenario may name folders that it does not use. A reference to a catalog in them is an error.
             if !path.exists() {
                 let element = directory.element;
-                absent = absent.or_else(|| Some((element.file().to_owned(), element.line(), path)));
+                absent.push((element.file().to_owned(), element.line(), path));
                 continue;
             }
             let unreadable = |error| directory.error(Flaw::Folder { folder: path.clone(), error });
@@ -111,6 +111,13 @@ impl CatalogFiles {
         Ok(Self { all, absent })
     }
 
+    /// Describes the folders that do not exist.
+    pub fn notes(&self) -> impl Iterator<Item = String> {
+        self.absent.iter().map(|(file, line, folder)| {
+            format!("{}:{line}: there is no folder {}, so it gives no catalog", file.display(), folder.display())
+        })
+    }
+
     /// Parses the trees of all catalogs.
     pub fn trees(&self) -> Result<Vec<roxmltree::Document<'_>>, ReadError> {
         self.all.values().flatten().map(Document::tree).collect()
@@ -126,7 +133,7 @@ impl CatalogFiles {
             all.insert(name.as_str(), parts);
         }
         let (found, open, references) = Default::default();
-        Ok(Catalogs { all, absent: self.absent.as_ref(), found, open, references })
+        Ok(Catalogs { all, absent: self.absent.first(), found, open, references })
     }
 }
 

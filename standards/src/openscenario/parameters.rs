@@ -11,7 +11,8 @@ use paracosm_space::{Domain, Parameter, Value, Values};
 
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
-/// The name of the parameter that gives the least duration in seconds of a run whose stop trigger does not come.
+/// The name of the parameter that gives the least duration in seconds of a run whose stop trigger does not come. The delay of the stop
+/// trigger is added.
 pub const DURATION: &str = "run_duration";
 /// The names that declarations must not have, with the reasons.
 const RESERVED: [(&str, &str); 2] = [(EGO, "chooses the ego vehicle"), (DURATION, "gives the duration of a run")];

@@ -143,6 +143,7 @@ impl Xosc {
             let root = Node { element: root, scope: &scope };
             (CatalogFiles::read(root.first("CatalogLocations"), &folder)?, parameters)
         };
+        notes.extend(catalogs.notes());
         let constraints = of_scenario(&parameters)?;
         let read = Self { name, folder, document, catalogs, parameters, constraints, notes, roads: Mutex::default() };
         read.board(&mut declared_values, false)?;
@@ -315,12 +316,15 @@ fn folder_of(file: &FilePath) -> PathBuf {
     file.parent().unwrap_or(FilePath::new(".")).to_owned()
 }
 
-/// Returns the duration in seconds of a run in which the stop trigger does not come: `least`, or more if a trigger at a time needs more.
+/// Returns the duration in seconds of a run in which the stop trigger does not come: `least` and the delay of the trigger, or more if a
+/// trigger at a time needs more.
 fn longest(board: &Storyboard, least: f64) -> f64 {
     let conditions = board.stop.iter().flatten().flatten();
-    let at_time = conditions.filter(|condition| condition.check.measures == [Measure::Time]);
-    let latest = at_time.map(|condition| condition.check.value + condition.delay + BEYOND);
-    latest.fold(least, f64::max).min(LATEST)
+    let needed = conditions.map(|condition| {
+        let at = if condition.check.measures == [Measure::Time] { condition.check.value + BEYOND } else { least };
+        (at + condition.delay).max(least)
+    });
+    needed.fold(least, f64::max).min(LATEST)
 }
 
 /// Returns the ego vehicle, with the way along its lane and straight on.

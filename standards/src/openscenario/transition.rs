@@ -1,5 +1,6 @@
 //! Transitions from a value to another value: their shapes, and the times that they take.
 
+use super::names::Names;
 use super::scope::Node;
 use crate::xml::ReadError;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -92,7 +93,7 @@ impl Shape {
 
 impl Dynamics {
     /// Reads an element such as `SpeedActionDynamics`. The sign of a rate has no effect: the target gives the direction.
-    pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
+    pub fn read(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let shape = node.one_of("dynamicsShape", &SHAPES)?;
         let extent: fn(f64) -> Extent = node.one_of(
             "dynamicsDimension",
@@ -103,7 +104,14 @@ impl Dynamics {
             ],
         )?;
         let value = match extent(0.0) {
-            Extent::Rate(_) => node.number("value")?,
+            Extent::Rate(_) => {
+                let rate = node.number("value")?;
+                if rate < 0.0 {
+                    let reason = "the sign of a rate changes nothing: the target gives the direction";
+                    names.catalogs.remark(node, "value", reason);
+                }
+                rate
+            }
             _ => node.length("value")?,
         };
         Ok(Self { shape, extent: extent(value) })

@@ -52,3 +52,24 @@ fn numbers_in_messages_have_few_digits() {
     let says = "expected a magnitude of at most 30.303 1/m for a length of 33 m";
     refuses(&[("length=\"50\"><line/>", coil)], says);
 }
+
+#[test]
+fn types_of_roads_and_values_without_effect_are_checked() {
+    let road = |kind: &str| format!("<link/><type s=\"0\" type=\"{kind}\"/>");
+    refuses(
+        &[("<link/>", &road("twon"))],
+        "`type=\"twon\"` of <type> is not allowed, expected one of unknown, rural, ",
+    );
+    assert!(parse(with(&[("<link/>", &road("town"))])).is_ok_and(|map| map.notes.is_empty()));
+    let lane = |level: &str| format!("type=\"driving\" level=\"{level}\"");
+    refuses(
+        &[("type=\"driving\"", &lane("maybe"))],
+        "`level=\"maybe\"` of <lane> is not allowed, expected one of true, ",
+    );
+    let notes = |level| parse(with(&[("type=\"driving\"", &lane(level))])).expect("it is sound").notes;
+    assert!(notes("false").is_empty());
+    assert_eq!(in_file(&notes("true")[0]), "x.xodr:8: `lane.level` has no effect: the world is flat");
+    let side = "<laneSection s=\"0\" singleSide=\"true\">";
+    let says = "`singleSide=\"true\"` of <laneSection> is not allowed, expected false: write the lanes of both sides into each section";
+    refuses(&[("<laneSection s=\"0\">", side)], says);
+}

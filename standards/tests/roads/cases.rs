@@ -421,13 +421,12 @@ fn a_lane_without_length_in_a_tight_bend_is_left_out() {
 /// The elements of a text, as pairs of parent and name.
 fn pairs(text: &str) -> BTreeSet<(String, String)> {
     let tree = roxmltree::Document::parse(text).expect("it is well-formed");
-    let elements = tree.descendants().filter(roxmltree::Node::is_element);
-    elements
-        .filter_map(|node| {
-            let name = |node: roxmltree::Node<'_, '_>| node.tag_name().name().to_owned();
-            Some((name(node.parent_element()?), name(node)))
-        })
-        .collect()
+    let name = |node: roxmltree::Node<'_, '_>| node.tag_name().name().to_owned();
+    let elements = || tree.descendants().filter(roxmltree::Node::is_element);
+    // The table has the attributes without effect as `@NAME`.
+    let attributes = elements()
+        .flat_map(|node| node.attributes().map(move |attribute| (name(node), format!("@{}", attribute.name()))));
+    elements().filter_map(|node| Some((name(node.parent_element()?), name(node)))).chain(attributes).collect()
 }
 
 /// The files in which elements occur that are read or have no effect, and the texts with elements that are refused.

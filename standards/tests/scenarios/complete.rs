@@ -2,7 +2,9 @@
 
 use super::bad::changed_in;
 use super::strict::refuses;
+use super::worlds::led;
 use paracosm_standards::openscenario::Xosc;
+use std::fs;
 
 const LEADER: &str = "slow-leader.xosc";
 const ALL: &str = "everything.xosc";
@@ -115,4 +117,34 @@ fn an_entity_that_sensors_do_not_see_is_refused() {
         "`sensors=\"false\"` of <VisibilityAction> is not allowed, expected true: sensors and drivers see all entities";
     refuses(ALL, all, "sensors=\"false\" traffic=\"true\"", says);
     refuses(ALL, all, "sensors=\"true\" traffic=\"false\"", "`traffic=\"false\"` of <VisibilityAction>");
+}
+
+#[test]
+fn a_negative_rate_is_noted_and_its_sign_changes_nothing() {
+    let catalog = |rate: &str| {
+        let (folder, path) = changed_in(LEADER, "Ego", "Ego");
+        let file = folder.path().join("catalogs/entities.xosc");
+        let text = fs::read_to_string(&file).unwrap().replacen(
+            "\"rate\" value=\"2\"",
+            &format!("\"rate\" value=\"{rate}\""),
+            1,
+        );
+        fs::write(&file, text).unwrap();
+        let program = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program();
+        let notes = program.notes(&program.declare().unwrap().nominal());
+        (led(&program).unwrap().trace.unwrap().hash(), notes)
+    };
+    let (falls, notes) = catalog("-2");
+    let says =
+        "`SpeedActionDynamics.value` has no effect: the sign of a rate changes nothing: the target gives the direction";
+    assert!(notes.iter().any(|note| note.contains(says)), "{notes:?}");
+    let (rises, notes) = catalog("2");
+    assert!(!notes.iter().any(|note| note.contains("rate")), "{notes:?}");
+    assert_eq!(falls, rises);
+}
+
+#[test]
+fn a_catalog_folder_that_does_not_exist_is_noted() {
+    let notes = notes(ALL, "path=\"absent\"", "path=\"absent\"");
+    assert!(notes.iter().any(|note| note.contains("there is no folder ") && note.starts_with("21:")), "{notes:?}");
 }

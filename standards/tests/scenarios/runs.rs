@@ -34,13 +34,14 @@ fn with_stop(condition: &str, duration: Option<f64>) -> (Outcome, f64) {
 }
 
 #[test]
-fn a_run_without_its_stop_trigger_lasts_40_s_or_as_long_as_somebody_says() {
+fn a_run_without_its_stop_trigger_lasts_40_s_and_its_delay_or_as_long_as_somebody_says() {
     let never = "<SimulationTimeCondition value=\"0\" rule=\"lessThan\"/>";
     let never_of_state = STATE.replace("completeState", "skipTransition");
     for (duration, expected) in [(None, 40.0), (Some(12.5), 12.5), (Some(90.0), 90.0)] {
-        for stop in [never, never_of_state.as_str()] {
+        // The delay of the condition is 5 s. The moment of a trigger at a time is known, and has passed here.
+        for (stop, delay) in [(never, 0.0), (never_of_state.as_str(), 5.0)] {
             let (_, seconds) = with_stop(stop, duration);
-            assert!((seconds - expected).abs() < 0.011, "{seconds} s for {duration:?}");
+            assert!((seconds - expected - delay).abs() < 0.011, "{seconds} s for {duration:?}");
         }
     }
 }
@@ -124,7 +125,8 @@ fn a_contact_that_does_not_end_the_run_is_in_the_measurements() {
     let (_folder, path) = changed_in(LEADER, ACTIVATION, ACTIVATION);
     let program = program(&path);
     let mut test = nominal(&program);
-    (test.set("speed", Value::from(45.0)), test.set("gap", Value::from(20.0)));
+    test.set("speed", Value::from(45.0));
+    test.set("gap", Value::from(20.0));
     let outcome = led_with(&program, &test).unwrap();
     let contact = outcome.measured.unwrap().contact.expect("the ego vehicle goes through the leader");
     assert_eq!(contact.with, "Leader");
