@@ -65,6 +65,11 @@ impl Kind {
         matches!(self, Self::DateTime | Self::Text)
     }
 
+    /// Returns `true` if the values of the type are numbers.
+    pub fn is_number(self) -> bool {
+        self == Self::Double || self.is_whole()
+    }
+
     /// Returns `true` if the values of the type are whole numbers.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Whole(..))

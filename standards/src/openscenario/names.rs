@@ -2,6 +2,7 @@
 
 use super::catalogs::Catalogs;
 use super::entity::ObjectType;
+use super::kind::Kind;
 use super::reference::References;
 use super::scope::Node;
 use super::site::Sites;
@@ -17,6 +18,8 @@ pub(super) struct Names<'a> {
     pub selections: &'a [(String, Vec<usize>)],
     /// The variables, and after them the parameters of the whole scenario.
     pub variables: &'a [String],
+    /// The types of the variables and parameters.
+    pub kinds: &'a [Kind],
     /// The number of variables without the parameters.
     pub declared: usize,
     pub catalogs: &'a Catalogs<'a>,

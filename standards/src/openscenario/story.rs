@@ -114,6 +114,7 @@ impl Storyboard {
         let mut variables = Variable::all(root)?;
         let entity_names: Vec<_> = entities.iter().map(|entity| entity.name.clone()).collect();
         let variable_names: Vec<_> = variables.iter().map(|variable| variable.name.clone()).collect();
+        let kinds: Vec<_> = variables.iter().map(|variable| variable.kind).collect();
         let declared = variables.len() - root.scope.names().count();
         let types: Vec<_> = entities.iter().map(Entity::object_type).collect();
         let references = References::default();
@@ -122,6 +123,7 @@ impl Storyboard {
             types: &types,
             selections: &selections,
             variables: &variable_names,
+            kinds: &kinds,
             declared,
             catalogs,
             sites,

@@ -2,14 +2,16 @@
 
 use super::kind::Kind;
 use super::names::Names;
+use super::parameters::declared_kinds;
 use super::scope::Node;
 use super::taken::Taken;
-use crate::xml::{ReadError, Value};
+use crate::xml::{Flaw, ReadError, Value};
 
 /// A variable with its value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Variable {
     pub name: String,
+    pub kind: Kind,
     pub value: Value,
 }
 
@@ -35,12 +37,12 @@ impl Variable {
             if !kind.takes(&value) {
                 return Err(declaration.unexpected("value", &value, kind.expected()));
             }
-            Ok(Self { name, value: Value::of(&value) })
+            Ok(Self { name, kind, value: Value::of(&value) })
         };
-        let parameters = root
-            .scope
-            .names()
-            .map(|name| Ok(Self { name: name.to_owned(), value: Value::of(root.scope.get(name).unwrap_or_default()) }));
+        let parameters = declared_kinds(root)?.into_iter().map(|(name, kind)| {
+            let value = Value::of(root.scope.get(&name).unwrap_or_default());
+            Ok(Self { name, kind, value })
+        });
         declared.map(read).chain(parameters).collect()
     }
 }
@@ -56,8 +58,12 @@ impl Change {
         };
         let kind = node.choice("SetAction or ModifyAction")?;
         let change = match kind.name() {
-            "SetAction" => Self::Set(Value::of(&kind.required("value")?)),
+            "SetAction" => Self::Set(Value::of(&names.kinds[variable].required(kind, "value")?)),
             _ => {
+                if !names.kinds[variable].is_number() {
+                    let (rule, name) = (kind.child("Rule")?, &names.variables[variable]);
+                    return Err(rule.error(Flaw::NoNumber { name: name.clone() }));
+                }
                 let rule = kind.child("Rule")?.choice("AddValue or MultiplyByValue")?;
                 let by = rule.number("value")?;
                 if rule.name() == "AddValue" { Self::Add(by) } else { Self::Multiply(by) }

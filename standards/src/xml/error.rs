@@ -215,6 +215,12 @@ pub enum Flaw {
         /// The line of the part in the scenario.
         line: u32,
     },
+    /// A rule of arithmetic changes something that is no number.
+    #[error("`{name}` is no number, so nothing can be added to it and it cannot be multiplied; use a SetAction")]
+    NoNumber {
+        /// The name of the variable or parameter.
+        name: String,
+    },
     /// Two elements have the same identifier.
     #[error("`{attribute}=\"{found}\"` of <{element}> is taken: the element in line {first} has the same value")]
     Taken {

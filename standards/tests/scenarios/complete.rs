@@ -148,3 +148,14 @@ fn a_catalog_folder_that_does_not_exist_is_noted() {
     let notes = notes(ALL, "path=\"absent\"", "path=\"absent\"");
     assert!(notes.iter().any(|note| note.contains("there is no folder ") && note.starts_with("21:")), "{notes:?}");
 }
+
+#[test]
+fn an_action_on_a_variable_has_a_value_of_its_type() {
+    let sets = "variableRef=\"count\"><SetAction value=\"2\"/>";
+    let says = "`value=\"fast\"` of <SetAction> is not allowed, expected a finite number";
+    refuses(ALL, sets, &sets.replace("\"2\"", "\"fast\""), says);
+    let says = "`value=\"2\"` of <SetAction> is not allowed, expected true or false";
+    refuses(ALL, sets, &sets.replace("count", "open"), says);
+    let adds = "variableRef=\"count\"><ModifyAction><Rule><AddValue";
+    refuses(ALL, adds, &adds.replace("count", "open"), "128: `open` is no number, so nothing can be added to it");
+}
