@@ -172,3 +172,33 @@ fn a_full_standard_output_is_named() {
     let output = shell(dir.path(), &line);
     refused(&output, &["the standard output", "No space left"]);
 }
+
+#[test]
+fn a_test_that_takes_minutes_is_cut_off_by_an_interrupt() {
+    let dir = tempfile::tempdir().unwrap();
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests/scenarios/files");
+    fs::create_dir(dir.path().join("catalogs")).unwrap();
+    for name in ["slow-leader.xosc", "straight.xodr", "catalogs/entities.xosc"] {
+        fs::copy(from.join(name), dir.path().join(name)).unwrap();
+    }
+    // A run of a day has 8.6 million ticks.
+    let text = fs::read_to_string(dir.path().join("slow-leader.xosc")).unwrap();
+    let endless = text.replacen("state=\"completeState\"", "state=\"skipTransition\"", 1);
+    fs::write(dir.path().join("endless.xosc"), endless).unwrap();
+    let arguments = ["endless.xosc", "--driver", "default", "--duration", "86000", "--budget", "1", "--out", "c"];
+    let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let child = program.args(arguments).current_dir(dir.path()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let child = child.expect("the program starts");
+    let started = dir.path().join("c/campaign.json");
+    while !started.exists() {
+        thread::sleep(Duration::from_millis(20));
+    }
+    thread::sleep(Duration::from_millis(200));
+    interrupt(&child);
+    let begin = std::time::Instant::now();
+    let output = child.wait_with_output().unwrap();
+    assert!(begin.elapsed() < Duration::from_secs(10), "{:?}", begin.elapsed());
+    assert!(!output.status.success(), "the test ended before the interrupt");
+    let log = fs::read_to_string(dir.path().join("c/trials.jsonl")).unwrap_or_default();
+    assert_eq!(log, "", "the test that was cut off has no trial");
+}

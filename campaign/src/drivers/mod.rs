@@ -108,7 +108,7 @@ impl Problem {
 
 impl<'a> Drivers<'a> {
     /// Makes a source of drivers of the given choice. A first driver of this process is made at once, as a check;
-    /// external drivers are not. Once `stop` is set, nobody waits for external drivers.
+    /// external drivers are not. Once `stop` is set, nobody waits for external drivers, and runs end at the next question.
     ///
     /// # Errors
     /// The choice was read from a file, and the driver or a setting of it does not exist.
@@ -116,7 +116,8 @@ impl<'a> Drivers<'a> {
         let (latency, ended) = (choice.latency(), stop.clone());
         let source = match choice.origin() {
             Origin::Here => {
-                let mut drivers = Self::made_by(move || Ok(Box::new(Late { driver: choice.build()?, latency })));
+                let made = Self::made_by(move || Ok(Box::new(Late { driver: choice.build()?, latency })));
+                let mut drivers = Self { stop, ..made };
                 let first = drivers.hire()?;
                 drivers.dismiss(Some(first));
                 return Ok(drivers);
@@ -136,6 +137,11 @@ impl<'a> Drivers<'a> {
     /// Makes a source of drivers that the given function makes in this process.
     pub fn made_by(make: impl Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a) -> Self {
         Self { source: Source::Made(Box::new(make)), external: false, idle: Vec::new(), stop: Arc::default() }
+    }
+
+    /// Returns the flag that ends runs and waiting.
+    pub fn stop(&self) -> &Arc<AtomicBool> {
+        &self.stop
     }
 
     /// Returns `true` if a driver is idle.

@@ -64,7 +64,7 @@ impl<'a> Simulator<'a> {
 
     /// Begins a test.
     fn begin(&mut self, place: usize, test: Test<'_>) -> Ride {
-        Ride::begin(place, &self.program, test, self.vehicle, self.drivers.hire())
+        Ride::begin(place, (&self.program, test, self.vehicle), self.drivers.hire(), self.drivers.stop().clone())
     }
 
     /// Prepares a driver, and opens a darkroom if the driver uses cameras.

@@ -9,6 +9,8 @@ use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use paracosm_oracles::Verdict;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The index and the result of a test that is over.
 pub type TestEnd = (usize, Result<Outcome, Problem>);
@@ -23,6 +25,8 @@ pub(super) struct Ride {
     images: Vec<Image>,
     /// True if the run waits for the driver.
     asked: bool,
+    /// Ends the test at the next question to the driver: a test may take minutes.
+    stop: Arc<AtomicBool>,
     outcome: Option<Result<Outcome, Problem>>,
 }
 
@@ -30,12 +34,11 @@ impl Ride {
     /// Begins the run of a test with a driver. Without a driver, the test is over.
     pub fn begin(
         place: usize,
-        program: &Program,
-        test: Test<'_>,
-        vehicle: VehicleSetup,
+        (program, test, vehicle): (&Program, Test<'_>, VehicleSetup),
         driver: Result<Box<dyn Driver>, NoDriver>,
+        stop: Arc<AtomicBool>,
     ) -> Self {
-        let mut ride = Self { place, driver: None, run: None, images: Vec::new(), asked: false, outcome: None };
+        let mut ride = Self { place, driver: None, run: None, images: Vec::new(), asked: false, stop, outcome: None };
         match driver {
             Ok(driver) => {
                 let driver = ride.driver.insert(driver).as_mut();
@@ -64,18 +67,21 @@ impl Ride {
         if self.outcome.is_none() {
             let went = catch_unwind(AssertUnwindSafe(|| self.until_images(see)));
             self.outcome = match went {
-                Ok(outcome) => outcome.map(Ok),
+                Ok(outcome) => outcome,
                 Err(panic) => Some(Err(Problem::panicked("run", panic.as_ref()))),
             };
         }
     }
 
-    fn until_images(&mut self, mut see: impl FnMut(&Run)) -> Option<Outcome> {
+    fn until_images(&mut self, mut see: impl FnMut(&Run)) -> Option<Result<Outcome, Problem>> {
         let (run, driver) = (self.run.as_mut()?, self.driver.as_mut()?);
         loop {
+            if self.stop.load(Ordering::Relaxed) {
+                return Some(Err(Problem::new(ProblemKind::Interrupted, "interrupted")));
+            }
             if self.asked {
                 if let Err(fault) = run.answer(driver.as_mut(), &self.images) {
-                    return Some(run.broken_by(fault));
+                    return Some(Ok(run.broken_by(fault)));
                 }
                 self.images.clear();
             }
@@ -83,7 +89,7 @@ impl Ride {
             self.asked = true;
             see(run);
             if outcome.is_some() || run.eyes().arrived().next().is_some() {
-                return outcome;
+                return outcome.map(Ok);
             }
         }
     }

@@ -10,25 +10,27 @@ const STANDING: f64 = 0.1;
 /// The deceleration in m/s² above which the car brakes at a contact. Rolling resistance and noise make less.
 const BRAKING: f64 = 0.5;
 
-/// Returns the measurements of a run at the end of the run. `contact` is the first contact of the car.
-pub(super) fn measured(scene: &Scene, contact: Option<Contact>, triggered: bool) -> Measurements {
+/// Returns the measurements of a run at the end of the run.
+pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
+    // A run may begin with a contact.
+    let contact = scene.touched.as_deref().cloned().or_else(|| scene.touch());
     Measurements { travelled: scene.ego.travelled(), contact, triggered }
 }
 
-/// Returns the contact of the car at the present tick; `None` without a contact.
-pub(super) fn contact(scene: &Scene) -> Option<Contact> {
-    scene.contact.map(|touching| {
-        let car = scene.ego.dynamics().state();
-        let touched = &scene.bodies[touching.body];
-        Contact {
-            with: scene.name(touching.body).to_owned(),
+impl Scene {
+    /// Describes the contact of the car at the present tick; `None` without a contact.
+    pub(super) fn touch(&self) -> Option<Contact> {
+        let touching = self.contact?;
+        let (car, touched) = (self.ego.dynamics().state(), &self.bodies[touching.body]);
+        Some(Contact {
+            with: self.name(touching.body).to_owned(),
             class: touched.body.class,
             face: touching.face,
             motion: motion(car),
             speed: car.speed(),
             other_speed: touched.velocity.norm(),
-        }
-    })
+        })
+    }
 }
 
 /// Returns the motion of the car at a contact.

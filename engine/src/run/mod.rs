@@ -16,7 +16,6 @@ mod sensing;
 pub use driving::{simulate, watch};
 pub use motion::{Motion, Track};
 
-use crate::contact::Contact;
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Breakdown, Ending, Judgement, Outcome, Violation};
@@ -87,8 +86,6 @@ pub struct Run {
     end: Option<Slot>,
     /// `true` if a contact ends the run.
     ends_at_contact: bool,
-    /// The first contact of the car.
-    contact: Option<Contact>,
     triggered: bool,
     requirements: Vec<Requirement>,
     /// The slot of each column of the trace.
@@ -161,7 +158,6 @@ impl Run {
             premise,
             end,
             ends_at_contact: setup.takes_over,
-            contact: None,
             triggered: false,
             requirements,
             row: vec![0.0; columns.len()],
@@ -302,9 +298,6 @@ impl Run {
 
     /// Evaluates the streams and records the tick.
     fn look(&mut self) -> Result<(), Upset> {
-        if self.contact.is_none() {
-            self.contact = metrics::contact(&self.scene);
-        }
         self.scene.show(self.graph.outputs());
         self.graph.tick(Clock { tick: self.tick, ticks: self.ticks, dt: self.dt });
         self.triggered |= self.premise.is_some_and(|slot| self.graph.value(slot) == Some(true));
@@ -366,7 +359,7 @@ impl Run {
         } else {
             Ending::Pass
         };
-        let measured = metrics::measured(&self.scene, self.contact.take(), self.triggered);
+        let measured = metrics::measured(&self.scene, self.triggered);
         let trace = std::mem::replace(&mut self.trace, Trace::new(self.dt, vec![String::new()]));
         Outcome { ending, judgements, measured: Some(measured), trace: Some(trace) }
     }

@@ -1,6 +1,7 @@
 //! The scene of a run: everything in a world, as it moves from tick to tick.
 
 use super::Setup;
+use crate::contact::Contact;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
 use crate::outcome::Invalid;
 use crate::road::{Path, RoadNetwork};
@@ -47,6 +48,8 @@ pub(super) struct Scene {
     world: World,
     /// The contact of the car with another body; `None` without a contact.
     pub contact: Option<Touching>,
+    /// The first contact of the car after the beginning.
+    pub touched: Option<Box<Contact>>,
     /// The value of `car.clearance` at this tick.
     clearance: f64,
     /// The poses of one object's bodies at the end of a tick.
@@ -90,6 +93,7 @@ impl Scene {
                 let clearance = world.clearance(&bodies);
                 world.contact(&bodies, &bodies, clearance)
             },
+            touched: None,
             clearance: world.clearance(&bodies[..told]),
             told,
             world,
@@ -236,7 +240,12 @@ impl Scene {
         self.clearance = match self.contact {
             None if self.told == self.bodies.len() => clearance,
             None => self.world.clearance(self.told()),
-            Some(contact) => -self.missing_distance(contact, friction),
+            Some(contact) => {
+                if self.touched.is_none() {
+                    self.touched = self.touch().map(Box::new);
+                }
+                -self.missing_distance(contact, friction)
+            }
         };
         Ok(())
     }

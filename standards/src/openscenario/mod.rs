@@ -10,6 +10,7 @@ mod constraints;
 mod demand;
 mod director;
 mod distribution;
+mod ego;
 mod elements;
 mod entity;
 mod environment;

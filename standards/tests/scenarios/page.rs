@@ -14,7 +14,7 @@ fn covered() -> BTreeMap<(String, String), String> {
     for path in with_ending(&file(""), "xosc") {
         let text = fs::read_to_string(&path).unwrap();
         let tree = roxmltree::Document::parse(&text).unwrap();
-        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let name = path.strip_prefix(file("")).unwrap().to_string_lossy().into_owned();
         for node in tree.descendants().filter(roxmltree::Node::is_element) {
             if let Some(parent) = node.parent_element() {
                 let key = (parent.tag_name().name().to_owned(), node.tag_name().name().to_owned());
