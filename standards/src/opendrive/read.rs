@@ -10,7 +10,7 @@ use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
 };
-use crate::xml::{Element, Flaw, ReadError, rounded, short};
+use crate::xml::{Element, Flaw, ReadError, TRUTHS, rounded, short};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use std::ops::RangeInclusive;
@@ -229,7 +229,7 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
     let mut sections: Vec<Section> = Vec::new();
     for element in lanes.all("laneSection") {
         let s = place(element, "s", &mut before)?;
-        if element.text("singleSide").is_some() && element.one_of("singleSide", TRUTHS)? {
+        if element.text("singleSide").is_some() && element.one_of("singleSide", &TRUTHS)? {
             return Err(element.unexpected("singleSide", "false: write the lanes of both sides into each section"));
         }
         if s > length + CLOSE || (sections.is_empty() && s > CLOSE) {
@@ -253,9 +253,6 @@ const WIDTHS: RangeInclusive<f64> = -0.05..=1000.0;
 
 /// The offsets of lane 0 and the borders in metres that a lane may have.
 const BORDERS: RangeInclusive<f64> = -1000.0..=1000.0;
-
-/// The names of the truths.
-const TRUTHS: &[(&str, bool)] = &[("true", true), ("false", false)];
 
 /// Checks the widths and borders of the lanes of a section.
 fn check_extents(section: &Section, element: Element<'_, '_>) -> Result<(), ReadError> {

@@ -113,12 +113,11 @@ impl Valued<'_> {
         let mut edits = writing.edits(root.element, root.scope, "", &[])?;
         edits.set(root.child("FileHeader")?.element, "revMinor", &writing.version.minor().to_string());
         if !is_activated {
-            let [begin, end] = ["<ControllerAction>", "</ControllerAction>"];
             let ego = escaped(&ego);
             edits.append(
                 root.child("Storyboard")?.child("Init")?.child("Actions")?.element,
                 &format!(
-                    "<Private entityRef=\"{ego}\"><PrivateAction>{begin}{ACTIVATION}{end}</PrivateAction></Private>"
+                    "<Private entityRef=\"{ego}\"><PrivateAction><ControllerAction>{ACTIVATION}</ControllerAction></PrivateAction></Private>"
                 ),
             );
         }

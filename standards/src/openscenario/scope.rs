@@ -1,6 +1,6 @@
 //! The parameters that an element sees, and the values of attributes with parameters in them.
 
-use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, Value, brief};
+use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, TRUTHS, Value, brief};
 use paracosm_space::nearest;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -274,8 +274,7 @@ impl<'a> Node<'a> {
 
     /// Returns the truth in an attribute; `default` if the attribute is absent.
     pub fn truth_or(self, attribute: &'static str, default: bool) -> Result<bool, ReadError> {
-        let names = [("true", true), ("false", false), ("1", true), ("0", false)];
-        if self.element.text(attribute).is_some() { self.one_of(attribute, &names) } else { Ok(default) }
+        if self.element.text(attribute).is_some() { self.one_of(attribute, &TRUTHS) } else { Ok(default) }
     }
 
     /// Returns the value in an attribute that has one of the given names.

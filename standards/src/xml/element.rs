@@ -223,6 +223,9 @@ impl<'a, 'i> Element<'a, 'i> {
     }
 }
 
+/// The names of truths in files.
+pub(crate) const TRUTHS: [(&str, bool); 4] = [("true", true), ("false", false), ("1", true), ("0", false)];
+
 /// The number of characters of a text of a file that messages show.
 const MOST_SHOWN: usize = 80;
 

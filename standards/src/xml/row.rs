@@ -1,6 +1,6 @@
 //! The rows of the table of a standard: elements with their attributes, and how they are supported.
 
-use super::element::Element;
+use super::element::{Element, TRUTHS};
 use super::error::ReadError;
 
 /// The way in which an element of a standard is supported.
@@ -128,10 +128,7 @@ impl Form {
                 let number = number.ok_or_else(|| element.unexpected(attribute, "a finite number"))?;
                 Ok(usual.parse() != Ok(number))
             }
-            Self::Truth => {
-                let names = [("true", true), ("false", false), ("1", true), ("0", false)];
-                Ok(element.chosen(attribute, text, &names)? != (usual == "true"))
-            }
+            Self::Truth => Ok(element.chosen(attribute, text, &TRUTHS)? != (usual == "true")),
             Self::OneOf(names) => {
                 let names: Vec<_> = names.split('|').map(|name| (name, name)).collect();
                 Ok(element.chosen(attribute, text, &names)? != usual)
