@@ -3,10 +3,10 @@
 use crate::xml::{Element, ReadError};
 
 /// The newest minor version that is read; the major version is 1.
-const NEWEST: u32 = 3;
+pub(super) const NEWEST: u32 = 3;
 
 /// The minor version that is written, unless a part of the file needs a newer one.
-const WRITTEN: u32 = 2;
+pub(super) const WRITTEN: u32 = 2;
 
 /// The elements that only the newest version has, and that are read or have no effect.
 pub(super) const OF_NEWEST: [&str; 9] = [
@@ -59,7 +59,8 @@ impl Version {
         // An action assigns the controller of an `ObjectController` since the newest version.
         let is_newest = OF_NEWEST.contains(&name)
             || ATTRIBUTES_OF_NEWEST.iter().any(has)
-            || name == "AssignControllerAction" && element.first("ObjectController").is_some();
+            || name == "AssignControllerAction" && element.first("ObjectController").is_some()
+            || name == "Axles" && element.first("FrontAxle").is_none();
         self.0 = self.0.max(if is_newest { NEWEST } else { minor(element.outermost())? });
         Ok(())
     }

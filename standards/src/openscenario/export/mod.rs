@@ -1,10 +1,11 @@
-//! Recorded runs as concrete scenarios of OpenSCENARIO XML 1.2, which other simulators play.
+//! Recorded runs as concrete scenarios of OpenSCENARIO XML, which other simulators play.
 
 mod entity;
 mod original;
 
 use super::polyline::simplified;
 use super::program::TICK;
+use super::version::{NEWEST, WRITTEN};
 use crate::opendrive::Map;
 use crate::xml::Writer;
 use entity::{Entity, stays};
@@ -76,15 +77,17 @@ impl Act {
 }
 
 impl<'a> Export<'a> {
-    /// Returns the text of the scenario. Each body is in the world while it is there in the recorded run. Bodies that are
+    /// Returns the text of the scenario. Its version is 1.2, or 1.3 if a vehicle has no front axle. Each body is in the world while it is there in the recorded run. Bodies that are
     /// [never](Self::never_there) there are left out.
     pub fn text(&self) -> String {
         let entities = Entity::all(self.motion, self.map, self.originals);
+        let is_of_newest = self.originals.iter().any(Original::is_of_newest);
+        let minor = if is_of_newest { NEWEST } else { WRITTEN };
         let mut xml = Writer::new();
         xml.within("OpenSCENARIO", &[], |xml| {
             let header: &[(&str, &dyn Display)] = &[
                 ("revMajor", &1),
-                ("revMinor", &2),
+                ("revMinor", &minor),
                 ("date", &self.date),
                 ("description", &self.about),
                 ("author", &"PARACOSM"),

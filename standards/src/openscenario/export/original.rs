@@ -78,6 +78,12 @@ impl Original {
     pub fn name(&self) -> &str {
         &self.name
     }
+
+    /// Returns `true` if the element of the entity lacks something that all versions but the newest demand.
+    pub(super) fn is_of_newest(&self) -> bool {
+        let axles = self.element.within.iter().find(|inner| inner.name == "Axles");
+        axles.is_some_and(|axles| axles.within.iter().all(|axle| axle.name != "FrontAxle"))
+    }
 }
 
 impl Copied {
