@@ -9,4 +9,4 @@ pub mod openscenario;
 mod xml;
 
 pub use map_traffic::map_traffic;
-pub use xml::{ExpressionFlaw, Flaw, Malformed, NoEffect, ReadError, Support, Supported};
+pub use xml::{ExpressionFlaw, Flaw, Malformed, Misfit, NoEffect, ReadError, Support, Supported};

@@ -2,7 +2,7 @@
 
 use super::super::output::json;
 use super::Form;
-use crate::standards::{Support, Supported};
+use crate::standards::Supported;
 use serde_json::json;
 use std::collections::BTreeMap;
 
@@ -38,31 +38,35 @@ impl Page {
 pub(super) fn standard(elements: impl Iterator<Item = Supported>, page: &Page, form: Form) -> String {
     let tests = page.tests();
     let rows: Vec<Row<'_>> = elements
-        .map(|Supported { name, parent, support, .. }| {
-            let test = tests.get(&(name, parent)).map_or("", String::as_str);
-            Row { name, parent, test, support: words(support) }
-        })
+        .map(|element| Row { element, test: tests.get(&(element.name, element.parent)).map_or("", String::as_str) })
         .collect();
     match form {
         Form::Json => {
             let row = |row: &Row<'_>| {
-                let (support, reason) = row.support;
-                json!({"element": row.name, "within": row.parent, "support": support, "reason": reason, "test": row.test})
+                let Supported { name, parent, except, .. } = row.element;
+                let (support, reason) = row.element.support();
+                json!({
+                    "element": name, "within": parent, "support": support, "except": except, "reason": reason,
+                    "test": row.test,
+                })
             };
             json(&rows.iter().map(row).collect::<Vec<_>>())
         }
         Form::Table => {
             let widest = |of: fn(&Row<'_>) -> usize| rows.iter().map(of).max().unwrap_or(0) + 2;
-            let (name, parent, test) =
-                (widest(|row| row.name.len()), widest(|row| row.parent.len()), widest(|row| row.test.len()));
-            let line = |row: &Row<'_>| {
-                format!("{:<name$}{:<parent$}{:<test$}{}\n", row.name, row.parent, row.test, said(row.support))
+            let (name, parent, test) = (
+                widest(|row| row.element.name.len()),
+                widest(|row| row.element.parent.len()),
+                widest(|row| row.test.len()),
+            );
+            let line = |Row { element, test: file }: &Row<'_>| {
+                format!("{:<name$}{:<parent$}{file:<test$}{element}\n", element.name, element.parent)
             };
             rows.iter().map(line).collect()
         }
         Form::Markdown => {
-            let line = |row: &Row<'_>| {
-                format!("| `{}` | `{}` | {} | `{}` |\n", row.name, row.parent, said(row.support), row.test)
+            let line = |Row { element, test }: &Row<'_>| {
+                format!("| `{}` | `{}` | {element} | `{test}` |\n", element.name, element.parent)
             };
             let head = "| element | within | support | test |\n| --- | --- | --- | --- |\n".to_owned();
             head + &rows.iter().map(line).collect::<String>()
@@ -70,22 +74,8 @@ pub(super) fn standard(elements: impl Iterator<Item = Supported>, page: &Page, f
     }
 }
 
-/// An element with the names of the element around it and of the file of its test.
+/// An element with the file of its test.
 struct Row<'a> {
-    name: &'static str,
-    parent: &'static str,
+    element: Supported,
     test: &'a str,
-    support: (&'static str, Option<&'static str>),
-}
-
-fn words(support: Support) -> (&'static str, Option<&'static str>) {
-    match support {
-        Support::Read => ("read", None),
-        Support::NoEffect(reason) => ("no effect", Some(reason)),
-        Support::Refused(reason) => ("refused", Some(reason)),
-    }
-}
-
-fn said((support, reason): (&str, Option<&str>)) -> String {
-    reason.map_or_else(|| support.to_owned(), |reason| format!("{support}: {reason}"))
 }

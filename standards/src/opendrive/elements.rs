@@ -2,6 +2,7 @@
 
 use crate::xml::{Counts, Form, Row, Schema, Supported, no_effect, read, refused};
 
+const BOTH_SIDES: &str = "write the lanes of both sides into each section";
 const FLAT: &str = "the world is flat";
 const RAILWAY: &str = "there are no railways";
 const LOOK: &str = "objects have the usual look of their kind";
@@ -43,6 +44,7 @@ pub(super) const ROWS: &[Row] = &[
     read("road", "lanes", ""),
     read("lanes", "laneOffset", "s a b c d"),
     read("lanes", "laneSection", "s singleSide"),
+    refused("laneSection", "@singleSide", BOTH_SIDES).valued(Form::Truth, "false"),
     read("laneSection", "left|center|right", ""),
     read("left|right", "lane", "id type level advisory direction dynamicLaneDirection dynamicLaneType roadWorks"),
     read("center", "lane", "id type level"),

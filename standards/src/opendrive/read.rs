@@ -10,7 +10,7 @@ use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
     Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
 };
-use crate::xml::{Element, Flaw, ReadError, TRUTHS, rounded, short};
+use crate::xml::{Element, Flaw, ReadError, rounded, short};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use std::ops::RangeInclusive;
@@ -229,9 +229,6 @@ fn sections(lanes: Element<'_, '_>, length: f64) -> Result<Vec<Section>, ReadErr
     let mut sections: Vec<Section> = Vec::new();
     for element in lanes.all("laneSection") {
         let s = place(element, "s", &mut before)?;
-        if element.text("singleSide").is_some() && element.one_of("singleSide", &TRUTHS)? {
-            return Err(element.unexpected("singleSide", "false: write the lanes of both sides into each section"));
-        }
         if s > length + CLOSE || (sections.is_empty() && s > CLOSE) {
             let expected =
                 if sections.is_empty() { "0 for the first section".to_owned() } else { format!("at most {length}") };

@@ -160,16 +160,7 @@ impl Action {
             "RoutingAction" => Self::routing(inner()?, names),
             "SynchronizeAction" => Self::synchronize(kind, names),
             "ControllerAction" | "ActivateControllerAction" => Handover::read(kind).map(Self::Control),
-            "VisibilityAction" => {
-                for attribute in ["sensors", "traffic"] {
-                    if !kind.truth_or(attribute, true)? {
-                        let found = kind.required(attribute)?;
-                        return Err(kind.unexpected(attribute, &found, "true: sensors and drivers see all entities"));
-                    }
-                }
-                Ok(Self::Nothing)
-            }
-            "AppearanceAction" => Ok(Self::Nothing),
+            "AppearanceAction" | "VisibilityAction" => Ok(Self::Nothing),
             _ => Err(kind.refused("use a longitudinal, lateral, routing, teleport or controller action")),
         }
     }

@@ -1,6 +1,7 @@
 //! Conditions and triggers as a scenario describes them. Each condition compares a measure of the world with a value.
 
 use super::clock;
+use super::kind::Kind;
 use super::measure::Measure;
 use super::names::Names;
 use super::rule::Rule;
@@ -88,30 +89,41 @@ impl Check {
                 };
                 Ok(Self::single(measure, Rule::GreaterOrEqual, 1.0))
             }
-            "VariableCondition" => Self::variable(names.variable(node, "variableRef")?, node),
+            "VariableCondition" => Self::variable(names.variable(node, "variableRef")?, node, names),
             "ParameterCondition" => {
                 if let Some(variable) = names.parameter(node, "parameterRef")? {
-                    return Self::variable(variable, node);
+                    return Self::variable(variable, node, names);
                 }
                 let name = node.element.required("parameterRef")?;
                 let name = name.strip_prefix('$').unwrap_or(name);
-                let (found, wanted) = (node.scope.get(name).unwrap_or_default(), node.required("value")?);
-                if let (Ok(found), Ok(wanted)) = (found.parse(), wanted.parse()) {
-                    return Ok(Self::single(Measure::Constant(found), Rule::read(node)?, wanted));
-                }
-                let is_equal = Measure::Constant(f64::from(u8::from(found == wanted)));
-                Ok(Self::single(is_equal, Rule::of_words(node, &wanted)?, 1.0))
+                let kind = node.scope.kind(name).unwrap_or(Kind::Text);
+                let found = kind.typed(node.scope.get(name).unwrap_or_default());
+                let known = |is_equal| Measure::Constant(f64::from(u8::from(is_equal)));
+                Self::with_value(node, kind, |wanted| match (&found, wanted) {
+                    (xml::Value::Number(found), xml::Value::Number(_)) => Measure::Constant(*found),
+                    (found, wanted) => known(found == wanted),
+                })
             }
             _ => Err(node
                 .refused("use a SimulationTimeCondition, a StoryboardElementStateCondition or a ParameterCondition")),
         }
     }
 
-    fn variable(variable: usize, node: Node<'_>) -> Result<Self, ReadError> {
-        let wanted = node.required("value")?;
-        Ok(match xml::Value::of(&wanted) {
-            xml::Value::Number(number) => Self::single(Measure::Variable(variable), Rule::read(node)?, number),
-            other => Self::single(Measure::VariableIs(variable, other), Rule::of_words(node, &wanted)?, 1.0),
+    fn variable(variable: usize, node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
+        Self::with_value(node, names.kinds[variable], |wanted| match wanted {
+            xml::Value::Number(_) => Measure::Variable(variable),
+            wanted => Measure::VariableIs(variable, wanted.clone()),
+        })
+    }
+
+    /// Compares a value of a type with the attribute `value`. `measure` returns the number to compare with a number, or otherwise 1 while
+    /// the value is the wanted one.
+    fn with_value(node: Node<'_>, kind: Kind, measure: impl Fn(&xml::Value) -> Measure) -> Result<Self, ReadError> {
+        let text = kind.required(node, "value")?;
+        let wanted = kind.typed(&text);
+        Ok(match wanted {
+            xml::Value::Number(number) => Self::single(measure(&wanted), Rule::read(node)?, number),
+            _ => Self::single(measure(&wanted), Rule::of_words(node, &text)?, 1.0),
         })
     }
 

@@ -113,8 +113,9 @@ impl Writer<'_> {
     }
 
     fn demands(&self, at: usize, demand: &Demand) -> Result<Said, ExpressionFlaw> {
-        let value = self.value(at)?;
-        let limit = |Limit { rule, text }: &Limit| compared(*rule, &value, &self.text(text, self.scope.len())?);
+        let value = self.value(at)?.of(demand.kind);
+        let limit =
+            |Limit { rule, text }: &Limit| compared(*rule, &value, &self.text(text, self.scope.len())?.of(demand.kind));
         let group = |limits: &Vec<Limit>| {
             Ok(joined(true, limits.iter().map(limit).collect::<Result<Vec<_>, ExpressionFlaw>>()?))
         };
@@ -163,6 +164,11 @@ impl Writer<'_> {
 }
 
 impl Symbol {
+    /// Returns the symbol with its value as values of a type are.
+    fn of(self, kind: Kind) -> Self {
+        if let Self::Value(value) = self { Self::Value(kind.value(&value.to_string())) } else { self }
+    }
+
     fn term(self) -> Result<Term, ExpressionFlaw> {
         match self {
             Self::Value(Value::Number(number)) => Ok(Term::Number(number)),

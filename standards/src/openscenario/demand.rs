@@ -4,7 +4,6 @@ use super::kind::Kind;
 use super::rule::Rule;
 use super::scope::{Node, Scope};
 use crate::xml::{ExpressionFlaw, Flaw, ReadError};
-use paracosm_space::Value;
 use std::path::PathBuf;
 
 /// The demands on the value of a parameter.
@@ -64,7 +63,7 @@ impl Demand {
         if !self.kind.takes(value) {
             return Some(Breach::of(self.kind));
         }
-        let value = Value::parse(value);
+        let value = self.kind.value(value);
         let mut described = Vec::new();
         for group in &self.groups {
             let mut holds = true;
@@ -74,7 +73,7 @@ impl Demand {
                     Ok(limit) => limit,
                     Err(flaw) => return Some(Breach::Limit { text: text.clone(), flaw }),
                 };
-                holds &= rule.holds(&value, &Value::parse(&limit));
+                holds &= rule.holds(&value, &self.kind.value(&limit));
                 members.push(format!("{} {limit}", rule.words()));
             }
             if holds {

@@ -21,6 +21,8 @@ const CONTROL: &str = "use an ActivateControllerAction";
 const CHANCE: &str = "use a UniformDistribution, a NormalDistribution with a Range, or a ProbabilityDistributionSet";
 const PLACES: &str = "use a WorldPosition";
 const FLAT: &str = "the world is flat, and bodies stand on the ground";
+const FLAT_ANGLES: &str = "the world is flat, so pitch and roll are 0";
+const ALL_SEEN: &str = "sensors and drivers see all entities";
 const ALWAYS_SHORTEST: &str = "routes are the shortest ones";
 const EXACT: &str = "entities follow their actions exactly; use a SpeedProfileAction for limits";
 const LIMITS: &str = "the changes of accelerations have no limit, but for those of a SpeedProfileAction";
@@ -194,6 +196,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     no_effect("PrivateAction", "AppearanceAction", LOOKS),
     read("PrivateAction", "VisibilityAction", "graphics! sensors! traffic!"),
+    refused("VisibilityAction", "@sensors|@traffic", ALL_SEEN).valued(Form::Truth, "true"),
     no_effect("VisibilityAction", "SensorReferenceSet", "sensors see all entities"),
     no_effect("VisibilityAction", "@graphics", "pictures have all entities").valued(Form::Truth, "true"),
     read(
@@ -224,6 +227,7 @@ pub(super) const ROWS: &[Row] = &[
     read("Story!", "Act", "name!").several(),
     read("Act!", "ManeuverGroup", "maximumExecutionCount! name!").several(),
     read("ManeuverGroup!", "Actors", "selectTriggeringEntities!"),
+    refused("Actors", "@selectTriggeringEntities", NAMED).valued(Form::Truth, "false"),
     read("Catalog|ManeuverGroup", "Maneuver", "name!").several(),
     read("Maneuver!", "Event", "maximumExecutionCount name! priority!").several(),
     read("Event!", "Action", "name!").several(),
@@ -241,6 +245,8 @@ pub(super) const ROWS: &[Row] = &[
     read("RelativeClearanceCondition", "EntityRef", "entityRef!").several(),
     read("EntityCondition", "AngleCondition", "angle! angleTolerance! angleType! coordinateSystem"),
     read("EntityCondition", "RelativeAngleCondition", "angle! angleTolerance! angleType! coordinateSystem entityRef!"),
+    refused("AngleCondition|RelativeAngleCondition", "@angleType", FLAT_ANGLES)
+        .valued(Form::OneOf("heading|pitch|roll"), "heading"),
     read(
         "EntityCondition",
         "TimeHeadwayCondition",

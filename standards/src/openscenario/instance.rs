@@ -41,7 +41,7 @@ impl Xosc {
             } else {
                 following(*element, Node { element: own, scope: &scope })?
             };
-            scope.set(declaration.demand.name.as_str(), value);
+            scope.set(&declaration.demand.name, declaration.demand.kind, &value);
         }
         let stated = self.parameters.stated(&texts);
         Ok(stated.into_iter().map(|(name, value, at)| (name, value, declared[at].line())).collect())

@@ -2,7 +2,7 @@
 
 use super::clock::is_time;
 use super::scope::Node;
-use crate::xml::ReadError;
+use crate::xml::{self, ReadError};
 use paracosm_space::Value;
 use std::borrow::Cow;
 
@@ -77,11 +77,22 @@ impl Kind {
 
     /// Returns the value of a text of the type as spaces have it.
     pub fn value(self, text: &str) -> Value {
+        let text = self.plain(text);
+        if self.is_text() { Value::from(text) } else { Value::parse(text) }
+    }
+
+    /// Returns the value of a text of the type as variables have it.
+    pub fn typed(self, text: &str) -> xml::Value {
+        let text = self.plain(text);
+        if self.is_text() { xml::Value::Text(text.to_owned()) } else { xml::Value::of(text) }
+    }
+
+    /// Returns a text of the type in the form in which all parts of a scenario see it: a truth may be written as a number.
+    pub fn plain(self, text: &str) -> &str {
         match (self, text) {
-            (Self::Boolean, "1") => Value::from("true"),
-            (Self::Boolean, "0") => Value::from("false"),
-            (kind, text) if kind.is_text() => Value::from(text),
-            (_, text) => Value::parse(text),
+            (Self::Boolean, "1") => "true",
+            (Self::Boolean, "0") => "false",
+            (_, text) => text,
         }
     }
 

@@ -33,7 +33,7 @@ pub(super) fn declare(
         let text = place.text("value").unwrap_or_default();
         let value = Node { element: place, scope: &*scope }.text_among(seen, "value")?;
         let value = value.unwrap_or_default().into_owned();
-        scope.define(&demand.name, text, seen, &value);
+        scope.define(&demand.name, demand.kind, &value, (text, seen));
         names.push(demand.name.clone());
         if demand.depends_on_values() && !scope.sources(scope.len() - 1, demand.limits()).is_empty() {
             locals.push(Local { scope: scope.clone(), demand });

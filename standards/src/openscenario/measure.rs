@@ -31,8 +31,9 @@ pub(super) enum Measure {
     },
     Acceleration {
         entity: usize,
+        direction: Direction,
     },
-    /// The speed of the entity minus the speed of another entity.
+    /// The speed of the entity minus the speed of another entity, along the entity's own axes if there is a direction.
     RelativeSpeed {
         entity: usize,
         other: usize,
@@ -180,10 +181,7 @@ impl Measure {
         let other = || names.entity(node, "entityRef");
         match node.name() {
             "SpeedCondition" => ruled(Self::Speed { entity, direction: Direction::read(node)? }),
-            "AccelerationCondition" => match Direction::read(node)? {
-                Direction::Lateral => Err(node.refused("use the direction `longitudinal`")),
-                Direction::Longitudinal | Direction::Total => ruled(Self::Acceleration { entity }),
-            },
+            "AccelerationCondition" => ruled(Self::Acceleration { entity, direction: Direction::read(node)? }),
             "RelativeSpeedCondition" => {
                 ruled(Self::RelativeSpeed { entity, other: other()?, direction: Direction::read(node)? })
             }
@@ -285,8 +283,6 @@ impl Clearance {
 
 impl Bearing {
     fn read(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
-        // Worlds are flat: all other angles are 0.
-        node.one_of("angleType", &[("heading", ())])?;
         if node.name() == "RelativeAngleCondition" {
             return Ok(Self::Entity(names.entity(node, "entityRef")?));
         }

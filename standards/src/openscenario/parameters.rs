@@ -93,7 +93,7 @@ impl Parameters {
             if !demand.kind.is_whole() && !demand.kind.takes(&value) {
                 return Err(Breach::of(demand.kind).error(node, &value));
             }
-            scope.set(demand.name.as_str(), value);
+            scope.set(&demand.name, demand.kind, &value);
         }
         Ok(scope)
     }
@@ -128,7 +128,7 @@ impl Parameters {
     pub fn texts(&self) -> Scope {
         let mut scope = Scope::default();
         for declaration in &self.declarations {
-            scope.set(declaration.name(), declaration.text.as_str());
+            scope.set(declaration.name(), declaration.demand.kind, &declaration.text);
         }
         scope
     }
@@ -257,8 +257,10 @@ pub(super) fn declared_kinds(root: Node<'_>) -> Result<Vec<(String, Kind)>, Read
 pub(super) fn declared_values(root: Node<'_>) -> Result<Scope, ReadError> {
     let mut scope = Scope::default();
     for element in declarations(root.element) {
-        let value = Node { element, scope: &scope }.text("value")?.unwrap_or_default().into_owned();
-        scope.set(element.required("name")?, value);
+        let node = Node { element, scope: &scope };
+        let kind = Kind::read(node, "parameterType")?;
+        let value = node.text("value")?.unwrap_or_default().into_owned();
+        scope.set(element.required("name")?, kind, &value);
     }
     Ok(scope)
 }

@@ -1,5 +1,6 @@
 //! The parameters that an element sees, and the values of attributes with parameters in them.
 
+use super::kind::Kind;
 use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, TRUTHS, Value, brief};
 use paracosm_space::nearest;
 use std::borrow::Cow;
@@ -19,6 +20,7 @@ pub(super) struct Scope(Vec<Arc<Entry>>);
 #[derive(Debug)]
 struct Entry {
     name: String,
+    kind: Kind,
     value: String,
     /// The text of the value, and the number of parameters that the text sees; `None` for a parameter of the whole scenario.
     local: Option<(String, usize)>,
@@ -28,6 +30,11 @@ impl Scope {
     /// Returns the value of a parameter.
     pub fn get(&self, name: &str) -> Option<&str> {
         self.position(self.len(), name).map(|at| self.0[at].value.as_str())
+    }
+
+    /// Returns the type of a parameter.
+    pub fn kind(&self, name: &str) -> Option<Kind> {
+        self.position(self.len(), name).map(|at| self.0[at].kind)
     }
 
     /// Returns the number of parameters.
@@ -41,14 +48,17 @@ impl Scope {
     }
 
     /// Adds a parameter of the whole scenario.
-    pub fn set(&mut self, name: impl Into<String>, value: impl Into<String>) {
-        self.0.push(Arc::new(Entry { name: name.into(), value: value.into(), local: None }));
+    pub fn set(&mut self, name: &str, kind: Kind, value: &str) {
+        self.add(name, kind, value, None);
     }
 
     /// Adds a parameter of a part of the scenario. The text of its value sees the first `seen` parameters.
-    pub fn define(&mut self, name: &str, text: &str, seen: usize, value: &str) {
-        let (name, value, local) = (name.to_owned(), value.to_owned(), Some((text.to_owned(), seen)));
-        self.0.push(Arc::new(Entry { name, value, local }));
+    pub fn define(&mut self, name: &str, kind: Kind, value: &str, (text, seen): (&str, usize)) {
+        self.add(name, kind, value, Some((text.to_owned(), seen)));
+    }
+
+    fn add(&mut self, name: &str, kind: Kind, value: &str, local: Option<(String, usize)>) {
+        self.0.push(Arc::new(Entry { name: name.to_owned(), kind, value: kind.plain(value).to_owned(), local }));
     }
 
     /// Returns the text of a parameter of a part of the scenario, and the number of parameters that the text sees; `None` for a
@@ -100,12 +110,12 @@ impl Scope {
     /// Returns the text of an attribute that sees the first `among` parameters.
     fn resolve_among<'t>(&self, among: usize, text: &'t str) -> Result<Cow<'t, str>, ExpressionFlaw> {
         let Some(name) = text.strip_prefix('$') else { return Ok(Cow::Borrowed(text)) };
-        let value = |name: &str| self.find(among, name).map(|at| self.0[at].value.as_str());
+        let entry = |name: &str| self.find(among, name).map(|at| &self.0[at]);
         match name.strip_prefix('{').map(|inside| inside.strip_suffix('}')) {
-            None => Ok(Cow::Owned(value(name)?.to_owned())),
+            None => Ok(Cow::Owned(entry(name)?.value.clone())),
             Some(None) => Err(ExpressionFlaw::Unexpected { found: text.to_owned(), expected: "`}` at the end" }),
             Some(Some(inside)) => {
-                let parameter = |name: &str| value(name).map(Value::of);
+                let parameter = |name: &str| entry(name).map(|entry| Value::of(&entry.value));
                 Ok(Cow::Owned(Expression::parse(inside)?.value(&parameter)?.to_string()))
             }
         }

@@ -181,7 +181,7 @@ fn measured(measure: &Measure) -> Vec<usize> {
     };
     match measure {
         Measure::Speed { entity, .. }
-        | Measure::Acceleration { entity }
+        | Measure::Acceleration { entity, .. }
         | Measure::Standing { entity }
         | Measure::Travelled { entity }
         | Measure::EndOfRoad { entity }

@@ -13,7 +13,7 @@ use super::scope::Node;
 use super::site::Sites;
 use super::taken::Taken;
 use super::variable::{Change, Variable};
-use crate::xml::ReadError;
+use crate::xml::{Flaw, ReadError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -144,7 +144,9 @@ impl Storyboard {
                 }
                 "GlobalAction" => match global(actor, names)? {
                     Kind::Environment(change) => surroundings.change(&change, 0.0),
-                    Kind::Change(variable, change) => change.apply(&mut variables[variable].value),
+                    Kind::Change(variable, change) => {
+                        variables[variable].change(&change).map_err(|misfit| actor.error(Flaw::Misfit(misfit)))?;
+                    }
                     Kind::Action(group, action) => {
                         init.extend(group.iter().map(|entity| (*entity, action.clone(), actor.element.line())));
                     }
@@ -281,9 +283,6 @@ impl Reader<'_> {
     fn group(&mut self, node: Node<'_>, act: usize) -> Result<(), ReadError> {
         let group = self.push(node, Kind::Group, Some(act))?;
         let actors = node.child("Actors")?;
-        if actors.truth_or("selectTriggeringEntities", false)? {
-            return Err(actors.refused("name the actors, and set selectTriggeringEntities to false"));
-        }
         let actors = actors.all("EntityRef").map(|actor| self.names.group(actor, "entityRef"));
         let actors = actors.collect::<Result<Vec<_>, _>>()?.concat();
         let catalogs = self.names.catalogs;

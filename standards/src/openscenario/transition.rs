@@ -80,6 +80,12 @@ impl Shape {
         }
     }
 
+    /// Returns the mean magnitude of a value that changes from `start` to `target`.
+    fn mean_magnitude(self, start: f64, target: f64) -> f64 {
+        let at = |part: usize| start + (target - start) * self.share((part as f64 + 0.5) / PARTS as f64);
+        (0..PARTS).map(|part| at(part).abs()).sum::<f64>() / PARTS as f64
+    }
+
     /// Returns the seconds that a change by `change` takes if the second derivative is at most `most`.
     pub fn time_within(self, change: f64, most: f64) -> f64 {
         let second = match self {
@@ -128,6 +134,18 @@ impl Dynamics {
         };
         Transition { start, target, shape: self.shape, span, by_distance, done: 0.0 }
     }
+
+    /// Begins a transition of the speed itself. A distance stands for the time in which the entity covers the distance, because a speed
+    /// that followed the distance would never leave 0.
+    pub fn of_speed(self, start: f64, target: f64) -> Transition {
+        match self.extent {
+            Extent::Distance(metres) => {
+                let seconds = metres / self.shape.mean_magnitude(start, target);
+                Self { extent: Extent::Time(seconds), ..self }.from(start, target)
+            }
+            _ => self.from(start, target),
+        }
+    }
 }
 
 impl Transition {
@@ -164,6 +182,8 @@ impl Transition {
     }
 }
 
+/// The number of parts of a transition in which its mean is summed up.
+const PARTS: usize = 1000;
 /// A sum of ticks that falls short of a span by less is the span.
 const TOLERANCE: f64 = 1e-9;
 
@@ -183,6 +203,21 @@ mod tests {
             }
             assert!((greatest - 2.0).abs() < 1e-3, "{shape:?}: {greatest}");
             assert!(transition.is_over() && transition.value() == -4.0);
+        }
+    }
+
+    #[test]
+    fn a_speed_changes_within_its_distance() {
+        for (_, shape) in SHAPES.into_iter().filter(|(_, shape)| *shape != Shape::Step) {
+            for (start, target) in [(0.0, 20.0), (30.0, 0.0), (10.0, 14.0), (5.0, -5.0), (8.0, -2.0), (0.0, -3.0)] {
+                let mut transition = Dynamics { shape, extent: Extent::Distance(40.0) }.of_speed(start, target);
+                let mut metres = 0.0;
+                while !transition.is_over() {
+                    transition.advance(0.001, 0.0);
+                    metres += transition.value().abs() * 0.001;
+                }
+                assert!((metres - 40.0).abs() < 0.05, "{shape:?} from {start} to {target}: {metres} m");
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use super::names::Names;
 use super::parameters::declared_kinds;
 use super::scope::Node;
 use super::taken::Taken;
-use crate::xml::{Flaw, ReadError, Value};
+use crate::xml::{Flaw, Misfit, ReadError, Value};
 
 /// A variable with its value.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,13 +37,32 @@ impl Variable {
             if !kind.takes(&value) {
                 return Err(declaration.unexpected("value", &value, kind.expected()));
             }
-            Ok(Self { name, kind, value: Value::of(&value) })
+            Ok(Self { name, kind, value: kind.typed(&value) })
         };
         let parameters = declared_kinds(root)?.into_iter().map(|(name, kind)| {
-            let value = Value::of(root.scope.get(&name).unwrap_or_default());
+            let value = kind.typed(root.scope.get(&name).unwrap_or_default());
             Ok(Self { name, kind, value })
         });
         declared.map(read).chain(parameters).collect()
+    }
+
+    /// Changes the value.
+    ///
+    /// # Errors
+    /// The new value is not of the type. The variable keeps its value.
+    pub fn change(&mut self, change: &Change) -> Result<(), Misfit> {
+        let value = match (change, &self.value) {
+            (Change::Set(new), _) => new.clone(),
+            (Change::Add(by), Value::Number(number)) => Value::Number(number + by),
+            (Change::Multiply(by), Value::Number(number)) => Value::Number(number * by),
+            (Change::Add(_) | Change::Multiply(_), other) => other.clone(),
+        };
+        let text = value.to_string();
+        if !self.kind.takes(&text) {
+            return Err(Misfit { name: self.name.clone(), value: text, expected: self.kind.expected() });
+        }
+        self.value = value;
+        Ok(())
     }
 }
 
@@ -56,11 +75,12 @@ impl Change {
         } else {
             names.variable(node, "variableRef")?
         };
+        let of = names.kinds[variable];
         let kind = node.choice("SetAction or ModifyAction")?;
         let change = match kind.name() {
-            "SetAction" => Self::Set(Value::of(&names.kinds[variable].required(kind, "value")?)),
+            "SetAction" => Self::Set(of.typed(&of.required(kind, "value")?)),
             _ => {
-                if !names.kinds[variable].is_number() {
+                if !of.is_number() {
                     let (rule, name) = (kind.child("Rule")?, &names.variables[variable]);
                     return Err(rule.error(Flaw::NoNumber { name: name.clone() }));
                 }
@@ -70,15 +90,5 @@ impl Change {
             }
         };
         Ok((variable, change))
-    }
-
-    /// Changes a value. A value that is not a number stays as it is if a number is added to it.
-    pub fn apply(&self, value: &mut Value) {
-        match (self, value) {
-            (Self::Set(new), value) => *value = new.clone(),
-            (Self::Add(by), Value::Number(number)) => *number += by,
-            (Self::Multiply(by), Value::Number(number)) => *number *= by,
-            (Self::Add(_) | Self::Multiply(_), _) => (),
-        }
     }
 }

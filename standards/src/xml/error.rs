@@ -20,6 +20,18 @@ pub struct ReadError {
     pub flaw: Box<Flaw>,
 }
 
+/// A value that an action gives a variable or a parameter, and that is not of its type.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{name}` becomes {value}, expected {expected}")]
+pub struct Misfit {
+    /// The name of the variable or the parameter.
+    pub name: String,
+    /// The value.
+    pub value: String,
+    /// The values of the type, in words.
+    pub expected: String,
+}
+
 /// The description of an error in a file of a standard. The names of elements and attributes are those of the file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -221,6 +233,9 @@ pub enum Flaw {
         /// The name of the variable or parameter.
         name: String,
     },
+    /// An initial action gives a variable or a parameter a value that is not of its type.
+    #[error(transparent)]
+    Misfit(Misfit),
     /// Two elements have the same identifier.
     #[error("`{attribute}=\"{found}\"` of <{element}> is taken: the element in line {first} has the same value")]
     Taken {

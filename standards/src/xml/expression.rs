@@ -107,8 +107,8 @@ impl Value {
         match (text.trim(), text.trim().parse()) {
             ("true", _) => Self::Truth(true),
             ("false", _) => Self::Truth(false),
-            (_, Ok(number)) => Self::Number(number),
-            (text, Err(_)) => Self::Text(text.to_owned()),
+            (_, Ok(number)) if f64::is_finite(number) => Self::Number(number),
+            (text, _) => Self::Text(text.to_owned()),
         }
     }
 

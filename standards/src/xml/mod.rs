@@ -15,7 +15,7 @@ mod writer;
 pub(crate) use document::Document;
 pub(crate) use edits::Edits;
 pub(crate) use element::{Element, TRUTHS, brief};
-pub use error::{Flaw, Malformed, ReadError};
+pub use error::{Flaw, Malformed, Misfit, ReadError};
 pub use expression::ExpressionFlaw;
 pub(crate) use expression::{Expression, MOST_OPERATORS, Value};
 pub(crate) use number::{rounded, short};

@@ -2,6 +2,7 @@
 
 use super::element::{Element, TRUTHS};
 use super::error::ReadError;
+use std::fmt;
 
 /// The way in which an element of a standard is supported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,16 +26,17 @@ pub(crate) struct Row {
     /// The names of the attributes of the element, with spaces between them. A `!` after a name says that the element must have the
     /// attribute.
     pub attributes: &'static str,
-    /// The values of an attribute without effect.
+    /// The values of an attribute without effect or of a refused attribute.
     pub form: Form,
-    /// The value of an attribute without effect that means the same as no attribute; empty if there is none.
+    /// The value of an attribute without effect that means the same as no attribute, or the only value with which a refused attribute is
+    /// read; empty if there is none.
     pub usual: &'static str,
     pub support: Support,
     /// `true` if a parent can contain several of these elements.
     pub repeats: bool,
 }
 
-/// The values of an attribute that has no effect.
+/// The values of an attribute that has no effect or that is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
     Any,
@@ -53,6 +55,29 @@ pub struct Supported {
     pub name: &'static str,
     /// The way in which the element is supported.
     pub support: Support,
+    /// The only value with which a refused attribute is read; empty for everything else.
+    pub except: &'static str,
+}
+
+impl Supported {
+    /// Returns the name of the support, and the reason for it.
+    pub fn support(&self) -> (&'static str, Option<&'static str>) {
+        match self.support {
+            Support::Read => ("read", None),
+            Support::NoEffect(reason) => ("no effect", Some(reason)),
+            Support::Refused(reason) => ("refused", Some(reason)),
+        }
+    }
+}
+
+impl fmt::Display for Supported {
+    /// Writes how the element is supported, such as "refused: the world is flat".
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (support, reason) = self.support();
+        let except = if self.except.is_empty() { String::new() } else { format!(" except `{}`", self.except) };
+        let reason = reason.map_or_else(String::new, |reason| format!(": {reason}"));
+        write!(f, "{support}{except}{reason}")
+    }
 }
 
 impl Row {
@@ -84,7 +109,8 @@ impl Row {
     /// Returns each element of the row within each of its parents.
     pub fn each(&self) -> impl Iterator<Item = Supported> + use<'_> {
         let Self { names, support, .. } = *self;
-        let within = move |parent| names.split('|').map(move |name| Supported { parent, name, support });
+        let except = if matches!(support, Support::Refused(_)) { self.usual } else { "" };
+        let within = move |parent| names.split('|').map(move |name| Supported { parent, name, support, except });
         self.parents().map(|(parent, _)| parent).flat_map(within)
     }
 }

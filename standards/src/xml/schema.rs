@@ -170,6 +170,9 @@ impl Schema {
             let why = match self.attribute_row(element, attribute) {
                 Some(row) if !row.form.check(element, attribute, row.usual)? => continue,
                 Some(Row { support: Support::NoEffect(reason), .. }) => (*reason, None),
+                Some(Row { support: Support::Refused(reason), usual, .. }) => {
+                    return Err(element.unexpected(attribute, format!("{usual}: {reason}")));
+                }
                 _ if row.knows(attribute) => continue,
                 _ => (NOT_IN_STANDARD, nearest(attribute, row.attributes().map(|(name, _)| name))),
             };
@@ -191,7 +194,7 @@ impl Schema {
         needed.find(|name| element.first(name).is_none()).map(|absent| element.lacks(absent))
     }
 
-    /// Returns the row of an attribute that has no effect.
+    /// Returns the row of an attribute that has no effect, or that is refused.
     fn attribute_row(&self, element: Element<'_, '_>, attribute: &str) -> Option<&'static Row> {
         self.children.get(element.name())?.get(format!("@{attribute}").as_str()).copied()
     }

@@ -466,14 +466,8 @@ fn the_page_of_elements_is_written_from_the_table_and_its_tests() {
             untested.push(format!("{} in {}", element.name, element.parent));
             continue;
         };
-        let (state, reason) = match element.support {
-            Support::Read => ("read", ""),
-            Support::NoEffect(reason) => ("no effect", reason),
-            Support::Refused(reason) => ("refused", reason),
-        };
         let parent = if element.parent == "*" { "any element".to_owned() } else { format!("`{}`", element.parent) };
-        let reason = if reason.is_empty() { String::new() } else { format!(": {reason}") };
-        page += &format!("| `{}` | {parent} | {state}{reason} | `{file}` |\n", element.name);
+        page += &format!("| `{}` | {parent} | {element} | `{file}` |\n", element.name);
     }
     assert!(untested.is_empty(), "no test has these elements: {untested:?}");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/opendrive.md");

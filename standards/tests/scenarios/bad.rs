@@ -176,7 +176,12 @@ fn a_mistake_in_an_action_or_a_condition_is_reported() {
             "did you mean `First`?",
         ),
         ("actions.xosc", "objectType=\"pedestrian\"", "objectType=\"person\"", "did you mean `pedestrian`?"),
-        ("actions.xosc", "angleType=\"heading\"", "angleType=\"pitch\"", "is not allowed, expected one of heading"),
+        (
+            "actions.xosc",
+            "angleType=\"heading\"",
+            "angleType=\"pitch\"",
+            "is not allowed, expected heading: the world is flat",
+        ),
         ("actions.xosc", "displacement=\"rightTo", "displacement=\"rigtTo", "did you mean `rightToReferencedEntity`?"),
         ("actions.xosc", "dateTime=\"2026-01-31T11", "dateTime=\"2026-31-01T11", "expected a time such as"),
         ("routes.xosc", "entryName=\"left\"", "entryName=\"lef\"", "did you mean `left`?"),
@@ -230,6 +235,15 @@ fn every_refused_element_is_refused_by_its_name() {
     for element in elements() {
         let Support::Refused(reason) = element.support else { continue };
         let Some(way) = ways.get(element.parent) else { continue };
+        if let Some(attribute) = element.name.strip_prefix('@') {
+            let refused = ["true", "false", "pitch"].into_iter().filter(|value| {
+                fs::write(&path, nested(way).replacen("></", &format!(" {attribute}=\"{value}\"></"), 1)).unwrap();
+                let error = Xosc::read(&path).err().expect("the file lacks much").to_string();
+                error.contains(&format!("`{attribute}=\"{value}\"` of <{}>", element.parent)) && error.contains(reason)
+            });
+            assert_eq!(refused.count(), 1, "{way:?} {attribute}");
+            continue;
+        }
         let all: Vec<&str> = way.iter().copied().chain([element.name]).collect();
         fs::write(&path, nested(&all)).unwrap();
         let error = Xosc::read(&path).err().expect("it is refused");

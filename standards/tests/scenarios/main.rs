@@ -7,6 +7,7 @@ mod declarations;
 mod drawing;
 mod exports;
 mod golden;
+mod measures;
 #[path = "../roads/others.rs"]
 mod others;
 mod page;

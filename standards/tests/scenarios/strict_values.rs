@@ -94,12 +94,13 @@ fn a_group_of_constraints_has_a_constraint() {
 #[test]
 fn words_have_no_order() {
     let found = "<SimulationTimeCondition value=\"1\" rule=\"greaterOrEqual\"/>";
-    let by = "<ParameterCondition parameterRef=\"gap\" value=\"far\" rule=\"lessThan\"/>";
+    let by = "<ParameterCondition parameterRef=\"gap\" value=\"far\" rule=\"equalTo\"/>";
+    refuses(LEADER, found, by, "59: `value=\"far\"` of <ParameterCondition> is not allowed, expected a finite number");
     refuses(
-        LEADER,
-        found,
-        by,
-        "59: `rule=\"lessThan\"` of <ParameterCondition> is not allowed, expected equalTo or notEqualTo, because `far` is no number",
+        "actions.xosc",
+        "parameterRef=\"mode\" value=\"slow\" rule=\"equalTo\"",
+        "parameterRef=\"mode\" value=\"slow\" rule=\"lessThan\"",
+        "of <ParameterCondition> is not allowed, expected equalTo or notEqualTo, because `slow` is no number",
     );
 }
 

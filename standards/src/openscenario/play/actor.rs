@@ -6,6 +6,7 @@ use crate::openscenario::place::Place;
 use crate::openscenario::project::{project, project_near};
 use crate::openscenario::route::Legs;
 use nalgebra::Vector2;
+use paracosm_engine::road::wrapped;
 use paracosm_engine::{LedMotion, Pose};
 use std::cell::Cell;
 
@@ -32,7 +33,9 @@ pub(in crate::openscenario) struct Actor {
     pub velocity: Vector2<f64>,
     /// The change of the speed over the last tick in m/s².
     pub acceleration: f64,
-    /// The speed in m/s to the left of the direction of the lane.
+    /// The acceleration to the left in m/s²: the speed times the turn of the heading over the last tick.
+    pub lateral_acceleration: f64,
+    /// The speed in m/s to the left of the heading.
     pub lateral_speed: f64,
     /// The distance in metres that the entity has travelled.
     pub travelled: f64,
@@ -91,6 +94,7 @@ impl Actor {
             present: true,
             velocity: Vector2::zeros(),
             acceleration: 0.0,
+            lateral_acceleration: 0.0,
             lateral_speed: 0.0,
             travelled: 0.0,
             standing: 0.0,
@@ -174,7 +178,7 @@ impl Actor {
                     }
                     let moved = place.follow(metres, self.route.as_ref(), map);
                     self.pose = place.pose(map);
-                    self.pose.heading = paracosm_engine::road::wrapped(self.pose.heading + angle);
+                    self.pose.heading = wrapped(self.pose.heading + angle);
                     !moved
                 }
                 Whereabouts::Free(pose) => {
@@ -190,6 +194,9 @@ impl Actor {
             }
         }
         self.finish(dt, before, from, map);
+        if stays {
+            self.velocity = self.pose.forward() * self.speed;
+        }
     }
 
     /// Takes over the motion of a car that a driver drives.
@@ -214,6 +221,7 @@ impl Actor {
         }
         self.lateral_speed = from.turn_to_local(self.pose.position - from.position).y / dt;
         self.acceleration = (self.speed - before) / dt;
+        self.lateral_acceleration = self.speed * wrapped(self.pose.heading - from.heading) / dt;
         self.velocity = (self.pose.position - from.position) / dt;
         self.travelled += (self.pose.position - from.position).norm();
         self.standing = if self.speed.abs() < STANDING { self.standing + dt } else { 0.0 };

@@ -7,7 +7,7 @@ use crate::openscenario::place::{Place, driving_turn};
 use crate::openscenario::position::{Position, Route, RoutePlace, Turn, Way};
 use crate::openscenario::project::project;
 use crate::openscenario::route::{Legs, Stop};
-use crate::xml::rounded;
+use crate::xml::{Misfit, rounded};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
@@ -35,6 +35,8 @@ pub(in crate::openscenario) enum Lost {
     Beside,
     #[error("no road leads from road `{from}` to road `{to}`")]
     NoRoute { from: String, to: String },
+    #[error(transparent)]
+    Misfit(Box<Misfit>),
 }
 
 /// The reason why an initial action cannot begin. The line is that of the action in the file.

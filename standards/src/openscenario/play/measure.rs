@@ -47,9 +47,16 @@ impl Cast {
             Measure::VariableIs(index, value) => f64::from(u8::from(self.variables[*index].value == *value)),
             Measure::State { element, state } => f64::from(u8::from(is_in(*element, *state))),
             Measure::Speed { entity, direction } => speed(actor(*entity), *direction),
-            Measure::Acceleration { entity } => actor(*entity).acceleration,
+            Measure::Acceleration { entity, direction } => acceleration(actor(*entity), *direction),
             Measure::RelativeSpeed { entity, other, direction } => {
-                speed(actor(*entity), *direction) - speed(actor(*other), *direction)
+                let (from, other) = (actor(*entity), actor(*other));
+                // The entity's own axes count for both.
+                let theirs = match direction {
+                    Direction::Total => other.speed,
+                    Direction::Longitudinal => other.velocity.dot(&from.pose.forward()),
+                    Direction::Lateral => other.velocity.dot(&from.pose.left()),
+                };
+                speed(from, *direction) - theirs
             }
             Measure::Standing { entity } => actor(*entity).standing,
             Measure::Travelled { entity } => actor(*entity).travelled,
@@ -235,5 +242,13 @@ fn speed(actor: &Actor, direction: Direction) -> f64 {
     match direction {
         Direction::Longitudinal | Direction::Total => actor.speed,
         Direction::Lateral => actor.lateral_speed,
+    }
+}
+
+fn acceleration(actor: &Actor, direction: Direction) -> f64 {
+    match direction {
+        Direction::Longitudinal => actor.acceleration,
+        Direction::Lateral => actor.lateral_acceleration,
+        Direction::Total => libm::hypot(actor.acceleration, actor.lateral_acceleration),
     }
 }

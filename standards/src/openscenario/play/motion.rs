@@ -72,8 +72,7 @@ impl Motion {
     pub fn carry_out(&mut self, entity: usize, cast: &mut Cast, dt: f64) -> bool {
         match self {
             Self::Speed { transition, follows } => {
-                let travelled = cast.actors[entity].speed.abs() * dt;
-                transition.advance(dt, travelled);
+                transition.advance(dt, 0.0);
                 if let Some(target) = follows {
                     transition.target = cast.target(*target);
                 }

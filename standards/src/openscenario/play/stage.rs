@@ -2,7 +2,7 @@
 
 use super::actor::{Actor, Step};
 use super::cast::Cast;
-use super::find::{Misplaced, Unplayable};
+use super::find::{Lost, Misplaced, Unplayable};
 use super::motion::Motion;
 use super::watch::{Question, Watch};
 use crate::opendrive::Map;
@@ -243,8 +243,10 @@ impl Stage {
                 inner.start.iter_mut().chain(&mut inner.stop).for_each(Watch::reset);
             }
         }
-        if let Kind::Change(variable, change) = &self.items[index].item.kind {
-            change.apply(&mut self.cast.variables[*variable].value);
+        if let Kind::Change(variable, change) = &self.items[index].item.kind
+            && let Err(misfit) = self.cast.variables[*variable].change(change)
+        {
+            self.lose(index, Lost::Misfit(Box::new(misfit)));
         }
         if let Kind::Environment(change) = &self.items[index].item.kind {
             self.cast.surroundings.change(change, self.cast.time);
@@ -261,13 +263,16 @@ impl Stage {
                         let along = matches!(action, Action::Speed { .. } | Action::Gap { .. } | Action::Delete);
                         self.end_others(entity, (along, action == Action::Delete));
                     }
-                    Err(lost) => {
-                        let Item { name: action, origin: (file, line), .. } = self.items[index].item.clone();
-                        self.lost.get_or_insert(Unplayable { file, line, action, lost });
-                    }
+                    Err(lost) => self.lose(index, lost),
                 }
             }
         }
+    }
+
+    /// Notes that an action cannot begin.
+    fn lose(&mut self, index: usize, lost: Lost) {
+        let Item { name: action, origin: (file, line), .. } = self.items[index].item.clone();
+        self.lost.get_or_insert(Unplayable { file, line, action, lost });
     }
 
     /// Ends the motions of an entity along, or aside, or both.

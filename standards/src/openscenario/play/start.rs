@@ -137,7 +137,7 @@ impl Cast {
     fn speed(&mut self, entity: usize, dynamics: Dynamics, target: Target) -> Option<Motion> {
         let goal = self.target(target);
         let actor = &self.actors[entity];
-        let transition = dynamics.from(actor.speed, goal);
+        let transition = dynamics.of_speed(actor.speed, goal);
         // The performance of a vehicle limits its changes of speed.
         let limit = actor.entity.vehicle.map_or(f64::INFINITY, |vehicle| {
             if goal > actor.speed { vehicle.acceleration } else { vehicle.deceleration }
