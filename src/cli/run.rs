@@ -176,28 +176,36 @@ impl Options {
         }
         let ran = report.log.trials().len();
         if ran < self.budget && report.finish != Finish::Stopped && (ran > 0 || extension.is_some()) {
-            let beside =
-                extension.map(|known| format!(" beside the {} in {}", known.record().tests, known.record().name));
-            let beside = beside.unwrap_or_default();
-            verbosity.note(match (self.sampling.epsilon, ran) {
-                (_, 0) if extension.is_some() => format!("no test was run: nothing is missing{beside}"),
-                (Some(epsilon), ran) => {
-                    let ran = plural(ran, "test");
-                    format!("the campaign ended before its budget: after {ran}{beside} no row has an empty box above {epsilon}")
-                }
-                (None, ran) if report.log.study().space().checks_each_test() => {
-                    let ran = plural(ran, "test");
-                    format!("the campaign ended before its budget: after {ran}{beside} the strategy found no other that keeps the constraints")
-                }
-                (None, ran) => {
-                    let ran = plural(ran, "test");
-                    format!("the campaign ended before its budget: the strategy has only {ran} for these parameters{beside}")
-                }
-            });
+            verbosity.note(self.shortfall(report, extension));
         }
         if report.map.is_none() {
             verbosity.note("no failure map: a map needs two open continuous parameters");
         }
+    }
+
+    /// Says why the campaign has fewer tests than its budget.
+    fn shortfall(&self, report: &Report, extension: Option<&Extension>) -> String {
+        let beside = extension.map(|known| format!(" beside the {} in {}", known.record().tests, known.record().name));
+        let beside = beside.unwrap_or_default();
+        let ran = report.log.trials().len();
+        if ran == 0 {
+            return format!("no test was run: nothing is missing{beside}");
+        }
+        let (ran, study) = (plural(ran, "test"), report.log.study());
+        let why = match self.sampling.epsilon {
+            Some(epsilon) => format!("after {ran}{beside} no row has an empty box above {epsilon}"),
+            None if study.space().checks_each_test() => {
+                format!("after {ran}{beside} the strategy found no other that keeps the constraints")
+            }
+            None => format!("the strategy has only {ran} for these parameters{beside}"),
+        };
+        let more = match study.sampling().stronger(study.space()) {
+            Some(k) => {
+                format!("; `--k {k}` covers combinations of {k} values, and `--discrete random` uses the whole budget")
+            }
+            None => String::new(),
+        };
+        format!("the campaign ended before its budget: {why}{more}")
     }
 
     /// Checks that the scenario to resume is not the name of a folder.

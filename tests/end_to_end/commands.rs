@@ -171,6 +171,23 @@ fn a_space_without_continuous_parameters_is_tested_once_each_and_that_is_said() 
 }
 
 #[test]
+fn a_campaign_with_all_combinations_of_two_values_says_how_the_budget_is_used() {
+    let dir = tempfile::tempdir().unwrap();
+    let options = ["--open", "lanes", "--open", "friction=0.2,0.5,0.8", "--open", "speed=1,2", "--set", "distance=20"];
+    let more = "; `--k 3` covers combinations of 3 values, and `--discrete random` uses the whole budget";
+    let note = |out: &str, more: &[&str]| {
+        stderr(&succeeds(fuzz(dir.path(), &[&options[..], &["--budget", "15", "--out", out], more].concat())))
+    };
+    let found = note("a", &[]);
+    assert!(found.contains(&format!("the strategy has only 9 tests for these parameters{more}")), "{found}");
+    for (out, options) in [("b", ["--k", "3"]), ("c", ["--discrete", "random"])] {
+        let found = note(out, &options);
+        assert!(!found.contains("before its budget"), "{found}");
+        assert_eq!(fs::read_to_string(dir.path().join(out).join("trials.jsonl")).unwrap().lines().count(), 15);
+    }
+}
+
+#[test]
 fn a_trace_does_not_replace_a_file_of_the_campaign() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), &[]);

@@ -57,6 +57,19 @@ fn with_continuous_a_range_is_an_interval_and_no_test_breaks_a_constraint() {
 }
 
 #[test]
+fn fixed_values_that_break_a_constraint_are_refused_with_its_place() {
+    let dir = folder();
+    let says = "slow-leader.xosc:5: no test keeps the constraint `speed > 0 and speed <= 50` with speed = 60";
+    let arguments = ["slow-leader.xosc", "--driver", "aeb", "--open", "gap=20..50", "--set", "speed=60"];
+    refused(&fuzz(dir.path(), &arguments), &[says]);
+    let path = dir.path().join("slow-leader.xosc");
+    let text = fs::read_to_string(&path).expect("it is there");
+    let declared = "name=\"speed\" parameterType=\"double\" value=\"30\"";
+    fs::write(&path, text.replace(declared, &declared.replace("30", "60"))).expect("it is writable");
+    refused(&fuzz(dir.path(), &arguments[..5]), &[says]);
+}
+
+#[test]
 fn a_campaign_on_a_file_is_resumed_with_the_same_bytes() {
     let dir = folder();
     for (out, more) in [("listed", "--k=2"), ("continuous", "--continuous")] {

@@ -3,6 +3,7 @@
 use super::parameters::ParameterMisuse;
 use super::{Study, Subject};
 use crate::Error;
+use paracosm_engine::Constraint;
 use paracosm_space::Value;
 use paracosm_space::constraint::Specialised;
 
@@ -25,7 +26,10 @@ impl Study {
                 Specialised::Always => {}
                 Specialised::Open(expression) => texts.push(expression.to_string()),
                 Specialised::Never => {
-                    return Err(ParameterMisuse::Broken { constraint: constraint.expression.to_string() }.into());
+                    let Constraint { expression, place } = constraint;
+                    let fixed = |name: &str| known(name).map(|value| format!("{name} = {value}"));
+                    let values = expression.names().into_iter().filter_map(fixed).collect();
+                    return Err(ParameterMisuse::Broken { place, constraint: expression.to_string(), values }.into());
                 }
             }
         }

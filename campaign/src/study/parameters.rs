@@ -84,10 +84,14 @@ pub enum ParameterMisuse {
         scenario: String,
     },
     /// No test keeps a constraint of the scenario, because of the fixed values.
-    #[error("with the fixed values, no test keeps the constraint `{constraint}` of the scenario")]
+    #[error("{}no test keeps the constraint `{constraint}` with {}", place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default(), values.join(", "))]
     Broken {
+        /// The file and the line that state the constraint; `None` if the program itself states it.
+        place: Option<String>,
         /// The text of the constraint.
         constraint: String,
+        /// The fixed values in the constraint, each as `NAME = VALUE`.
+        values: Vec<String>,
     },
     /// The scenario leaves no parameter open.
     #[error("scenario `{scenario}` has no open parameter, so all its tests are the same; open some of {}, for example with --open NAME=LO..HI", all.join(", "))]

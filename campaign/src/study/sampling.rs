@@ -102,6 +102,14 @@ impl Sampling {
         self.batch.or_else(|| self.strategy.is_adaptive().then_some(ADAPTIVE_BATCH))
     }
 
+    /// Returns the next greater number of parameters whose combinations the tests can cover; `None` if they have all combinations of the
+    /// values of a space, or if something else than these combinations sets their number.
+    pub fn stronger(&self, space: &Space) -> Option<usize> {
+        let is_array = self.discrete == DiscreteFamily::Ipog && self.epsilon.is_none() && !self.strategy.is_adaptive();
+        let k = self.request(space, &[]).discrete_strength().ok()?;
+        (is_array && space.dims() == 0 && k < space.levels().len()).then_some(k + 1)
+    }
+
     /// Returns the request from which a strategy makes a generator of tests in a space, in addition to existing tests.
     pub fn request<'a>(&self, space: &'a Space, existing: &'a [Point]) -> Request<'a> {
         Request {

@@ -12,7 +12,7 @@ impl Strategy {
     /// The strategy "random", which takes independent uniformly random points.
     pub const RANDOM: Self = Self::of(&Descriptor {
         name: "random",
-        about: "independent uniform points: the baseline, and what statistics assume",
+        about: "independent uniform points, and with --discrete random all values: the baseline, and what statistics assume",
         dims: ANY,
         look: Look::filled(0x99_9999, MarkShape::Circle),
         method: Method(MethodKind::Sequence(Endless {

@@ -71,12 +71,7 @@ pub(super) fn constraint(
         return Ok(None);
     }
     let cases = parameters.cases(scope.sources(at, demand.limits()));
-    let said = Writer { parameters, scope, fixed: Vec::new(), depth: Cell::new(0) }.cases(at, demand, &cases).map_err(
-        |flaw| {
-            let (element, attribute) = ("ParameterDeclaration".to_owned(), "name".to_owned());
-            demand.error(Flaw::Expression { element, attribute, text: demand.name.clone(), flaw })
-        },
-    )?;
+    let said = Writer { parameters, scope, fixed: Vec::new(), depth: Cell::new(0) }.cases(at, demand, &cases)?;
     match said {
         Said::Always => Ok(None),
         Said::If(expression) => Ok(Some(Constraint { expression, place: Some(demand.place()) })),
@@ -91,7 +86,7 @@ pub(super) fn constraint(
 
 impl Writer<'_> {
     /// Writes the demands for each value of the parameters of tests that are written value by value.
-    fn cases(&mut self, at: usize, demand: &Demand, split: &[(String, Vec<Value>)]) -> Result<Said, ExpressionFlaw> {
+    fn cases(&mut self, at: usize, demand: &Demand, split: &[(String, Vec<Value>)]) -> Result<Said, ReadError> {
         let Some(((name, values), rest)) = split.split_first() else { return self.demands(at, demand) };
         let mut parts = Vec::new();
         for value in values {
@@ -112,14 +107,21 @@ impl Writer<'_> {
         Ok(joined(true, parts))
     }
 
-    fn demands(&self, at: usize, demand: &Demand) -> Result<Said, ExpressionFlaw> {
-        let value = self.value(at)?.of(demand.kind);
-        let limit =
-            |Limit { rule, text }: &Limit| compared(*rule, &value, &self.text(text, self.scope.len())?.of(demand.kind));
-        let group = |limits: &Vec<Limit>| {
-            Ok(joined(true, limits.iter().map(limit).collect::<Result<Vec<_>, ExpressionFlaw>>()?))
+    fn demands(&self, at: usize, demand: &Demand) -> Result<Said, ReadError> {
+        let unknown = |flaw| {
+            let (element, attribute) = ("ParameterDeclaration".to_owned(), "name".to_owned());
+            demand.error(Flaw::Expression { element, attribute, text: demand.name.clone(), flaw })
         };
-        let groups = demand.groups.iter().map(group).collect::<Result<Vec<_>, ExpressionFlaw>>()?;
+        let value = self.value(at).map_err(unknown)?.of(demand.kind);
+        let limit = |limit: &Limit| {
+            let known = self.text(&limit.text, self.scope.len());
+            known
+                .and_then(|known| compared(limit.rule, &value, &known.of(demand.kind)))
+                .map_err(|flaw| limit.error(flaw))
+        };
+        let group =
+            |limits: &Vec<Limit>| Ok(joined(true, limits.iter().map(limit).collect::<Result<Vec<_>, ReadError>>()?));
+        let groups = demand.groups.iter().map(group).collect::<Result<Vec<_>, ReadError>>()?;
         let groups = if groups.is_empty() { Said::Always } else { joined(false, groups) };
         Ok(joined(true, vec![of_kind(&value, demand.kind), groups]))
     }

@@ -3,7 +3,7 @@
 use super::kind::Kind;
 use super::rule::Rule;
 use super::scope::{Node, Scope};
-use crate::xml::{ExpressionFlaw, Flaw, ReadError};
+use crate::xml::{ExpressionFlaw, Flaw, ReadError, brief};
 use std::path::PathBuf;
 
 /// The demands on the value of a parameter.
@@ -22,6 +22,8 @@ pub(super) struct Demand {
 pub(super) struct Limit {
     pub rule: Rule,
     pub text: String,
+    /// The file and the line of the limit.
+    place: (PathBuf, u32),
 }
 
 /// The reason why a value breaks the demands on it.
@@ -30,14 +32,16 @@ pub(super) enum Breach {
     /// The value is not one of those in words.
     Value(String),
     /// A limit has no value.
-    Limit { text: String, flaw: ExpressionFlaw },
+    Limit(ReadError),
 }
 
 impl Demand {
     /// Reads an element `ParameterDeclaration`.
     pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
-        let limit =
-            |node: Node<'_>| Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned() });
+        let place = |node: Node<'_>| (node.element.file().to_owned(), node.element.line());
+        let limit = |node: Node<'_>| {
+            Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned(), place: place(node) })
+        };
         let group = |group: Node<'_>| {
             let limits = group.all("ValueConstraint").map(limit).collect::<Result<Vec<_>, ReadError>>()?;
             if limits.is_empty() { Err(group.element.lacks("ValueConstraint")) } else { Ok(limits) }
@@ -45,7 +49,7 @@ impl Demand {
         let groups = node.all("ConstraintGroup").map(group);
         let (name, kind) = (node.element.required("name")?.to_owned(), Kind::read(node, "parameterType")?);
         let groups = groups.collect::<Result<_, ReadError>>()?;
-        Ok(Self { name, kind, groups, place: (node.element.file().to_owned(), node.element.line()) })
+        Ok(Self { name, kind, groups, place: place(node) })
     }
 
     /// Returns `true` if some finite numbers break the demands.
@@ -68,13 +72,13 @@ impl Demand {
         for group in &self.groups {
             let mut holds = true;
             let mut members = Vec::new();
-            for Limit { rule, text } in group {
-                let limit = match scope.resolve(text) {
-                    Ok(limit) => limit,
-                    Err(flaw) => return Some(Breach::Limit { text: text.clone(), flaw }),
+            for limit in group {
+                let found = match scope.resolve(&limit.text) {
+                    Ok(found) => found,
+                    Err(flaw) => return Some(Breach::Limit(limit.error(flaw))),
                 };
-                holds &= rule.holds(&value, &self.kind.value(&limit));
-                members.push(format!("{} {limit}", rule.words()));
+                holds &= limit.rule.holds(&value, &self.kind.value(&found));
+                members.push(format!("{} {found}", limit.rule.words()));
             }
             if holds {
                 return None;
@@ -95,6 +99,15 @@ impl Demand {
     }
 }
 
+impl Limit {
+    /// Makes the error that the limit has no value.
+    pub fn error(&self, flaw: ExpressionFlaw) -> ReadError {
+        let (element, attribute) = ("ValueConstraint".to_owned(), "value".to_owned());
+        let flaw = Flaw::Expression { element, attribute, text: brief(&self.text), flaw };
+        ReadError { file: self.place.0.clone(), line: Some(self.place.1), flaw: Box::new(flaw) }
+    }
+}
+
 impl Breach {
     /// Returns the breach of a value that is not of a type.
     pub fn of(kind: Kind) -> Self {
@@ -105,10 +118,7 @@ impl Breach {
     pub fn error(self, node: Node<'_>, value: &str) -> ReadError {
         match self {
             Self::Value(expected) => node.unexpected("value", value, expected),
-            Self::Limit { text, flaw } => {
-                let (element, attribute) = ("ValueConstraint".to_owned(), "value".to_owned());
-                node.error(Flaw::Expression { element, attribute, text, flaw })
-            }
+            Self::Limit(error) => error,
         }
     }
 }

@@ -191,10 +191,26 @@ impl<'a> Node<'a> {
     pub fn text_among(self, among: usize, attribute: &'static str) -> Result<Option<Cow<'a, str>>, ReadError> {
         let Some(text) = self.element.text(attribute) else { return Ok(None) };
         let resolved = self.scope.resolve_among(among, text).map_err(|flaw| {
+            let flaw = self.told_of_later(flaw);
             let (element, attribute) = (self.name().to_owned(), attribute.to_owned());
             self.error(Flaw::Expression { element, attribute, text: brief(text), flaw })
         })?;
         Ok(Some(resolved))
+    }
+
+    /// Returns the flaw of an expression that names a parameter, after a look at the declarations beside this one: the parameter may be
+    /// declared later.
+    fn told_of_later(self, flaw: ExpressionFlaw) -> ExpressionFlaw {
+        let is_declared = |name: &str| {
+            self.name() == "ParameterDeclaration" && self.element.beside().any(|other| other.text("name") == Some(name))
+        };
+        match flaw {
+            ExpressionFlaw::NoParameter { name, .. } if self.element.text("name") == Some(&name) => {
+                ExpressionFlaw::Itself { name }
+            }
+            ExpressionFlaw::NoParameter { name, .. } if is_declared(&name) => ExpressionFlaw::Later { name },
+            flaw => flaw,
+        }
     }
 
     /// Returns the value of an attribute, which must exist.

@@ -76,6 +76,11 @@ impl<'a, 'i> Element<'a, 'i> {
         ReadError { line: Some(line), ..self.error(flaw) }
     }
 
+    /// Returns the elements of the parent, and this one among them.
+    pub fn beside(self) -> impl Iterator<Item = Self> {
+        self.node.parent().into_iter().flat_map(move |parent| Self { node: parent, ..self }.elements())
+    }
+
     /// Returns all elements directly within this one, in the order of the file.
     pub fn elements(self) -> impl Iterator<Item = Self> {
         self.node.children().filter(Node::is_element).map(move |node| Self { node, ..self })

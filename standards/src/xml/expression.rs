@@ -34,6 +34,18 @@ pub enum ExpressionFlaw {
         /// The most similar name of a parameter; `None` if no name is similar.
         nearest: Option<String>,
     },
+    /// The expression gives a parameter its value, and names this parameter.
+    #[error("it names the parameter `{name}` itself")]
+    Itself {
+        /// The name of the parameter.
+        name: String,
+    },
+    /// The expression gives a parameter its value, and names a parameter that is declared later.
+    #[error("the parameter `{name}` is declared later; declare it before this one")]
+    Later {
+        /// The name of the later parameter.
+        name: String,
+    },
     /// There is no function with this name, or its arguments are missing.
     #[error(
         "`{name}` was found, expected a number, a parameter such as $Speed, or a function with its arguments{}",

@@ -1,6 +1,5 @@
 //! Our own small files: what each element does, and what is refused. The table of `docs/opendrive.md` is written from them.
 
-use paracosm_standards::Support;
 use paracosm_standards::opendrive::{LaneType, Link, Map, Note, Road, Traffic, elements};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

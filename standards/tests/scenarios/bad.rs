@@ -49,6 +49,16 @@ fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
         ("entryName=\"car\"/>", "entryName=\"cat\"/>", "did you mean `car`?"),
         ("catalogName=\"entities\"", "catalogName=\"entitys\"", "did you mean `entities`?"),
         ("$gap + 10", "$gat + 10", "there is no parameter `gat` (did you mean `gap`?)"),
+        (
+            "$gap + 10",
+            "$start + 10",
+            "12: `value=\"${$start + 10}\"` of <ParameterDeclaration> has no value: it names the parameter `start` itself",
+        ),
+        (
+            "rule=\"lessOrEqual\" value=\"50\"",
+            "rule=\"lessOrEqual\" value=\"$gop\"",
+            "8: `value=\"$gop\"` of <ValueConstraint> has no value: there is no parameter `gop` (did you mean `gap`?)",
+        ),
         ("$gap + 10", "$gap / 0", "it divides by zero"),
         ("$gap + 10", "$gap +", "it ends where a value was expected"),
         (
@@ -113,7 +123,7 @@ fn a_mistake_is_reported_with_its_place_and_the_nearest_name() {
         (
             "parameterType=\"double\" value=\"50\"",
             "parameterType=\"double\" value=\"$start\"",
-            "11: `value=\"$start\"` of <ParameterDeclaration> has no value: there is no parameter `start`",
+            "11: `value=\"$start\"` of <ParameterDeclaration> has no value: the parameter `start` is declared later; declare it",
         ),
         (
             "<LanePosition roadId=\"1\" laneId=\"-1\" s=\"$start\"/>",
