@@ -1,14 +1,26 @@
 //! Reads a file of OpenDRIVE, and says in notes how the map differs from the file.
 
 use super::elements::schema;
+use super::junction::{Junction, JunctionKind};
 use super::map::Map;
 use super::note::Note;
 use super::read;
 use super::road::{Direction, LaneType, Road, Section};
-use crate::xml::{Document, Element, ReadError};
-use std::collections::BTreeSet;
+use crate::xml::{Document, Element, NoEffect, ReadError};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+/// The elements that hold from a place to the next element of the name, with the attributes of the place.
+const STRETCHES: [(&str, &str); 8] = [
+    ("geometry", "s"),
+    ("elevation", "s"),
+    ("superelevation", "s"),
+    ("laneOffset", "s"),
+    ("type", "s"),
+    ("width", "sOffset"),
+    ("border", "sOffset"),
+    ("roadMark", "sOffset"),
+];
 /// The distance in metres from which on differences between the pieces of a reference line are reported.
 const GAP: f64 = 0.01;
 
@@ -45,6 +57,9 @@ impl Map {
         notes.extend(widest(map.roads.iter().flat_map(lengths)));
         notes.extend(map.without_length());
         notes.extend(map.one_way());
+        notes.extend(map.narrow());
+        notes.extend(map.without_connections());
+        notes.extend(overlaid(root).map(Note::NoEffect));
         notes.extend(without_effect.into_iter().map(Note::NoEffect));
         map.notes = notes;
         map.text = document.text().into();
@@ -74,9 +89,54 @@ impl Map {
         Some(Note::OneWay { road: road.id.clone(), lane: lane.number, count: 1 + both.count() })
     }
 
+    fn narrow(&self) -> Option<Note> {
+        let lanes = self.roads.iter().flat_map(|road| {
+            let sections = road.sections.iter().enumerate().filter(|(_, section)| section.end > section.s);
+            sections.flat_map(move |(index, section)| section.lanes.iter().map(move |lane| (road, index, lane)))
+        });
+        let mut narrow = lanes.filter(|(road, section, lane)| {
+            lane.number != 0 && lane.kind.is_driven() && !road.is_driven(*section, lane)
+        });
+        let (road, section, lane) = narrow.next()?;
+        let width = road.widest(section, lane.number);
+        Some(Note::Narrow { road: road.id.clone(), lane: lane.number, width, count: 1 + narrow.count() })
+    }
+
+    fn without_connections(&self) -> Option<Note> {
+        let is_empty =
+            |junction: &&Junction| junction.kind != JunctionKind::Crossing && junction.connections.is_empty();
+        let mut empty = self.junctions.iter().filter(is_empty);
+        Some(Note::NoConnection { junction: empty.next()?.id.clone(), count: 1 + empty.count() })
+    }
+
     fn sections(&self) -> impl Iterator<Item = (&Road, &Section)> {
         self.roads.iter().flat_map(|road| road.sections.iter().map(move |section| (road, section)))
     }
+}
+
+/// Returns the elements of roads without an extent, because the next one begins at the same place.
+fn overlaid(root: Element<'_, '_>) -> impl Iterator<Item = NoEffect> {
+    let mut found: BTreeMap<&str, NoEffect> = BTreeMap::new();
+    let mut open: Vec<Element<'_, '_>> = root.all("road").collect();
+    while let Some(parent) = open.pop() {
+        let mut before: Option<(Element<'_, '_>, f64)> = None;
+        for element in parent.elements() {
+            let place = STRETCHES.iter().find(|(name, _)| *name == element.name());
+            let at = place.and_then(|(_, attribute)| element.number(attribute).ok());
+            if let (Some((first, s)), Some(at)) = (before, at)
+                && first.name() == element.name()
+                && s == at
+            {
+                let (name, reason) = (first.name().to_owned(), "the next one begins at the same place");
+                let note = NoEffect { name, reason, nearest: None, count: 0, line: first.line() };
+                let note = found.entry(first.name()).or_insert(note);
+                (note.count, note.line) = (note.count + 1, note.line.min(first.line()));
+            }
+            before = at.map(|at| (element, at));
+            open.push(element);
+        }
+    }
+    found.into_values()
 }
 
 /// Returns a note on the objects or signals with the identifier of another one.

@@ -182,10 +182,16 @@ impl Road {
         standard != (lane.direction == Direction::Reversed)
     }
 
-    fn is_driven(&self, section: usize, lane: &Lane) -> bool {
+    /// Returns `true` if cars drive on a lane of a section.
+    pub(super) fn is_driven(&self, section: usize, lane: &Lane) -> bool {
         let Section { s, end, .. } = self.sections[section];
-        let widest = (0..=8).map(|i| self.width(section, lane.number, s + (end - s) * f64::from(i) / 8.0));
-        lane.number != 0 && lane.kind.is_driven() && end > s && widest.fold(0.0, f64::max) >= NARROWEST
+        lane.number != 0 && lane.kind.is_driven() && end > s && self.widest(section, lane.number) >= NARROWEST
+    }
+
+    /// Returns the width in metres of a lane of a section at its widest place.
+    pub(super) fn widest(&self, section: usize, lane: i32) -> f64 {
+        let Section { s, end, .. } = self.sections[section];
+        (0..=8).map(|i| self.width(section, lane, s + (end - s) * f64::from(i) / 8.0)).fold(0.0, f64::max)
     }
 
     /// Returns the places along the road at which polynomials or pieces of the reference line begin.

@@ -92,6 +92,24 @@ pub enum Note {
         /// The number of sections.
         count: usize,
     },
+    /// Lanes of a type that cars drive on are too narrow for cars.
+    Narrow {
+        /// The identifier of the road with the first lane.
+        road: String,
+        /// The number of the first lane.
+        lane: i32,
+        /// The width of the first lane at its widest place, in metres.
+        width: f64,
+        /// The number of lanes, counted in each section.
+        count: usize,
+    },
+    /// Junctions have no connections. Cars do not cross them.
+    NoConnection {
+        /// The identifier of the first junction.
+        junction: String,
+        /// The number of junctions.
+        count: usize,
+    },
     /// Lanes are for both directions. Cars drive on the lanes only in the direction of the side of the lane.
     OneWay {
         /// The identifier of the road with the first lane.
@@ -177,6 +195,14 @@ impl fmt::Display for Note {
                     "the section of lanes at s = {s:.3} m of road `{road}` has no length; cars do not drive over it"
                 )?;
                 others(f, *count, "section")
+            }
+            Self::Narrow { road, lane, width, count } => {
+                write!(f, "lane {lane} of road `{road}` is at most {width:.3} m wide; cars do not drive on it")?;
+                others(f, *count, "lane")
+            }
+            Self::NoConnection { junction, count } => {
+                write!(f, "junction `{junction}` has no connections; cars do not cross it")?;
+                others(f, *count, "junction")
             }
             Self::OneWay { road, lane, count } => {
                 write!(

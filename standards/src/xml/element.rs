@@ -36,6 +36,16 @@ impl<'a, 'i> Element<'a, 'i> {
         self.node.tag_name().name()
     }
 
+    /// Returns the name of the element after its namespace, such as `{urn:other}road`.
+    pub fn full_name(&self) -> String {
+        format!("{{{}}}{}", self.node.tag_name().namespace().unwrap_or_default(), self.name())
+    }
+
+    /// Returns `true` if the element has the namespace of another element.
+    pub fn is_of_namespace(&self, other: Self) -> bool {
+        self.node.tag_name().namespace() == other.node.tag_name().namespace()
+    }
+
     /// Returns the number of the line at which the element begins, from 1.
     pub fn line(&self) -> u32 {
         self.source.line(self.node.range().start)

@@ -104,6 +104,10 @@ impl Schema {
             let mut seen = Seen::default();
             let first = open.len();
             for element in parent.elements() {
+                if !element.is_of_namespace(root) {
+                    let (element_name, parent) = (element.full_name(), parent.name().to_owned());
+                    return Err(element.error(Flaw::UnknownElement { element: element_name, parent, nearest: None }));
+                }
                 let row = self.row(parent, element)?;
                 self.count(parent, element, row, &mut seen)?;
                 match row.support {

@@ -249,6 +249,38 @@ fn pieces_that_are_longer_or_shorter_than_their_share_of_the_road_are_noted() {
 }
 
 #[test]
+fn what_does_not_count_is_noted() {
+    let notes = |changes: &[(&str, &str)]| {
+        let map = parse(with(changes)).unwrap_or_else(|error| panic!("{error}"));
+        map.notes.iter().map(in_file).collect::<Vec<_>>()
+    };
+    let width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
+    let narrow = width.replace("3.5", "0.4");
+    assert_eq!(
+        notes(&[(width, &narrow)]),
+        ["x.xodr: lane -1 of road `1` is at most 0.400 m wide; cars do not drive on it"]
+    );
+    let twice = format!("{narrow}\n{width}");
+    assert_eq!(notes(&[(width, &twice)]), ["x.xodr:8: `width` has no effect: the next one begins at the same place"]);
+    let geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"50\"><line/></geometry>";
+    let empty = format!("{}{geometry}", geometry.replace("\"50\"", "\"0\""));
+    assert_eq!(
+        notes(&[(geometry, &empty)]),
+        ["x.xodr:5: `geometry` has no effect: the next one begins at the same place"]
+    );
+    let junction = "<junction id=\"7\" name=\"\"/></OpenDRIVE>";
+    assert_eq!(notes(&[("</OpenDRIVE>", junction)]), ["x.xodr: junction `7` has no connections; cars do not cross it"]);
+}
+
+#[test]
+fn an_element_of_another_namespace_is_not_of_the_standard() {
+    let other = "<link/><other:planView xmlns:other=\"urn:other\"/>";
+    refuses(&[("<link/>", other)], "4: <road> has an element <{urn:other}planView>, which the standard does not have");
+    let own = with(&[("<OpenDRIVE", "<OpenDRIVE xmlns=\"http://code.asam.net/simulation/standard/opendrive_schema\"")]);
+    assert!(parse(own).is_ok());
+}
+
+#[test]
 fn sections_without_length_and_lanes_for_both_directions_are_noted() {
     let notes = |changes: &[(&str, &str)]| parse(with(changes)).expect("it is sound").notes;
     let both = [("type=\"driving\"", "type=\"driving\" direction=\"both\"")];

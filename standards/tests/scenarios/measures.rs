@@ -147,6 +147,21 @@ fn a_truth_may_be_a_number_in_a_file() {
 }
 
 #[test]
+fn an_entity_keeps_no_distance_to_itself() {
+    let activation = "<ControllerAction>\n                <ActivateControllerAction lateral=\"true\" \
+                      longitudinal=\"true\"/>\n              </ControllerAction>";
+    for (action, kind) in
+        [("LongitudinalDistanceAction", "distance=\"10\""), ("LateralDistanceAction", "distance=\"1\"")]
+    {
+        let outer = action.replace("DistanceAction", "Action");
+        let by =
+            format!("<{outer}><{action} entityRef=\"Ego\" {kind} continuous=\"true\" freespace=\"false\"/></{outer}>");
+        let error = tried(LEADER, &[(activation, by.as_str())]).expect_err("it was accepted");
+        assert!(error.contains("`Ego` cannot keep a distance to itself"), "{error}");
+    }
+}
+
+#[test]
 fn a_variable_keeps_its_type() {
     let variable = |kind: &str| {
         format!(

@@ -29,6 +29,8 @@ pub(in crate::openscenario) enum Lost {
     NoWay { from: String, to: String },
     #[error("`{entity}` is the car of the driver, which stays in the world")]
     Own { entity: String },
+    #[error("`{entity}` cannot keep a distance to itself")]
+    Itself { entity: String },
     #[error("a waypoint of the route is beside all roads")]
     OffRoute,
     #[error("the way leads to a place beside all roads")]

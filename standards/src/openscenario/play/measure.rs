@@ -70,7 +70,8 @@ impl Cast {
                 let (from, mark) = (actor(*entity), self.mark(to, *how));
                 let closing = mark.as_ref().map_or(0.0, |mark| self.closing(from, mark, *how));
                 let distance = self.distance(from, &mark, *how).abs();
-                if closing <= 0.0 { f64::INFINITY } else { distance / closing }
+                // At the very place there is no direction, and so no number.
+                if closing > 0.0 { distance / closing } else { f64::INFINITY }
             }
             Measure::Touching { entity, others } => {
                 f64::from(u8::from(others.iter().any(|other| touching(actor(*entity), actor(*other)))))

@@ -4,7 +4,7 @@ use super::actor::{Actor, Whereabouts};
 use super::cast::Cast;
 use super::find::{Lost, check_lane, find, legs, neighbour, through, track};
 use super::motion::Motion;
-use crate::openscenario::action::{Action, Gap, Lane, Lateral, Target, Trajectory};
+use crate::openscenario::action::{Action, Beside, Gap, Lane, Lateral, Target, Trajectory};
 use crate::openscenario::measure::Metric;
 use crate::openscenario::place::Place;
 use crate::openscenario::transition::{Dynamics, Extent, Shape};
@@ -12,6 +12,11 @@ use crate::openscenario::transition::{Dynamics, Extent, Shape};
 impl Cast {
     /// Begins an action of an entity. Returns the motion that goes on; `None` if the action is over at once.
     pub(super) fn begin(&mut self, entity: usize, action: &Action) -> Result<Option<Motion>, Lost> {
+        if let Action::Gap { entity: other, .. } | Action::Beside(Beside { entity: other, .. }) = action
+            && *other == entity
+        {
+            return Err(Lost::Itself { entity: self.actors[entity].entity.name.clone() });
+        }
         Ok(match action {
             Action::Nothing => None,
             Action::Control(handover) => {
