@@ -8,7 +8,7 @@ use super::map::Map;
 use super::place::place;
 use super::plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};
 use super::road::{
-    Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic,
+    Direction, Extent, LANE_TYPES, Lane, LaneChange, LaneType, MARK_TYPES, Road, RoadMark, Section, Traffic, milestones,
 };
 use crate::xml::{Element, Flaw, ReadError, rounded, short};
 use nalgebra::Vector2;
@@ -75,6 +75,7 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
     let (predecessor, successor) = links::of_road(element, names)?;
     let offset = cubics(lanes, "laneOffset", "s", 0.0)?;
     check(&offset, [0.0, length], (lanes, "laneOffset"), BORDERS)?;
+    let line = plan_view(element.child("planView")?, length)?;
     let mut road = Road {
         id: element.required("id")?.to_owned(),
         name: element.text("name").unwrap_or_default().to_owned(),
@@ -83,7 +84,8 @@ fn road(element: Element<'_, '_>, names: &Names<'_>) -> Result<Road, ReadError> 
         traffic,
         predecessor,
         successor,
-        line: plan_view(element.child("planView")?, length)?,
+        milestones: milestones(&line, length),
+        line,
         offset,
         elevation: profile("elevationProfile", "elevation")?,
         superelevation: profile("lateralProfile", "superelevation")?,

@@ -37,6 +37,17 @@ pub struct Road {
     pub limits: Vec<(f64, Option<f64>)>,
     /// The objects and signals of the road, in the order of the file.
     pub objects: Vec<Object>,
+    /// Positions on the reference line, evenly spaced from its beginning to its end. Searches for the nearest place begin with them.
+    pub(crate) milestones: Vec<Vector2<f64>>,
+}
+
+/// The greatest distance in metres along a road between two milestones.
+const SPACING: f64 = 5.0;
+
+/// Returns positions on the reference line of a road of `length` metres, evenly spaced from its beginning to its end.
+pub(super) fn milestones(line: &PlanView, length: f64) -> Vec<Vector2<f64>> {
+    let count = (length / SPACING).ceil().max(1.0) as usize;
+    (0..=count).map(|i| line.at(length * i as f64 / count as f64).position).collect()
 }
 
 /// The side of a road on which the traffic drives.

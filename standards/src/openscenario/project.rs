@@ -6,8 +6,6 @@ use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
 
-/// The distance in metres between the places along a road at which the search begins.
-const SPACING: f64 = 5.0;
 /// The greatest number of steps of Newton's method.
 const STEPS: usize = 20;
 /// The greatest distance in metres from a place on a road of a position on the road. Files give positions to a millimetre.
@@ -72,10 +70,14 @@ impl Foot {
 
 /// Returns a place along the reference line of a road from which Newton's method finds the nearest place to a position.
 fn nearest(road: &Road, position: Vector2<f64>) -> f64 {
-    let count = (road.length / SPACING).ceil().max(1.0) as usize;
-    let places = (0..=count).map(|i| road.length * i as f64 / count as f64);
-    let distance = |s: &f64| (road.line.at(*s).position - position).norm_squared();
-    places.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0)
+    let mut nearest = (f64::INFINITY, 0);
+    for (i, milestone) in road.milestones.iter().enumerate() {
+        let distance = (milestone - position).norm_squared();
+        if distance < nearest.0 {
+            nearest = (distance, i);
+        }
+    }
+    road.length * nearest.1 as f64 / (road.milestones.len() - 1) as f64
 }
 
 /// Returns the place along the reference line of a road that is nearest to a position, by Newton's method from `s`.
