@@ -88,7 +88,7 @@ impl<F: Fn(f64) -> f64> Beside<'_, F> {
 }
 
 /// Returns a place just before the end of a piece: functions of files may jump at the end.
-pub(super) fn just_before(end: f64, start: f64) -> f64 {
+pub(crate) fn just_before(end: f64, start: f64) -> f64 {
     end - 1e-9 * (end - start)
 }
 

@@ -4,6 +4,7 @@ use super::elements::schema;
 use super::junction::{Junction, JunctionKind};
 use super::map::Map;
 use super::note::Note;
+use super::plan_view::wrapped;
 use super::read;
 use super::road::{Direction, LaneType, Road, Section};
 use crate::xml::{Document, Element, NoEffect, ReadError};
@@ -21,6 +22,8 @@ const STRETCHES: [(&str, &str); 8] = [
     ("border", "sOffset"),
     ("roadMark", "sOffset"),
 ];
+/// The angle in radians from which on kinks of a reference line are reported.
+const SHARP: f64 = 0.05;
 /// The distance in metres from which on differences between the pieces of a reference line are reported.
 const GAP: f64 = 0.01;
 
@@ -54,6 +57,7 @@ impl Map {
         notes
             .extend([("objects", "object"), ("signals", "signal")].into_iter().filter_map(|kind| same_ids(root, kind)));
         notes.extend(widest(map.roads.iter().flat_map(jumps)));
+        notes.extend(kinks(&map));
         notes.extend(widest(map.roads.iter().flat_map(lengths)));
         notes.extend(map.without_length());
         notes.extend(map.one_way());
@@ -155,6 +159,21 @@ fn jumps(road: &Road) -> impl Iterator<Item = (f64, Note)> {
         let gap = (pair[0].at(pair[1].s - pair[0].s).position - pair[1].start.position).norm();
         (gap, Note::Jump { road: road.id.clone(), s: pair[1].s, gap, count: 1 })
     })
+}
+
+/// Returns a note on the sharpest kink of a reference line.
+fn kinks(map: &Map) -> Option<Note> {
+    let of_road = |road: &'_ Road| {
+        let turns = road.line.pieces().windows(2).map(|pair| {
+            let turn = pair[1].start.heading - pair[0].at(pair[1].s - pair[0].s).heading;
+            (wrapped(turn).abs(), pair[1].s)
+        });
+        turns.filter(|(angle, _)| *angle > SHARP).collect::<Vec<_>>()
+    };
+    let kinks = map.roads.iter().flat_map(|road| of_road(road).into_iter().map(move |kink| (road, kink)));
+    let kinks: Vec<_> = kinks.collect();
+    let (road, (angle, s)) = kinks.iter().max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+    Some(Note::Kink { road: road.id.clone(), s: *s, angle: *angle, count: kinks.len() })
 }
 
 /// Returns the differences in metres between the length of each piece and its share of the road, and a note on each difference.

@@ -133,6 +133,19 @@ impl Road {
         }
     }
 
+    /// Returns the end of the reference line.
+    fn tip(&self, end: End) -> Vector2<f64> {
+        self.line.at(if end == End::Start { 0.0 } else { self.length }).position
+    }
+
+    /// Returns the greatest distance of a border from the reference line at an end of the road, in metres.
+    fn half_width(&self, end: End) -> f64 {
+        let s = if end == End::Start { 0.0 } else { just_before(self.length, 0.0) };
+        let section = self.index_of(end);
+        let numbers = self.sections[section].lanes.iter().map(|lane| lane.number);
+        numbers.filter_map(|number| self.border(section, number, s)).map(f64::abs).fold(0.0, f64::max)
+    }
+
     /// Returns the link at an end of the road.
     pub fn link(&self, end: End) -> Option<Link> {
         match end {
@@ -179,6 +192,7 @@ struct Lost {
     no_lane: Option<(u32, i32, usize)>,
     no_road: Option<(u32, usize)>,
     apart: Option<(u32, f64, usize)>,
+    road_apart: Option<(u32, f64, usize)>,
 }
 
 impl Lost {
@@ -201,7 +215,8 @@ impl Lost {
         let no_lane = self.no_lane.map(|(line, lane, count)| Note::NoLane { line, lane, count });
         let apart = self.apart.map(|(line, gap, count)| Note::Apart { line, gap, count });
         let no_road = self.no_road.map(|(line, count)| Note::NoRoad { line, count });
-        no_lane.into_iter().chain(no_road).chain(apart).collect()
+        let road_apart = self.road_apart.map(|(line, gap, count)| Note::RoadApart { line, gap, count });
+        no_lane.into_iter().chain(no_road).chain(apart).chain(road_apart).collect()
     }
 }
 
@@ -210,6 +225,16 @@ impl Lost {
 pub(super) fn lost(root: Element<'_, '_>, map: &Map) -> Result<Vec<Note>, ReadError> {
     let mut lost = Lost::default();
     for (road, element) in map.roads.iter().zip(root.all("road")) {
+        for (name, end) in [("predecessor", End::Start), ("successor", End::End)] {
+            let link = element.first("link").and_then(|link| link.first(name));
+            if let (Some(of), Some(Link::Road(to, at))) = (link, road.link(end)) {
+                let gap = (road.tip(end) - map.roads[to].tip(at)).norm();
+                // Roads may meet beside their reference lines.
+                if gap > road.half_width(end) + map.roads[to].half_width(at) + GAP {
+                    lost.road_apart.get_or_insert((of.line(), gap, 0)).2 += 1;
+                }
+            }
+        }
         let sections = element.first("lanes").into_iter().flat_map(|lanes| lanes.all("laneSection"));
         for (index, section) in sections.enumerate() {
             for (name, end) in [("predecessor", End::Start), ("successor", End::End)] {

@@ -43,10 +43,12 @@ mod table;
 mod thing;
 mod write;
 
+pub(crate) use arcs::just_before;
 pub use cubics::{Cubic, Cubics};
 pub use elements::elements;
 pub use junction::{Connection, Junction, JunctionKind};
 pub use map::Map;
+pub(crate) use network::GAP;
 pub use note::Note;
 pub use object::Object;
 pub use plan_view::{Geometry, PlanView, Polynomials, Shape, Spiral};

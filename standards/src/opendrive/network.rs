@@ -18,7 +18,7 @@ const NARROWEST: f64 = 1.5;
 
 /// The greatest distance in metres between the end of a lane and the beginning of the next lane. A lane that becomes narrow
 /// beside the lane that it joins ends there.
-pub(super) const GAP: f64 = 0.5;
+pub(crate) const GAP: f64 = 0.5;
 
 /// The distance in metres between two places at which the width of a lane is taken, and the greatest difference of widths that
 /// are the same.

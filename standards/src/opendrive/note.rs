@@ -69,6 +69,26 @@ pub enum Note {
         /// The number of jumps.
         count: usize,
     },
+    /// Reference lines of roads have kinks. Entities turn there within a tick.
+    Kink {
+        /// The identifier of the road with the sharpest kink.
+        road: String,
+        /// The place of the sharpest kink, in metres along the road.
+        s: f64,
+        /// The angle of the sharpest kink in radians.
+        angle: f64,
+        /// The number of kinks.
+        count: usize,
+    },
+    /// Linked roads do not meet. Nobody uses the links.
+    RoadApart {
+        /// The line of the first link in the file, from 1.
+        line: u32,
+        /// The distance between the ends of the reference lines of the first link, in metres.
+        gap: f64,
+        /// The number of links.
+        count: usize,
+    },
     /// Pieces of reference lines do not end where the next piece of the road begins, or where the road ends. A piece that is too
     /// short continues with its shape, and a piece that is too long is cut.
     Length {
@@ -129,7 +149,8 @@ impl Note {
             | Self::NoLane { line, .. }
             | Self::NoRoad { line, .. }
             | Self::SameId { line, .. }
-            | Self::Apart { line, .. } => Some(*line),
+            | Self::Apart { line, .. }
+            | Self::RoadApart { line, .. } => Some(*line),
             _ => None,
         }
     }
@@ -179,6 +200,14 @@ impl fmt::Display for Note {
             Self::Jump { road, s, gap, count } => {
                 write!(f, "the reference line of road `{road}` jumps by {gap:.3} m at s = {s:.3} m")?;
                 others(f, *count, "jump")
+            }
+            Self::Kink { road, s, angle, count } => {
+                write!(f, "the reference line of road `{road}` turns by {angle:.3} rad at s = {s:.3} m")?;
+                others(f, *count, "kink")
+            }
+            Self::RoadApart { gap, count, .. } => {
+                write!(f, "the link joins roads that are {gap:.3} m apart; nobody uses it")?;
+                others(f, *count, "link")
             }
             Self::Length { road, s, length, span, count } => {
                 let effect = if length < span { "its shape continues" } else { "the rest is cut" };

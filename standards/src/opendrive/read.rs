@@ -25,6 +25,8 @@ const MOST_TURN: f64 = 1000.0;
 
 /// The greatest number of roads of a map.
 const MOST_ROADS: usize = 100_000;
+/// The greatest number of lanes of a section.
+const MOST_LANES: usize = 1000;
 /// The greatest width of a road mark in metres.
 const WIDEST_MARK: f64 = 10.0;
 
@@ -282,6 +284,10 @@ fn check(
 }
 
 fn section(element: Element<'_, '_>, s: f64, end: f64) -> Result<Section, ReadError> {
+    let (found, most) = (element.elements().flat_map(|side| side.all("lane")).count(), MOST_LANES);
+    if found > most {
+        return Err(element.error(Flaw::TooMany { element: element.name().to_owned(), child: "lane", found, most }));
+    }
     let middle = element.child("center")?.child("lane")?;
     if middle.whole("id")? != 0 {
         return Err(middle.unexpected("id", "0 in <center>"));

@@ -149,6 +149,22 @@ pub(super) struct Timing {
 }
 
 impl Action {
+    /// Returns `true` if the action moves its entity.
+    pub fn moves(&self) -> bool {
+        match self {
+            Self::Teleport(_)
+            | Self::Speed { .. }
+            | Self::Profile(_)
+            | Self::Gap { .. }
+            | Self::Beside(_)
+            | Self::LaneChange { .. }
+            | Self::LaneOffset { .. }
+            | Self::Trajectory(_)
+            | Self::Synchronize(_) => true,
+            _ => false,
+        }
+    }
+
     /// Reads an element `PrivateAction`.
     pub fn private(node: Node<'_>, names: Names<'_>) -> Result<Self, ReadError> {
         let kind = node.choice("a kind of action such as LongitudinalAction")?;

@@ -268,10 +268,28 @@ fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
         let expected = format!("a step above 0 that divides {lo} to {hi} into at most {MOST_LEVELS} parts");
         return Err(node.unexpected("stepWidth", &node.required("stepWidth")?, expected));
     }
-    let levels: Vec<Value> = (0..=count as usize).map(|index| (lo + index as f64 * step).min(hi).into()).collect();
+    // With these decimals, the levels are written in the file.
+    let decimals = decimals(&limits.required("lowerLimit")?).zip(decimals(&node.required("stepWidth")?));
+    let decimals = decimals.map(|(lower, step)| lower.max(step));
+    let level = |index: usize| {
+        let sum = lo + index as f64 * step;
+        decimals.map_or(sum, |decimals| rounded_to(sum, decimals)).min(hi).into()
+    };
+    let levels: Vec<Value> = (0..=count as usize).map(level).collect();
     // A range of a single value is no interval.
     let single = || Choices::Tuples(vec![vec![lo.to_string()]]);
     Ok(if lo < hi { Choices::Range { lo, hi, levels } } else { single() })
+}
+
+/// Returns the number of decimals with which a number is written; `None` if it has an exponent.
+fn decimals(text: &str) -> Option<usize> {
+    let plain = !text.contains(['e', 'E']);
+    plain.then(|| text.split_once('.').map_or(0, |(_, decimals)| decimals.len()))
+}
+
+/// Returns a sum of numbers with so many decimals as this number of decimals, without the noise of the sum.
+fn rounded_to(number: f64, decimals: usize) -> f64 {
+    format!("{number:.decimals$}").parse().unwrap_or(number)
 }
 
 fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, Vec<Kind>, Choices), ReadError> {

@@ -3,6 +3,7 @@
 use super::action::Action;
 use super::handover::Handover;
 use super::story::{Kind, Storyboard};
+use paracosm_space::plural;
 use std::path::Path;
 
 impl Storyboard {
@@ -63,6 +64,17 @@ impl Storyboard {
             remarks.push(format!(
                 "{file}:{line}: a driver that has `{name}` keeps it, although the action deactivates it"
             ));
+        }
+        let mut moved = self.items.iter().filter(
+            |item| matches!(&item.kind, Kind::Action(actors, action) if actors.contains(&ego) && action.moves()),
+        );
+        if let Some(item) = moved.next() {
+            let (file, line) = (item.origin.0.display(), item.origin.1);
+            let more = match moved.count() {
+                0 => String::new(),
+                more => format!("; nor have {} more", plural(more, "action")),
+            };
+            remarks.push(format!("{file}:{line}: `{}` does not move `{name}` while a driver has it{more}", item.name));
         }
         remarks
     }

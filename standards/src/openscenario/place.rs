@@ -1,7 +1,8 @@
 //! Places on the lanes of a map, and the way along them.
 
 use super::route::Legs;
-use crate::opendrive::{End, Lane, LaneType, Link, Map, Road};
+use crate::opendrive::{End, GAP, Lane, LaneType, Link, Map, Road, Section, just_before};
+use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -141,38 +142,67 @@ impl Place {
         metres / rate((self.s + 0.5 * first).clamp(0.0, road.length))
     }
 
-    /// Moves the place over a border of a section to the next section. Returns `false` if there is none.
+    /// Moves the place over a border of a section to the next section. Returns `false` if there is none that meets the place.
     fn cross(&mut self, section: usize, at_end: bool, rest: &mut f64, route: Option<&Legs>, map: &Map) -> bool {
         let road = &map.roads[self.road];
+        let Section { s, end, .. } = road.sections[section];
+        let border = if at_end { just_before(end, s) } else { s };
+        let t = road.middle(section, self.lane, border) + self.offset;
         let lane = road.sections[section].lane(self.lane);
         let next = lane.and_then(|lane| if at_end { lane.successors.first() } else { lane.predecessors.first() });
         let neighbour = if at_end { section + 1 } else { section.wrapping_sub(1) };
-        if let Some(there) = road.sections.get(neighbour) {
-            self.lane = next.copied().unwrap_or(self.lane);
-            self.s = if at_end { there.s } else { there.end - f64::EPSILON * there.end };
-            return true;
-        }
-        let end = if at_end { End::End } else { End::Start };
-        let Some((to, at, lane)) = road.link(end).and_then(|link| self.beyond(link, next.copied(), route, map)) else {
-            return false;
+        let (to, at, next) = if neighbour < road.sections.len() {
+            let s = if at_end { end } else { s - f64::EPSILON * s };
+            (Self { s, ..*self }, None, next.copied())
+        } else {
+            let link = road.link(if at_end { End::End } else { End::Start });
+            let Some((to, at, lane)) = link.and_then(|link| self.beyond(link, next.copied(), route, map)) else {
+                return false;
+            };
+            let length = map.roads[to].length;
+            let s = if at == End::Start { 0.0 } else { length - f64::EPSILON * length };
+            (Self { road: to, s, ..*self }, Some(at), lane)
         };
-        let entered = &map.roads[to];
-        let turns = (at == End::End) == at_end;
-        (self.road, self.lane) = (to, lane);
-        self.s = if at == End::Start { 0.0 } else { entered.length - f64::EPSILON * entered.length };
+        let turns = at.is_some_and(|at| (at == End::End) == at_end);
+        let to = if turns { Self { turn: wrapped(to.turn + PI), offset: -to.offset, ..to } } else { to };
+        let Some(entered) = to.met(road.point(border, t), next, if turns { -t } else { t }, map) else { return false };
+        *self = entered;
         if turns {
-            self.turn = wrapped(self.turn + PI);
-            self.offset = -self.offset;
             *rest = -*rest;
         }
         true
     }
 
-    /// Returns the road, the end and the lane that are entered over a link. At a junction this is the road of the route, or the
+    /// Returns the place on the linked lane, or on the lane with the same number, if the lane goes on at a point. Otherwise it returns the
+    /// place `t` metres beside the reference line, where no lane goes on. Returns `None` if the road does not meet the point.
+    fn met(self, point: Vector2<f64>, next: Option<i32>, t: f64, map: &Map) -> Option<Self> {
+        let road = &map.roads[self.road];
+        let section = road.section_at(self.s);
+        let meets = |place: &Self| (road.point(self.s, place.t(map)) - point).norm() <= GAP;
+        let number = next.unwrap_or(self.lane);
+        let linked = Self { lane: number, ..self };
+        if road.sections[section].lane(number).is_some() && meets(&linked) {
+            return Some(linked);
+        }
+        let mut beside = Self { lane: 0, offset: t - road.middle(section, 0, self.s), ..self };
+        if !meets(&beside) {
+            return None;
+        }
+        beside.enter(beside.lane_below(map), map);
+        Some(beside)
+    }
+
+    /// Returns the road, the end and the linked lane that are entered over a link. At a junction this is the road of the route, or the
     /// straightest way.
-    fn beyond(&self, link: Link, next: Option<i32>, route: Option<&Legs>, map: &Map) -> Option<(usize, End, i32)> {
+    fn beyond(
+        &self,
+        link: Link,
+        next: Option<i32>,
+        route: Option<&Legs>,
+        map: &Map,
+    ) -> Option<(usize, End, Option<i32>)> {
         match link {
-            Link::Road(to, at) => Some((to, at, next.unwrap_or(self.lane))),
+            Link::Road(to, at) => Some((to, at, next)),
             Link::Junction(junction) => {
                 let heading = self.pose(map).heading;
                 let connections =
@@ -186,7 +216,7 @@ impl Place {
                     };
                     let bend = wrapped(road.line.at(far).heading + back - heading).abs();
                     let is_beside = !route.is_some_and(|route| route.goes(self.road, connection.to));
-                    Some((is_beside, bend, (connection.to, connection.at, lane)))
+                    Some((is_beside, bend, (connection.to, connection.at, Some(lane))))
                 });
                 ways.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, way)| way)
             }
@@ -201,17 +231,30 @@ impl Place {
 
     /// Returns the distance like [`Self::distance_to`], along the roads of a route.
     pub fn distance_along(&self, other: &Self, route: Option<&Legs>, map: &Map) -> Option<f64> {
+        self.way_to(other, route, map).map(|way| way.metres)
+    }
+
+    /// Returns another place as seen from this one: beside which line, in which direction. If no road leads there, the roads count as if
+    /// they had the same direction.
+    pub fn seen(&self, other: &Self, map: &Map) -> Seen {
+        let turns = self.way_to(other, None, map).is_some_and(|way| way.turns);
+        let t = other.t(map);
+        Seen { t: if turns { -t } else { t }, is_against: other.is_against() != turns }
+    }
+
+    /// Returns the way along the road to another place, or back to it. `None` if no road leads there within 2 km.
+    fn way_to(&self, other: &Self, route: Option<&Legs>, map: &Map) -> Option<Stretch> {
         if self.road == other.road {
             let ahead = other.s - self.s;
-            return Some(if self.is_against() { -ahead } else { ahead });
+            return Some(Stretch { metres: if self.is_against() { -ahead } else { ahead }, turns: false });
         }
         self.ahead_to(other, route, map).or_else(|| {
             let back = Self { turn: wrapped(self.turn + PI), ..*self };
-            back.ahead_to(other, route, map).map(|metres| -metres)
+            back.ahead_to(other, route, map).map(|way| Stretch { metres: -way.metres, ..way })
         })
     }
 
-    fn ahead_to(&self, other: &Self, route: Option<&Legs>, map: &Map) -> Option<f64> {
+    fn ahead_to(&self, other: &Self, route: Option<&Legs>, map: &Map) -> Option<Stretch> {
         let (mut here, mut metres) = (*self, 0.0);
         while metres < SIGHT {
             let road = &map.roads[here.road];
@@ -225,11 +268,29 @@ impl Place {
                 return None;
             }
             if here.road == other.road {
-                return Some(metres + (other.s - here.s).abs());
+                let turns = here.is_against() != self.is_against();
+                return Some(Stretch { metres: metres + (other.s - here.s).abs(), turns });
             }
         }
         None
     }
+}
+
+/// A place as another place sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    /// The distance to the left of the reference line in metres, as the reference line of the other place goes on.
+    pub t: f64,
+    /// `true` if the place faces against the direction in which the reference line of the other place goes on.
+    pub is_against: bool,
+}
+
+/// A way along roads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stretch {
+    metres: f64,
+    /// `true` if the last road has the opposite direction of the first one.
+    turns: bool,
 }
 
 /// Returns the angle from the direction of a road to the direction of the traffic on one of its lanes.

@@ -56,10 +56,23 @@ impl Profile {
             jerk: [most("maxAccelerationRate")?, most("maxDecelerationRate")?],
         };
         let needs = entries.iter().any(|(time, _)| time.is_none());
-        if needs && !limits.acceleration.iter().all(|limit| limit.is_finite()) {
-            return Err(node.refused("give each SpeedProfileEntry a time, or give DynamicConstraints"));
-        }
         Ok(Self { relative_to, entries, limits: (follows || needs).then_some(limits) })
+    }
+
+    /// Returns the profile of an entity with the given greatest accelerations in m/s², up and down, where the profile has no limits of its
+    /// own. Returns `None` if a target needs a limit and there is none.
+    pub fn of_entity(&self, own: [f64; 2]) -> Option<Self> {
+        let mut profile = self.clone();
+        if let Some(limits) = &mut profile.limits {
+            for (limit, own) in limits.acceleration.iter_mut().zip(own) {
+                *limit = if limit.is_finite() { *limit } else { own };
+            }
+            let needs = self.entries.iter().any(|(time, _)| time.is_none());
+            if needs && !limits.acceleration.iter().all(|limit| limit.is_finite()) {
+                return None;
+            }
+        }
+        Some(profile)
     }
 
     /// Begins the profile at the time 0 with a speed and an acceleration. `added` is added to all speeds.

@@ -161,12 +161,6 @@ fn a_mistake_in_an_action_or_a_condition_is_reported() {
         ("actions.xosc", "<Knot value=\"1\"/></Nurbs>", "</Nurbs>", "with 6 knots that rise, not 5"),
         (
             "actions.xosc",
-            "<DynamicConstraints maxAcceleration=\"2\"",
-            "<DynamicConstraints",
-            "give each SpeedProfileEntry a time",
-        ),
-        (
-            "actions.xosc",
             "weight=\"1\"",
             "weight=\"0\"",
             "`weight=\"0\"` of <ControlPoint> is not allowed, expected a number above 0",

@@ -7,6 +7,7 @@ mod declarations;
 mod drawing;
 mod exports;
 mod golden;
+mod joined;
 mod measures;
 #[path = "../roads/others.rs"]
 mod others;

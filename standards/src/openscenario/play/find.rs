@@ -11,6 +11,7 @@ use crate::xml::{Misfit, rounded};
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
+use std::f64::consts::PI;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -31,8 +32,12 @@ pub(in crate::openscenario) enum Lost {
     Own { entity: String },
     #[error("`{entity}` cannot keep a distance to itself")]
     Itself { entity: String },
+    #[error("`{entity}` has no greatest acceleration; give each SpeedProfileEntry a time, or give DynamicConstraints")]
+    NoLimits { entity: String },
     #[error("a waypoint of the route is beside all roads")]
     OffRoute,
+    #[error("the way begins at {metres} m, and it is {} m long", rounded(*length))]
+    Beyond { metres: f64, length: f64 },
     #[error("the way leads to a place beside all roads")]
     Beside,
     #[error("no road leads from road `{from}` to road `{to}`")]
@@ -92,7 +97,9 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
                 let lane = place.lane;
                 place.lane = 0;
                 place.advance(if against { -*ds } else { *ds }, map);
-                place.lane = lane;
+                // The lane goes on over a road of the other direction.
+                place.lane = if place.is_against() == against { lane } else { -lane };
+                place.offset = 0.0;
             }
             Ok(Whereabouts::OnLane(on_lane(place.road, place.lane, place.s, *offset, *turn, map)?))
         }
@@ -100,8 +107,13 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
             let mut place = on_road(*entity)?;
             let t = place.t(map) + dt;
             (place.lane, place.offset) = (0, 0.0);
-            place.advance(if place.is_against() { -*ds } else { *ds }, map);
-            Ok(Whereabouts::OnLane(beside(place.road, place.s, t, *turn, map)))
+            let against = place.is_against();
+            place.advance(if against { -*ds } else { *ds }, map);
+            let turns = place.is_against() != against;
+            let there = beside(place.road, place.s, if turns { -t } else { t }, *turn, map);
+            let is_relative = matches!(turn, Turn::Relative(_));
+            let turn = if turns && is_relative { wrapped(there.turn + PI) } else { there.turn };
+            Ok(Whereabouts::OnLane(Place { turn, ..there }))
         }
         Position::RelativeWorld { entity, dx, dy, turn } => {
             let from = actors[*entity].pose;
@@ -130,7 +142,10 @@ pub(super) fn find(position: &Position, actors: &[Actor], map: &Map) -> Result<W
                     let (road, s) = legs.at(*s);
                     Ok(Whereabouts::OnLane(beside(road, s, *t, *turn, map)))
                 }
-                RoutePlace::Entity(entity) => Ok(actors[*entity].place(map)),
+                RoutePlace::Entity(entity) => Ok(match actors[*entity].place(map) {
+                    Whereabouts::OnLane(place) => Whereabouts::OnLane(facing(place, *turn, map)),
+                    Whereabouts::Free(pose) => Whereabouts::Free(Pose { heading: turned(pose, *turn), ..pose }),
+                }),
             }
         }
     }

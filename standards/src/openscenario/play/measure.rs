@@ -10,7 +10,7 @@ use crate::xml::Value;
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::road::wrapped;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A target of a distance: a position with its heading, and the box around it.
 struct Mark {
@@ -160,7 +160,8 @@ impl Cast {
                     velocity.dot(&Pose { position: Vector2::zeros(), heading }.forward())
                 };
                 let theirs = speed(there, mark.velocity);
-                let theirs = if there.is_against() == here.is_against() { theirs } else { -theirs };
+                let seen = here.seen(there, &self.map);
+                let theirs = if seen.is_against == here.is_against() { theirs } else { -theirs };
                 let metres = here.distance_to(there, &self.map).unwrap_or(0.0);
                 (speed(&here, velocity) - theirs) * metres.signum()
             }
@@ -186,18 +187,29 @@ impl Cast {
             (MetricKind::Longitudinal, None) => local.x,
             (MetricKind::Lateral, None) => local.y,
             (kind, Some((here, there))) => {
+                let seen = here.seen(there, &self.map);
+                // The directions in which the entity goes, at its own place and at the mark.
+                let own = from.pose.heading - here.heading(&self.map);
+                let same = if seen.is_against == here.is_against() { 0.0 } else { PI };
+                let theirs = mark.pose.heading - there.heading(&self.map) - same;
                 if kind == MetricKind::Lateral {
-                    return there.t(&self.map) - here.t(&self.map);
+                    let aside = seen.t - here.t(&self.map);
+                    if !how.freespace {
+                        return aside;
+                    }
+                    let side = if here.is_against() { -aside } else { aside };
+                    let left = FRAC_PI_2;
+                    let (right, leftmost) = reach(from.entity.middle, from.entity.half, own - left);
+                    let (last, first) = reach(mark.middle, mark.half, theirs - left);
+                    let gap = if side >= 0.0 { side + last - leftmost } else { right - (side + first) };
+                    return signed(gap, aside);
                 }
                 let Some(along) = here.distance_to(there, &self.map) else { return f64::INFINITY };
                 if !how.freespace {
                     return along;
                 }
-                let (rear, front) =
-                    reach(from.entity.middle, from.entity.half, from.pose.heading - here.heading(&self.map));
-                // The direction in which the entity goes, at the mark.
-                let ahead = there.heading(&self.map) + if there.is_against() == here.is_against() { 0.0 } else { PI };
-                let (last, first) = reach(mark.middle, mark.half, mark.pose.heading - ahead);
+                let (rear, front) = reach(from.entity.middle, from.entity.half, own);
+                let (last, first) = reach(mark.middle, mark.half, theirs);
                 let gap = if along >= 0.0 { along + last - front } else { rear - (along + first) };
                 signed(gap, along)
             }

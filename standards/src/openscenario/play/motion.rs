@@ -128,9 +128,10 @@ impl Motion {
                     return true;
                 };
                 // All distances and speeds are to the left of the road.
-                let wanted = there.t(&cast.map) + if there.is_against() { -*metres } else { *metres };
+                let seen = here.seen(&there, &cast.map);
+                let wanted = seen.t + if seen.is_against { -*metres } else { *metres };
                 let missing = wanted - here.t(&cast.map);
-                let theirs = if there.is_against() { -other.lateral_speed } else { other.lateral_speed };
+                let theirs = if seen.is_against { -other.lateral_speed } else { other.lateral_speed };
                 let limits = beside.limits.map(|limits| cast.actors[entity].entity.within(limits));
                 *speed = limits.map_or(missing / dt, |limits| approach(*speed, theirs, missing, limits, dt));
                 let (offset, left) = (here.offset + *speed * dt, if here.is_against() { -*speed } else { *speed });
@@ -164,8 +165,21 @@ fn finished(transition: &Transition, actor: &mut Actor) -> bool {
 fn approach(speed: f64, theirs: f64, missing: f64, limits: [f64; 3], dt: f64) -> f64 {
     let [acceleration, deceleration, most] = limits;
     let stiffness = STIFFNESS * if missing < 0.0 { acceleration } else { deceleration };
-    let wanted = stiffness * missing - 2.0 * stiffness.sqrt() * (speed - theirs);
-    (speed + wanted.clamp(-deceleration, acceleration) * dt).clamp(-most, most)
+    let wanted = if stiffness.is_finite() {
+        stiffness * missing - 2.0 * stiffness.sqrt() * (speed - theirs)
+    } else {
+        // Without a limit, the distance is made up within the tick.
+        (theirs + missing / dt - speed) / dt
+    };
+    let next = speed + wanted.clamp(-deceleration, acceleration) * dt;
+    // The entity gets no faster than it can brake within the missing distance.
+    let fastest = |limit: f64| if missing == 0.0 { 0.0 } else { (2.0 * limit * missing.abs()).sqrt() };
+    let next = if missing >= 0.0 {
+        next.min((theirs + fastest(deceleration)).max(speed - deceleration * dt))
+    } else {
+        next.max((theirs - fastest(acceleration)).min(speed + acceleration * dt))
+    };
+    next.clamp(-most, most)
 }
 
 /// Moves an entity along a way for a tick. Returns `true` at the end of the way.

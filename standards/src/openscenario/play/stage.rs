@@ -308,9 +308,13 @@ impl Stage {
     }
 
     fn carry_out(&mut self, dt: f64) {
+        // A motion that began before the driver got the car is over.
+        let driven = self.cast.lead.driven().map(|_| self.cast.ego);
         for index in 0..self.items.len() {
             let mut motions = std::mem::take(&mut self.items[index].motions);
-            motions.retain_mut(|(entity, motion)| !motion.carry_out(*entity, &mut self.cast, dt));
+            motions.retain_mut(|(entity, motion)| {
+                Some(*entity) != driven && !motion.carry_out(*entity, &mut self.cast, dt)
+            });
             self.items[index].motions = motions;
         }
     }

@@ -12,6 +12,10 @@ use crate::openscenario::transition::{Dynamics, Extent, Shape};
 impl Cast {
     /// Begins an action of an entity. Returns the motion that goes on; `None` if the action is over at once.
     pub(super) fn begin(&mut self, entity: usize, action: &Action) -> Result<Option<Motion>, Lost> {
+        // The driver of a car moves it alone.
+        if entity == self.ego && action.moves() && self.lead.driven().is_some() {
+            return Ok(None);
+        }
         if let Action::Gap { entity: other, .. } | Action::Beside(Beside { entity: other, .. }) = action
             && *other == entity
         {
@@ -54,6 +58,9 @@ impl Cast {
             Action::Profile(profile) => {
                 let added = profile.relative_to.map_or(0.0, |other| self.actors[other].speed);
                 let actor = &self.actors[entity];
+                let own = actor.entity.vehicle.map_or([f64::INFINITY; 2], |own| [own.acceleration, own.deceleration]);
+                let profile = profile.of_entity(own);
+                let profile = profile.ok_or_else(|| Lost::NoLimits { entity: actor.entity.name.clone() })?;
                 let course = profile.begin(actor.speed, actor.acceleration, added);
                 Some(Motion::Profile { course, time: 0.0 })
             }
@@ -74,8 +81,9 @@ impl Cast {
             }
             Action::Beside(beside) => {
                 let (here, there) = (self.on_lane(entity)?, self.on_lane(beside.entity)?);
-                let apart = here.t(&self.map) - there.t(&self.map);
-                let side = if there.is_against() { -apart } else { apart };
+                let seen = here.seen(&there, &self.map);
+                let apart = here.t(&self.map) - seen.t;
+                let side = if seen.is_against { -apart } else { apart };
                 let left = beside.left.unwrap_or(side >= 0.0);
                 let widths = if beside.freespace { self.half_widths(entity, beside.entity) } else { 0.0 };
                 let metres = beside.metres.unwrap_or((apart.abs() - widths).max(0.0)) + widths;
@@ -210,11 +218,16 @@ impl Cast {
 
     fn trajectory(&mut self, entity: usize, trajectory: &Trajectory) -> Result<Option<Motion>, Lost> {
         let from = self.actors[entity].pose;
-        let track = track(&trajectory.way, Some(from), &self.actors, &self.map)?;
+        let Some(track) = track(&trajectory.way, Some(from), &self.actors, &self.map)? else { return Ok(None) };
+        let (metres, length) = (trajectory.from, track.length());
+        if metres > length {
+            return Err(Lost::Beyond { metres, length });
+        }
         let timing = trajectory.timing.map(|timing| {
             let begin = if timing.is_relative { self.time } else { 0.0 };
-            (timing.scale, timing.offset + begin)
+            // The time up to the place at which the entity begins does not count.
+            (timing.scale, timing.offset + begin - timing.scale * track.time_to(metres))
         });
-        Ok(track.map(|track| Motion::Trajectory { track, s: trajectory.from, timing }))
+        Ok(Some(Motion::Trajectory { track, s: metres, timing }))
     }
 }

@@ -31,13 +31,16 @@ pub(super) fn synchronize(sync: &Synchronization, entity: usize, cast: &mut Cast
     }
     let speed = cast.actors[entity].speed;
     cast.actors[entity].speed = match last {
-        Some(last) if last > 0.0 => {
+        Some(last) if last >= 0.0 => {
             let steady = match sync.steady {
+                // An entity that is to stand covers no distance before.
+                _ if last == 0.0 => 0.0,
                 Steady::Metres(metres) => metres,
                 Steady::Seconds(seconds) => seconds * last,
             };
             let steady = steady.min(ours);
-            faster(speed, last, ours - steady, time - steady / last, dt)
+            let seconds = if steady > 0.0 { steady / last } else { 0.0 };
+            faster(speed, last, ours - steady, time - seconds, dt)
         }
         _ => ours / time,
     };

@@ -124,6 +124,14 @@ impl Track {
         self.between(time, |vertex| vertex.time, |vertex| vertex.s)
     }
 
+    /// Returns the time from the beginning of the way to a distance along it.
+    pub fn time_to(&self, s: f64) -> f64 {
+        let next = self.vertices.partition_point(|vertex| vertex.s < s).min(self.vertices.len() - 1);
+        let Some(before) = next.checked_sub(1) else { return 0.0 };
+        let (a, b) = (&self.vertices[before], &self.vertices[next]);
+        a.time + (b.time - a.time) * (s - a.s) / (b.s - a.s) - self.vertices[0].time
+    }
+
     /// Returns the pose at a distance along the way. The heading is the direction of the way.
     pub fn at(&self, s: f64) -> Pose {
         let of = |index: usize| self.vertices[index];
