@@ -11,6 +11,9 @@ use std::collections::BTreeSet;
 const MOST_LEVELS: f64 = 10_000.0;
 /// The share of a step by which a range may exceed its upper limit, because steps are sums of rounded numbers.
 const TOLERANCE: f64 = 1e-9;
+/// The standard deviations on either side of the mean to which a normal distribution without a range reaches. Less than one number in
+/// ten billion lies outside.
+const WIDTH: f64 = 6.5;
 /// The sign between the names and between the values of parameters that change together.
 const JOINT: &str = "|";
 
@@ -106,7 +109,9 @@ impl Opened {
             "UniformDistribution" => (interval(kind)?, space::Distribution::Uniform),
             "NormalDistribution" => {
                 let (mean, deviation) = (kind.number("expectedValue")?, libm::sqrt(kind.length("variance")?));
-                (interval(kind)?, space::Distribution::Normal(mean, deviation))
+                let whole = Domain::Interval { lo: mean - WIDTH * deviation, hi: mean + WIDTH * deviation };
+                let domain = if kind.first("Range").is_some() { interval(kind)? } else { whole };
+                (domain, space::Distribution::Normal(mean, deviation))
             }
             _ => {
                 let value = |element: Node<'_>| Ok(of.value(&of.required(element, "value")?));

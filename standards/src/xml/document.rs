@@ -1,6 +1,7 @@
 //! An XML file, and the tree of its elements.
 
 use super::element::Element;
+use super::encoding;
 use super::error::{Flaw, Malformed, ReadError};
 use super::source::Source;
 use std::fs::File;
@@ -25,9 +26,7 @@ impl Document {
             let bytes = std::fs::metadata(file).map_or(bytes.len() as u64, |metadata| metadata.len());
             return Err(fails(Flaw::TooLarge { bytes, limit: MOST_BYTES }));
         }
-        let text = String::from_utf8(bytes);
-        let text = text.map_err(|error| fails(Flaw::NotUtf8 { at: error.utf8_error().valid_up_to() }))?;
-        Ok(Self::of(file, text))
+        Ok(Self::of(file, encoding::text(bytes).map_err(fails)?))
     }
 
     /// Takes a text. `file` is the name for messages.

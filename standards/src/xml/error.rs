@@ -47,6 +47,9 @@ pub enum Flaw {
         /// The greatest allowed size in bytes.
         limit: u64,
     },
+    /// The file begins like a text in UTF-16, and is none.
+    #[error("it begins like a text in UTF-16, and is none; save the file in the encoding UTF-8")]
+    NotUtf16,
     /// The file is not encoded in UTF-8.
     #[error("the byte at position {at} is not part of a UTF-8 text; save the file in the encoding UTF-8")]
     NotUtf8 {

@@ -4,6 +4,7 @@
 mod document;
 mod edits;
 mod element;
+mod encoding;
 mod error;
 mod expression;
 mod number;
