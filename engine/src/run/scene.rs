@@ -91,7 +91,7 @@ impl Scene {
         Self {
             contact: {
                 let clearance = world.clearance(&bodies);
-                world.contact(&bodies, &bodies, clearance)
+                world.contact(&bodies, &bodies, clearance, None)
             },
             touched: None,
             clearance: world.clearance(&bodies[..told]),
@@ -236,7 +236,8 @@ impl Scene {
         std::mem::swap(&mut self.bodies, &mut self.previous);
         self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
         let clearance = self.world.clearance(&self.bodies);
-        self.contact = self.world.contact(&self.previous, &self.bodies, clearance);
+        let known = self.touched.as_ref().map(|contact| contact.face);
+        self.contact = self.world.contact(&self.previous, &self.bodies, clearance, known);
         self.clearance = match self.contact {
             None if self.told == self.bodies.len() => clearance,
             None => self.world.clearance(self.told()),

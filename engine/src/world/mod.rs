@@ -98,10 +98,17 @@ impl World {
         nearest.max(TOUCH)
     }
 
-    /// Returns the first body that touches the ego vehicle at this tick, and the touched side of the ego vehicle.
+    /// Returns the first body that touches the ego vehicle at this tick, and the touched side of the ego vehicle. `known` is the side of
+    /// an earlier contact, which counts then.
     /// `before` are the bodies at the previous tick, and `clearance` is the [clearance](World::clearance) from all
     /// bodies.
-    pub fn contact(&mut self, before: &[BodyState], bodies: &[BodyState], clearance: f64) -> Option<Touching> {
+    pub fn contact(
+        &mut self,
+        before: &[BodyState],
+        bodies: &[BodyState],
+        clearance: f64,
+        known: Option<Face>,
+    ) -> Option<Touching> {
         if clearance > REACH {
             return None;
         }
@@ -113,7 +120,7 @@ impl World {
             state.present && deepest.is_some_and(|(_, contact)| contact.dist <= 0.0)
         };
         let body = 1 + self.solids[1..].iter().zip(&bodies[1..]).position(touches)?;
-        Some(Touching { body, face: self.face(before, bodies, body) })
+        Some(Touching { body, face: known.unwrap_or_else(|| self.face(before, bodies, body)) })
     }
 
     /// Sets the present poses in rapier and finds contacts.

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 /// Returns the contact of the first body, which has moved within a tick.
 fn touching(world: &mut World, before: &[BodyState], bodies: &[BodyState]) -> Option<Touching> {
     let clearance = world.clearance(bodies);
-    world.contact(before, bodies, clearance)
+    world.contact(before, bodies, clearance, None)
 }
 
 const CAR: Vehicle = Vehicle::BMW_320I;

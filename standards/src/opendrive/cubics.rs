@@ -62,6 +62,11 @@ impl Cubics {
         self.piece(s).map_or(0.0, |piece| piece.slope(s))
     }
 
+    /// Returns the value and the derivative at a place, in metres along the road.
+    pub(super) fn at_with_slope(&self, s: f64) -> [f64; 2] {
+        self.piece(s).map_or([0.0; 2], |piece| [piece.at(s), piece.slope(s)])
+    }
+
     fn piece(&self, s: f64) -> Option<&Cubic> {
         // Most functions have one polynomial.
         match self.0.as_slice() {

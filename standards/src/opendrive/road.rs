@@ -3,7 +3,7 @@
 use super::cubics::Cubics;
 use super::object::Object;
 use super::plan_view::{PlanView, wrapped};
-use nalgebra::Vector2;
+use nalgebra::{SVector, Vector1, Vector2};
 
 /// A road.
 #[derive(Debug, Clone, PartialEq)]
@@ -174,7 +174,7 @@ impl Road {
     /// Returns the distance of the outer border of a lane from the reference line, in metres to the left. The border of
     /// lane 0 is its line. `None` if the section has no such lane.
     pub fn border(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
-        self.sums(section, lane, |cubics| cubics.at(s)).map(|[outer, _]| outer)
+        self.sums(section, lane, |cubics| Vector1::new(cubics.at(s))).map(|[outer, _]| outer.x)
     }
 
     /// Returns the heading of the outer border of a lane in the direction of the road, in radians in (-π, π]. `None` if the
@@ -191,9 +191,9 @@ impl Road {
 
     /// Returns [`Road::middle`] and [`Road::lane_heading`]. `None` if the section has no such lane.
     pub(crate) fn middle_line(&self, section: usize, lane: i32, s: f64) -> Option<[f64; 2]> {
-        let slopes = self.sums(section, lane, |cubics| cubics.slope(s))?;
-        let middle = self.middle(section, lane, s);
-        Some([middle, self.heading_beside(s, middle, 0.5 * (slopes[0] + slopes[1]))])
+        let [outer, inner] = self.sums(section, lane, |cubics| Vector2::from(cubics.at_with_slope(s)))?;
+        let [middle, slope] = (0.5 * (outer + inner)).into();
+        Some([middle, self.heading_beside(s, middle, slope)])
     }
 
     /// Returns the heading of a line `t` metres to the left of the reference line whose distance grows by `slope`.
@@ -203,7 +203,7 @@ impl Road {
 
     /// Returns the derivative of [`Road::border`].
     fn slope(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
-        self.sums(section, lane, |cubics| cubics.slope(s)).map(|[outer, _]| outer)
+        self.sums(section, lane, |cubics| Vector1::new(cubics.slope(s))).map(|[outer, _]| outer.x)
     }
 
     /// Returns the width of a lane in metres; 0 if the section has no such lane.
@@ -219,21 +219,26 @@ impl Road {
     }
 
     fn borders_of(&self, section: usize, lane: i32, s: f64) -> [f64; 2] {
-        self.sums(section, lane, |cubics| cubics.at(s)).unwrap_or_default()
+        self.sums(section, lane, |cubics| Vector1::new(cubics.at(s))).unwrap_or_default().map(|sum| sum.x)
     }
 
-    /// Returns the sums of the offset of the road and of the widths up to the outer and to the inner border of a lane, or of the
-    /// derivatives of both.
-    fn sums(&self, section: usize, lane: i32, of: impl Fn(&Cubics) -> f64) -> Option<[f64; 2]> {
+    /// Returns the sums of the offset of the road and of the widths up to the outer and to the inner border of a lane. `of` gives the
+    /// numbers that are summed up: values, derivatives, or both.
+    fn sums<const N: usize>(
+        &self,
+        section: usize,
+        lane: i32,
+        of: impl Fn(&Cubics) -> SVector<f64, N>,
+    ) -> Option<[SVector<f64, N>; 2]> {
         let section = self.sections.get(section)?;
         let (outermost, mut index) = (section.index(lane)?, section.index(0)?);
-        let (mut outer, mut inner) = (0.0, 0.0);
+        let (mut outer, mut inner) = (SVector::zeros(), SVector::zeros());
         while index != outermost {
             index = if outermost < index { index - 1 } else { index + 1 };
             let lane = &section.lanes[index];
             inner = outer;
             outer = match &lane.extent {
-                Extent::Width(width) => outer + f64::from(lane.number.signum()) * of(width),
+                Extent::Width(width) => outer + of(width) * f64::from(lane.number.signum()),
                 Extent::Border(border) => of(border),
             };
         }

@@ -151,18 +151,18 @@ pub(super) struct Timing {
 impl Action {
     /// Returns `true` if the action moves its entity.
     pub fn moves(&self) -> bool {
-        match self {
+        matches!(
+            self,
             Self::Teleport(_)
-            | Self::Speed { .. }
-            | Self::Profile(_)
-            | Self::Gap { .. }
-            | Self::Beside(_)
-            | Self::LaneChange { .. }
-            | Self::LaneOffset { .. }
-            | Self::Trajectory(_)
-            | Self::Synchronize(_) => true,
-            _ => false,
-        }
+                | Self::Speed { .. }
+                | Self::Profile(_)
+                | Self::Gap { .. }
+                | Self::Beside(_)
+                | Self::LaneChange { .. }
+                | Self::LaneOffset { .. }
+                | Self::Trajectory(_)
+                | Self::Synchronize(_)
+        )
     }
 
     /// Reads an element `PrivateAction`.

@@ -18,7 +18,8 @@ pub(crate) struct Document(Source);
 impl Document {
     /// Reads a file.
     pub fn open(file: &Path) -> Result<Self, ReadError> {
-        let fails = |flaw| ReadError { file: file.to_owned(), line: None, flaw: Box::new(flaw) };
+        let fails_for = |flaw| ReadError { file: file.to_owned(), line: None, flaw };
+        let fails = |flaw| fails_for(Box::new(flaw));
         let mut bytes = Vec::new();
         let opened = File::open(file).map_err(|error| fails(Flaw::Unreadable(error)))?;
         opened.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| fails(Flaw::Unreadable(error)))?;
@@ -26,7 +27,7 @@ impl Document {
             let bytes = std::fs::metadata(file).map_or(bytes.len() as u64, |metadata| metadata.len());
             return Err(fails(Flaw::TooLarge { bytes, limit: MOST_BYTES }));
         }
-        Ok(Self::of(file, encoding::text(bytes).map_err(fails)?))
+        Ok(Self::of(file, encoding::text(bytes).map_err(fails_for)?))
     }
 
     /// Takes a text. `file` is the name for messages.

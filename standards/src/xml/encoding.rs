@@ -5,7 +5,7 @@ use super::error::Flaw;
 /// Returns the text of a file. Its declaration names the encoding UTF-8, because the text is written in it again.
 ///
 /// The encodings are UTF-8, UTF-16 with its mark, and ISO-8859-1 if the declaration names it.
-pub(super) fn text(bytes: Vec<u8>) -> Result<String, Flaw> {
+pub(super) fn text(bytes: Vec<u8>) -> Result<String, Box<Flaw>> {
     let decoded = match bytes.as_slice() {
         [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
@@ -13,10 +13,11 @@ pub(super) fn text(bytes: Vec<u8>) -> Result<String, Flaw> {
             Some(bytes.iter().copied().map(char::from).collect())
         }
         _ => {
-            return String::from_utf8(bytes).map_err(|error| Flaw::NotUtf8 { at: error.utf8_error().valid_up_to() });
+            return String::from_utf8(bytes)
+                .map_err(|error| Box::new(Flaw::NotUtf8 { at: error.utf8_error().valid_up_to() }));
         }
     };
-    let mut text: String = decoded.ok_or(Flaw::NotUtf16)?;
+    let mut text: String = decoded.ok_or_else(|| Box::new(Flaw::NotUtf16))?;
     if let Some(name) = declared(text.as_bytes()).map(str::len) {
         let at = text.find(ENCODING).map_or(0, |at| at + ENCODING.len() + 1);
         text.replace_range(at..at + name, "UTF-8");
@@ -61,9 +62,10 @@ mod tests {
 
     #[test]
     fn bytes_that_are_no_text_are_refused() {
-        assert!(matches!(text(b"<a b=\"\xff\"/>".to_vec()), Err(Flaw::NotUtf8 { at: 6 })));
+        let flaw = |bytes: &[u8]| *text(bytes.to_vec()).expect_err("it is no text");
+        assert!(matches!(flaw(b"<a b=\"\xff\"/>"), Flaw::NotUtf8 { at: 6 }));
         for bytes in [[0xff, 0xfe, 0x00, 0xd8].as_slice(), &[0xff, 0xfe, 0x41]] {
-            assert!(matches!(text(bytes.to_vec()), Err(Flaw::NotUtf16)));
+            assert!(matches!(flaw(bytes), Flaw::NotUtf16));
         }
     }
 }

@@ -159,8 +159,12 @@ impl Stage {
         self.stopped |= self.check(&mut stop, truths) == Some(true);
         self.stop = stop;
         self.cast.actors.iter_mut().for_each(|actor| actor.step.before = actor.speed);
-        for index in 0..self.items.len() {
+        let mut index = 0;
+        while index < self.items.len() {
             self.update(index, truths);
+            // Nothing runs or starts within an element that does not run.
+            let playing = &self.items[index];
+            index = if playing.state == State::Running { index + 1 } else { playing.last.max(index + 1) };
         }
         self.carry_out(dt);
         for index in (0..self.items.len()).rev() {
@@ -205,7 +209,7 @@ impl Stage {
                     self.start(index);
                 }
             }
-            State::Running => {
+            State::Running if self.items[index].stop.is_some() => {
                 let mut watch = self.items[index].stop.take();
                 let fires = self.check(&mut watch, truths) == Some(true);
                 self.items[index].stop = watch;
@@ -311,6 +315,9 @@ impl Stage {
         // A motion that began before the driver got the car is over.
         let driven = self.cast.lead.driven().map(|_| self.cast.ego);
         for index in 0..self.items.len() {
+            if self.items[index].motions.is_empty() {
+                continue;
+            }
             let mut motions = std::mem::take(&mut self.items[index].motions);
             motions.retain_mut(|(entity, motion)| {
                 Some(*entity) != driven && !motion.carry_out(*entity, &mut self.cast, dt)
