@@ -21,11 +21,11 @@ impl Scene {
     /// Describes the contact of the car at the present tick; `None` without a contact.
     pub(super) fn touch(&self) -> Option<Contact> {
         let touching = self.contact?;
-        let (car, touched) = (self.ego.dynamics().state(), &self.bodies[touching.body]);
+        let (car, touched) = (self.ego.dynamics().state(), &self.bodies[touching]);
         Some(Contact {
-            with: self.name(touching.body).to_owned(),
+            with: self.name(touching).to_owned(),
             class: touched.body.class,
-            face: touching.face,
+            face: self.face(touching),
             motion: motion(car),
             speed: car.speed(),
             other_speed: touched.velocity.norm(),

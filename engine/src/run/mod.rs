@@ -243,7 +243,7 @@ impl Run {
 
     /// Returns the index of the body that the ego vehicle touches; `None` without a contact.
     pub fn touched(&self) -> Option<usize> {
-        self.scene.contact.map(|contact| contact.body)
+        self.scene.contact
     }
 
     /// Returns the road network of the world.

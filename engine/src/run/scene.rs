@@ -1,7 +1,7 @@
 //! The scene of a run: everything in a world, as it moves from tick to tick.
 
 use super::Setup;
-use crate::contact::Contact;
+use crate::contact::{Contact, Face};
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
 use crate::outcome::Invalid;
 use crate::road::{Path, RoadNetwork};
@@ -11,7 +11,7 @@ use crate::stream::{Clock, DatumSample, Graph, Slot};
 use crate::upset::Upset;
 use crate::vehicle::GRAVITY;
 use crate::weather::{Weather, WeatherPart};
-use crate::world::{Touching, World, overlapping};
+use crate::world::{World, overlapping};
 use nalgebra::Vector2;
 use paracosm_road::Pose;
 use std::sync::Arc;
@@ -46,8 +46,8 @@ pub(super) struct Scene {
     /// The parts of the weather whose values have to be checked at the next tick: all at first, then those that change.
     unchecked: Vec<(WeatherPart, Slot)>,
     world: World,
-    /// The contact of the car with another body; `None` without a contact.
-    pub contact: Option<Touching>,
+    /// The index of the body that the car touches; `None` without a contact.
+    pub contact: Option<usize>,
     /// The first contact of the car after the beginning.
     pub touched: Option<Box<Contact>>,
     /// The value of `car.clearance` at this tick.
@@ -91,7 +91,7 @@ impl Scene {
         Self {
             contact: {
                 let clearance = world.clearance(&bodies);
-                world.contact(&bodies, &bodies, clearance, None)
+                world.contact(&bodies, clearance)
             },
             touched: None,
             clearance: world.clearance(&bodies[..told]),
@@ -236,8 +236,7 @@ impl Scene {
         std::mem::swap(&mut self.bodies, &mut self.previous);
         self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
         let clearance = self.world.clearance(&self.bodies);
-        let known = self.touched.as_ref().map(|contact| contact.face);
-        self.contact = self.world.contact(&self.previous, &self.bodies, clearance, known);
+        self.contact = self.world.contact(&self.bodies, clearance);
         self.clearance = match self.contact {
             None if self.told == self.bodies.len() => clearance,
             None => self.world.clearance(self.told()),
@@ -249,6 +248,11 @@ impl Scene {
             }
         };
         Ok(())
+    }
+
+    /// Returns the side of the car that a body touched within the last tick.
+    pub fn face(&self, body: usize) -> Face {
+        self.world.face(&self.previous, &self.bodies, body)
     }
 
     /// Returns the weather at this tick, with the default for each stream that is absent or out of range.
@@ -274,9 +278,9 @@ impl Scene {
 
     /// Returns the braking distance in metres that was missing at a contact. Brakes take away only the speed at which
     /// the car and the body close along the heading of the car.
-    fn missing_distance(&self, contact: Touching, friction: f64) -> f64 {
+    fn missing_distance(&self, touching: usize, friction: f64) -> f64 {
         let car = &self.bodies[0];
-        let closing = car.pose.turn_to_local(car.velocity - self.bodies[contact.body].velocity).x.max(0.0);
+        let closing = car.pose.turn_to_local(car.velocity - self.bodies[touching].velocity).x.max(0.0);
         (closing * closing / (2.0 * friction * GRAVITY)).max(LEAST_MISSING)
     }
 }

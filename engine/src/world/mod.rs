@@ -25,14 +25,6 @@ const REACH: f64 = 0.05;
 /// The distance in metres that counts as touching: the resolution of rapier's 32-bit numbers at some hundred metres.
 const TOUCH: f64 = 1e-5;
 
-/// A contact of the ego vehicle with another body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Touching {
-    /// The index of the body that touches the ego vehicle.
-    pub body: usize,
-    pub face: Face,
-}
-
 /// A body in rapier.
 #[derive(Debug, Clone)]
 struct Solid {
@@ -98,17 +90,9 @@ impl World {
         nearest.max(TOUCH)
     }
 
-    /// Returns the first body that touches the ego vehicle at this tick, and the touched side of the ego vehicle. `known` is the side of
-    /// an earlier contact, which counts then.
-    /// `before` are the bodies at the previous tick, and `clearance` is the [clearance](World::clearance) from all
-    /// bodies.
-    pub fn contact(
-        &mut self,
-        before: &[BodyState],
-        bodies: &[BodyState],
-        clearance: f64,
-        known: Option<Face>,
-    ) -> Option<Touching> {
+    /// Returns the index of the first body that touches the ego vehicle at this tick. `clearance` is the [clearance](World::clearance)
+    /// from all bodies.
+    pub fn contact(&mut self, bodies: &[BodyState], clearance: f64) -> Option<usize> {
         if clearance > REACH {
             return None;
         }
@@ -119,8 +103,7 @@ impl World {
             let deepest = pair.and_then(|pair| pair.find_deepest_contact());
             state.present && deepest.is_some_and(|(_, contact)| contact.dist <= 0.0)
         };
-        let body = 1 + self.solids[1..].iter().zip(&bodies[1..]).position(touches)?;
-        Some(Touching { body, face: known.unwrap_or_else(|| self.face(before, bodies, body)) })
+        self.solids[1..].iter().zip(&bodies[1..]).position(touches).map(|body| 1 + body)
     }
 
     /// Sets the present poses in rapier and finds contacts.
@@ -147,8 +130,8 @@ impl World {
 
     /// Returns the side of the ego vehicle that a body touched: the side where the two shapes first met on their way
     /// through the last tick. The deepest overlap is not enough: a car that hits a person with its corner at 15 m/s
-    /// overlaps more from the front than from the side.
-    fn face(&self, before: &[BodyState], bodies: &[BodyState], other: usize) -> Face {
+    /// overlaps more from the front than from the side. `before` are the bodies at the previous tick.
+    pub fn face(&self, before: &[BodyState], bodies: &[BodyState], other: usize) -> Face {
         let (car, solid) = (&self.solids[0], &self.solids[other]);
         let [car_before, other_before] = [0, other].map(|body| before[body].pose);
         // The motion as seen from the car; the rotation of the car within one tick is neglected.

@@ -119,7 +119,7 @@ impl Check {
     /// Compares a value of a type with the attribute `value`. `measure` returns the number to compare with a number, or otherwise 1 while
     /// the value is the wanted one.
     fn with_value(node: Node<'_>, kind: Kind, measure: impl Fn(&xml::Value) -> Measure) -> Result<Self, ReadError> {
-        let text = kind.required(node, "value")?;
+        let text = node.of_kind("value", kind)?;
         let wanted = kind.typed(&text);
         Ok(match wanted {
             xml::Value::Number(number) => Self::single(measure(&wanted), Rule::read(node)?, number),

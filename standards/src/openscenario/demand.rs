@@ -47,7 +47,7 @@ impl Demand {
             if limits.is_empty() { Err(group.element.lacks("ValueConstraint")) } else { Ok(limits) }
         };
         let groups = node.all("ConstraintGroup").map(group);
-        let (name, kind) = (node.element.required("name")?.to_owned(), Kind::read(node, "parameterType")?);
+        let (name, kind) = (node.element.required("name")?.to_owned(), node.kind("parameterType")?);
         let groups = groups.collect::<Result<_, ReadError>>()?;
         Ok(Self { name, kind, groups, place: place(node) })
     }

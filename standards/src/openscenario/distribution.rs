@@ -63,7 +63,7 @@ impl Distribution {
                     let (name, of) = name(node)?;
                     let (mut levels, mut known): (Vec<Vec<String>>, _) = (Vec::new(), BTreeSet::new());
                     for element in some(kind, "Element")? {
-                        let text = of.required(element, "value")?;
+                        let text = element.of_kind("value", of)?;
                         // A zero with a sign is a zero.
                         let written = match of.value(&text) {
                             Value::Number(number) => (number + 0.0).to_string(),
@@ -114,7 +114,7 @@ impl Opened {
                 (domain, space::Distribution::Normal(mean, deviation))
             }
             _ => {
-                let value = |element: Node<'_>| Ok(of.value(&of.required(element, "value")?));
+                let value = |element: Node<'_>| Ok(of.value(&element.of_kind("value", of)?));
                 let levels = some(kind, "Element")?.map(value).collect::<Result<_, ReadError>>()?;
                 let weights = kind.all("Element").map(|element| element.length("weight")).collect::<Result<_, _>>()?;
                 (Domain::Choice(levels), space::Distribution::Weights(weights))
@@ -258,7 +258,7 @@ fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {
         return Err(node.unexpected("parameterName", name, "a parameter whose type is a number"));
     }
     for (node, attribute) in [(limits, "lowerLimit"), (limits, "upperLimit"), (node, "stepWidth")] {
-        of.required(node, attribute)?;
+        node.of_kind(attribute, of)?;
     }
     let (lo, hi, step) = (limits.number("lowerLimit")?, limits.number("upperLimit")?, node.number("stepWidth")?);
     if lo > hi {
@@ -316,7 +316,7 @@ fn tuples(kind: Node<'_>, declared: &[(String, Kind)]) -> Result<(Vec<String>, V
                 let known = names.iter().map(String::as_str);
                 return Err(assignment.element.unexpected_value("parameterRef", &name, expected, known));
             }
-            level.push((name, of.required(assignment, "value")?.into_owned()));
+            level.push((name, assignment.of_kind("value", of)?.into_owned()));
         }
         let value = |name: &String| {
             let own = level.iter().find(|(known, _)| known == name).map(|(_, value)| value.clone());

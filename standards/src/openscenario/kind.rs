@@ -1,10 +1,8 @@
 //! The types of parameters, and the values that each type allows.
 
-use super::clock::is_time;
-use super::scope::Node;
-use crate::xml::{self, ReadError};
+use super::moment::moment;
+use crate::xml;
 use paracosm_space::Value;
-use std::borrow::Cow;
 
 /// The type of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,7 +15,8 @@ pub(super) enum Kind {
     Whole(i64, i64),
 }
 
-const KINDS: [(&str, Kind); 8] = [
+/// The names of all types.
+pub(super) const KINDS: [(&str, Kind); 8] = [
     ("boolean", Kind::Boolean),
     ("dateTime", Kind::DateTime),
     ("double", Kind::Double),
@@ -29,18 +28,13 @@ const KINDS: [(&str, Kind); 8] = [
 ];
 
 impl Kind {
-    /// Reads the attribute with the type of a parameter or a variable.
-    pub fn read(node: Node<'_>, attribute: &'static str) -> Result<Self, ReadError> {
-        node.element.one_of(attribute, &KINDS)
-    }
-
     /// Returns `true` if a text is a value of the type. A whole number may have decimals if they are 0, because expressions
     /// give such numbers.
     pub fn takes(self, text: &str) -> bool {
         let number = || text.parse().ok().filter(|number: &f64| number.is_finite());
         match self {
             Self::Boolean => ["true", "false", "1", "0"].contains(&text),
-            Self::DateTime => is_time(text),
+            Self::DateTime => moment(text).is_some(),
             Self::Double => number().is_some(),
             Self::Text => true,
             Self::Whole(least, most) => {
@@ -94,12 +88,6 @@ impl Kind {
             (Self::Boolean, "0") => "false",
             (_, text) => text,
         }
-    }
-
-    /// Returns the value of an attribute, which must exist and be of the type.
-    pub fn required<'a>(self, node: Node<'a>, attribute: &'static str) -> Result<Cow<'a, str>, ReadError> {
-        let text = node.required(attribute)?;
-        if self.takes(&text) { Ok(text) } else { Err(node.unexpected(attribute, &text, self.expected())) }
     }
 }
 

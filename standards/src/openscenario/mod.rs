@@ -23,6 +23,7 @@ mod kind;
 mod linked;
 mod local;
 mod measure;
+mod moment;
 mod names;
 mod nurbs;
 mod parameters;

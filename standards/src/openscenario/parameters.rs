@@ -248,7 +248,7 @@ impl Parameters {
 pub(super) fn declared_kinds(root: Node<'_>) -> Result<Vec<(String, Kind)>, ReadError> {
     let one = |element| {
         let node = Node { element, ..root };
-        Ok((element.required("name")?.to_owned(), Kind::read(node, "parameterType")?))
+        Ok((element.required("name")?.to_owned(), node.kind("parameterType")?))
     };
     declarations(root.element).map(one).collect()
 }
@@ -258,7 +258,7 @@ pub(super) fn declared_values(root: Node<'_>) -> Result<Scope, ReadError> {
     let mut scope = Scope::default();
     for element in declarations(root.element) {
         let node = Node { element, scope: &scope };
-        let kind = Kind::read(node, "parameterType")?;
+        let kind = node.kind("parameterType")?;
         let value = node.text("value")?.unwrap_or_default().into_owned();
         scope.set(element.required("name")?, kind, &value);
     }

@@ -1,6 +1,6 @@
 //! The parameters that an element sees, and the values of attributes with parameters in them.
 
-use super::kind::Kind;
+use super::kind::{KINDS, Kind};
 use crate::xml::{Element, Expression, ExpressionFlaw, Flaw, ReadError, TRUTHS, Value, brief};
 use paracosm_space::nearest;
 use std::borrow::Cow;
@@ -216,6 +216,17 @@ impl<'a> Node<'a> {
     /// Returns the value of an attribute, which must exist.
     pub fn required(self, attribute: &'static str) -> Result<Cow<'a, str>, ReadError> {
         self.text(attribute)?.ok_or_else(|| self.element.missing(attribute))
+    }
+
+    /// Returns the value of an attribute, which must exist and be of a type.
+    pub fn of_kind(self, attribute: &'static str, kind: Kind) -> Result<Cow<'a, str>, ReadError> {
+        let text = self.required(attribute)?;
+        if kind.takes(&text) { Ok(text) } else { Err(self.unexpected(attribute, &text, kind.expected())) }
+    }
+
+    /// Returns the type that an attribute names.
+    pub fn kind(self, attribute: &'static str) -> Result<Kind, ReadError> {
+        self.element.one_of(attribute, &KINDS)
     }
 
     /// Returns the name of the element; `None` if it has none. A name is a part of messages and of signals, so it has no line breaks.

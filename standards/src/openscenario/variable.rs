@@ -32,7 +32,7 @@ impl Variable {
         let read = |declaration: Node<'_>| {
             let name = declaration.label_required()?.into_owned();
             taken.claim(declaration, &name)?;
-            let kind = Kind::read(declaration, "variableType")?;
+            let kind = declaration.kind("variableType")?;
             let value = declaration.text("value")?.unwrap_or_default();
             if !kind.takes(&value) {
                 return Err(declaration.unexpected("value", &value, kind.expected()));
@@ -78,7 +78,7 @@ impl Change {
         let of = names.kinds[variable];
         let kind = node.choice("SetAction or ModifyAction")?;
         let change = match kind.name() {
-            "SetAction" => Self::Set(of.typed(&of.required(kind, "value")?)),
+            "SetAction" => Self::Set(of.typed(&kind.of_kind("value", of)?)),
             _ => {
                 if !of.is_number() {
                     let (rule, name) = (kind.child("Rule")?, &names.variables[variable]);
