@@ -7,7 +7,7 @@ use super::note::Note;
 use super::plan_view::wrapped;
 use super::read;
 use super::road::{Direction, LaneType, Road, Section};
-use crate::xml::{Document, Element, NoEffect, ReadError};
+use crate::xml::{Document, Element, NoEffect, ReadError, note};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -120,7 +120,7 @@ impl Map {
 
 /// Returns the elements of roads without an extent, because the next one begins at the same place.
 fn overlaid(root: Element<'_, '_>) -> impl Iterator<Item = NoEffect> {
-    let mut found: BTreeMap<&str, NoEffect> = BTreeMap::new();
+    let mut found = BTreeMap::new();
     let mut open: Vec<Element<'_, '_>> = root.all("road").collect();
     while let Some(parent) = open.pop() {
         let mut before: Option<(Element<'_, '_>, f64)> = None;
@@ -131,10 +131,7 @@ fn overlaid(root: Element<'_, '_>) -> impl Iterator<Item = NoEffect> {
                 && first.name() == element.name()
                 && s == at
             {
-                let (name, reason) = (first.name().to_owned(), "the next one begins at the same place");
-                let note = NoEffect { name, reason, nearest: None, count: 0, line: first.line() };
-                let note = found.entry(first.name()).or_insert(note);
-                (note.count, note.line) = (note.count + 1, note.line.min(first.line()));
+                note(&mut found, first.name().to_owned(), ("the next one begins at the same place", None), first);
             }
             before = at.map(|at| (element, at));
             open.push(element);

@@ -23,5 +23,5 @@ pub(crate) use number::{rounded, short};
 pub(crate) use row::{Form, Row, no_effect, read, refused};
 pub use row::{Support, Supported};
 pub use schema::NoEffect;
-pub(crate) use schema::{Choice, Counts, Schema};
+pub(crate) use schema::{Choice, Counts, Schema, note};
 pub(crate) use writer::{Attributes, Writer, escaped};

@@ -233,7 +233,8 @@ impl Choice {
     }
 }
 
-fn note(
+/// Adds an element to the parts that have no effect: the first of its name, or one more.
+pub(crate) fn note(
     found: &mut BTreeMap<String, NoEffect>,
     name: String,
     (reason, nearest): (&'static str, Option<&'static str>),

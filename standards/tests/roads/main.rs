@@ -5,6 +5,7 @@ mod cases;
 mod judge;
 mod lanes;
 mod networks;
+mod notes;
 mod objects;
 mod others;
 mod round_trip;

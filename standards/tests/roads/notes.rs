@@ -1,0 +1,52 @@
+//! Notes on what differs between a file and its map.
+
+use super::cases::{in_file, parse, refuses, with};
+
+/// Returns the notes on the road of a file with changes.
+fn notes(changes: &[(&str, &str)]) -> Vec<String> {
+    let map = parse(with(changes)).unwrap_or_else(|error| panic!("{error}"));
+    map.notes.iter().map(in_file).collect()
+}
+
+#[test]
+fn what_does_not_count_is_noted() {
+    let width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
+    let narrow = width.replace("3.5", "0.4");
+    assert_eq!(
+        notes(&[(width, &narrow)]),
+        ["x.xodr: lane -1 of road `1` is at most 0.400 m wide; cars do not drive on it"]
+    );
+    let twice = format!("{narrow}\n{width}");
+    assert_eq!(notes(&[(width, &twice)]), ["x.xodr:8: `width` has no effect: the next one begins at the same place"]);
+    let geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"50\"><line/></geometry>";
+    let empty = format!("{}{geometry}", geometry.replace("\"50\"", "\"0\""));
+    assert_eq!(
+        notes(&[(geometry, &empty)]),
+        ["x.xodr:5: `geometry` has no effect: the next one begins at the same place"]
+    );
+    let junction = "<junction id=\"7\" name=\"\"/></OpenDRIVE>";
+    assert_eq!(notes(&[("</OpenDRIVE>", junction)]), ["x.xodr: junction `7` has no connections; cars do not cross it"]);
+}
+
+#[test]
+fn kinks_and_links_between_roads_apart_are_noted() {
+    let line = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"50\"><line/></geometry>";
+    let kink = line.replace("length=\"50\"", "length=\"20\"")
+        + "<geometry s=\"20\" x=\"20\" y=\"0\" hdg=\"1.5\" length=\"30\"><line/></geometry>";
+    assert_eq!(notes(&[(line, &kink)]), ["x.xodr: the reference line of road `1` turns by 1.500 rad at s = 20.000 m"]);
+    let second = |x: f64| {
+        let road = with(&[]);
+        let from = road.find("<road").unwrap();
+        let road = road[from..].replace("id=\"1\" length", "id=\"2\" length");
+        road.replace("x=\"0\" y", &format!("x=\"{x}\" y"))
+    };
+    let link = "<link><successor elementType=\"road\" elementId=\"2\" contactPoint=\"start\"/></link>";
+    assert!(notes(&[("<link/>", link), ("</OpenDRIVE>", &second(50.0))]).is_empty());
+    assert_eq!(
+        notes(&[("<link/>", link), ("</OpenDRIVE>", &second(80.0))]),
+        ["x.xodr:4: the link joins roads that are 30.000 m apart; nobody uses it"]
+    );
+    let lane = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
+    let many: String = (1..=1001).map(|number| lane.replace("\"-1\"", &format!("\"-{number}\""))).collect();
+    refuses(&[(lane, &many)], "<laneSection> has 1002 lanes, expected at most 1000");
+}
