@@ -54,8 +54,10 @@ pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
         (Outline::Rectangle { .. }, Outline::Rectangle { .. }) => {
             let (a, b) = (Footprint::of(a), Footprint::of(b));
             let corners = [a.corners(), b.corners()];
-            // Two rectangles are apart exactly if one lies wholly beyond a side of the other.
-            if !a.is_apart_from(&corners[1]) && !b.is_apart_from(&corners[0]) {
+            // Most rectangles are far from each other. Two rectangles are apart exactly if one lies wholly beyond a side of the other.
+            let reach = a.outline.reach_at_most() + b.outline.reach_at_most();
+            let is_near = (a.position - b.position).norm_squared() <= reach * reach;
+            if is_near && !a.is_apart_from(&corners[1]) && !b.is_apart_from(&corners[0]) {
                 return 0.0;
             }
             // If two convex polygons are apart, one of their corners is nearest to the other polygon.

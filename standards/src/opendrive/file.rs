@@ -41,12 +41,11 @@ impl Map {
     /// # Errors
     /// The text is not valid, or has an element that is not supported.
     pub fn parse(file: &Path, text: String) -> Result<Self, ReadError> {
-        Self::of(&Document::of(file, text))
+        Self::of(&Document::of(file, text)?)
     }
 
     fn of(document: &Document) -> Result<Self, ReadError> {
-        let tree = document.tree()?;
-        let root = document.root(&tree, "OpenDRIVE")?;
+        let root = document.root("OpenDRIVE")?;
         let without_effect = schema().check(root)?;
         let (mut map, minor) = read::map(root)?;
         let mut notes = std::mem::take(&mut map.notes);

@@ -99,7 +99,9 @@ impl Geometry {
     /// Returns the position and the heading, `ds` metres after the beginning of the piece.
     pub fn at(&self, ds: f64) -> Pose {
         let (local, turn) = self.local(ds);
-        let position = self.start.position + self.start.forward() * local.x + self.start.left() * local.y;
+        let forward = self.start.forward();
+        let left = Vector2::new(-forward.y, forward.x);
+        let position = self.start.position + forward * local.x + left * local.y;
         Pose { position, heading: wrapped(self.start.heading + turn) }
     }
 

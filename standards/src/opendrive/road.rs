@@ -4,6 +4,7 @@ use super::cubics::Cubics;
 use super::object::Object;
 use super::plan_view::{PlanView, wrapped};
 use nalgebra::{SVector, Vector1, Vector2};
+use paracosm_engine::Pose;
 
 /// A road.
 #[derive(Debug, Clone, PartialEq)]
@@ -186,19 +187,29 @@ impl Road {
     /// Returns the heading of the middle of a lane in the direction of the road, in radians in (-π, π]. `None` if the section
     /// has no such lane.
     pub fn lane_heading(&self, section: usize, lane: i32, s: f64) -> Option<f64> {
-        self.middle_line(section, lane, s).map(|[_, heading]| heading)
+        self.lane_pose(section, lane, s, 0.0).map(|pose| pose.heading)
     }
 
-    /// Returns [`Road::middle`] and [`Road::lane_heading`]. `None` if the section has no such lane.
-    pub(crate) fn middle_line(&self, section: usize, lane: i32, s: f64) -> Option<[f64; 2]> {
+    /// Returns the point `offset` metres to the left of the middle of a lane, with [`Road::lane_heading`]. `None` if the section has no
+    /// such lane.
+    pub(crate) fn lane_pose(&self, section: usize, lane: i32, s: f64, offset: f64) -> Option<Pose> {
         let [outer, inner] = self.sums(section, lane, |cubics| Vector2::from(cubics.at_with_slope(s)))?;
         let [middle, slope] = (0.5 * (outer + inner)).into();
-        Some([middle, self.heading_beside(s, middle, slope)])
+        let here = self.line.at(s);
+        let position = here.position + here.left() * (middle + offset);
+        Some(Pose { position, heading: wrapped(here.heading + self.drift(s, middle, slope)) })
     }
 
     /// Returns the heading of a line `t` metres to the left of the reference line whose distance grows by `slope`.
     pub(super) fn heading_beside(&self, s: f64, t: f64, slope: f64) -> f64 {
-        wrapped(self.line.at(s).heading + libm::atan2(slope, self.line.rate(s) * (1.0 - self.line.curvature(s) * t)))
+        wrapped(self.line.at(s).heading + self.drift(s, t, slope))
+    }
+
+    /// Returns the angle from the reference line to the line of [`Road::heading_beside`], in radians.
+    fn drift(&self, s: f64, t: f64, slope: f64) -> f64 {
+        let along = self.line.rate(s) * (1.0 - self.line.curvature(s) * t);
+        // Most lines go along the reference line, and an arc tangent is slow.
+        if slope == 0.0 && along > 0.0 { 0.0 } else { libm::atan2(slope, along) }
     }
 
     /// Returns the derivative of [`Road::border`].

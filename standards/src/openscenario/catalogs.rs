@@ -25,7 +25,7 @@ pub(super) struct CatalogFiles {
     absent: Vec<(PathBuf, u32, PathBuf)>,
 }
 
-/// The trees of the catalogs of a scenario.
+/// The catalogs of a scenario.
 pub(super) struct Catalogs<'a> {
     all: BTreeMap<&'a str, Vec<Element<'a, 'a>>>,
     absent: Option<&'a (PathBuf, u32, PathBuf)>,
@@ -90,8 +90,7 @@ impl CatalogFiles {
             for file in found {
                 let document = Document::open(&file)?;
                 let name = {
-                    let tree = document.tree()?;
-                    let root = document.root(&tree, "OpenSCENARIO")?;
+                    let root = document.root("OpenSCENARIO")?;
                     let name = |catalog: Element<'_, '_>| {
                         version::check(root)?;
                         catalog.required("name").map(str::to_owned)
@@ -118,18 +117,12 @@ impl CatalogFiles {
         })
     }
 
-    /// Parses the trees of all catalogs.
-    pub fn trees(&self) -> Result<Vec<roxmltree::Document<'_>>, ReadError> {
-        self.all.values().flatten().map(Document::tree).collect()
-    }
-
-    /// Returns the catalogs with their trees, which [`CatalogFiles::trees`] has parsed.
-    pub fn catalogs<'a>(&'a self, trees: &'a [roxmltree::Document<'a>]) -> Result<Catalogs<'a>, ReadError> {
-        let mut trees = trees.iter();
+    /// Returns the catalogs by their names.
+    pub fn catalogs(&self) -> Result<Catalogs<'_>, ReadError> {
         let mut all = BTreeMap::new();
         for (name, files) in &self.all {
-            let root = |(document, tree): (&'a Document, _)| document.root(tree, "OpenSCENARIO")?.child("Catalog");
-            let parts = files.iter().zip(trees.by_ref()).map(root).collect::<Result<_, ReadError>>()?;
+            let roots = files.iter().map(|document| document.root("OpenSCENARIO"));
+            let parts = roots.map(|root| root?.child("Catalog")).collect::<Result<_, ReadError>>()?;
             all.insert(name.as_str(), parts);
         }
         let (found, open, references) = Default::default();

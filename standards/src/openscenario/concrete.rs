@@ -76,10 +76,8 @@ impl Xosc {
         test: &Values,
         then: impl FnOnce(Valued<'_>) -> Result<T, ReadError>,
     ) -> Result<T, ReadError> {
-        let tree = self.document.tree()?;
-        let root = self.document.root(&tree, ROOT)?;
-        let trees = self.catalogs.trees()?;
-        let catalogs = &self.catalogs.catalogs(&trees)?;
+        let root = self.document.root(ROOT)?;
+        let catalogs = &self.catalogs.catalogs()?;
         let scope = self.parameters.values(Node { element: root, scope: &Scope::default() }, test)?;
         let root = Node { element: root, scope: &scope };
         let map = self.roads_in(root.child("RoadNetwork")?.child("LogicFile")?)?.map;

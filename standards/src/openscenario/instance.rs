@@ -28,8 +28,7 @@ impl Xosc {
     /// type of its parameter.
     pub fn test_in(&self, file: &Path) -> Result<Vec<(String, Value, u32)>, ReadError> {
         let document = Document::open(file)?;
-        let (own, other) = (self.document.tree()?, document.tree()?);
-        let (own, other) = (self.document.root(&own, ROOT)?, document.root(&other, ROOT)?);
+        let (own, other) = (self.document.root(ROOT)?, document.root(ROOT)?);
         compare(own, other)?;
         let declared: Vec<Element<'_, '_>> = declarations(other).collect();
         let texts: Vec<&str> = declared.iter().map(|element| element.text("value").unwrap_or_default()).collect();

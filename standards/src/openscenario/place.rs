@@ -36,11 +36,13 @@ impl Place {
     pub fn pose(&self, map: &Map) -> Pose {
         let road = &map.roads[self.road];
         let section = road.section_at(self.s);
-        let [t, heading] = road.middle_line(section, self.lane, self.s).unwrap_or_else(|| {
-            // A place beside all lanes goes along the reference line.
-            [0.0, road.line.at(self.s).heading]
-        });
-        Pose { position: road.point(self.s, t + self.offset), heading: wrapped(heading + self.turn) }
+        let Pose { position, heading } =
+            road.lane_pose(section, self.lane, self.s, self.offset).unwrap_or_else(|| {
+                // A place beside all lanes goes along the reference line.
+                let here = road.line.at(self.s);
+                Pose { position: here.position + here.left() * self.offset, ..here }
+            });
+        Pose { position, heading: wrapped(heading + self.turn) }
     }
 
     /// Returns the direction along the road in which the place faces, in radians.

@@ -100,8 +100,7 @@ impl Xosc {
         let folder = folder_of(file);
         let none = Scope::default();
         let named = {
-            let tree = document.tree()?;
-            let root = Node { element: document.root(&tree, ROOT)?, scope: &none };
+            let root = Node { element: document.root(ROOT)?, scope: &none };
             let distribution = root.first("ParameterValueDistribution");
             let named = |node: Node<'_>| {
                 version::check(root.element)?;
@@ -109,8 +108,7 @@ impl Xosc {
                 let file = linked::file(node.child("ScenarioFile")?, "filepath", &folder)?;
                 let scenario = Document::open(&file)?;
                 let distribution = {
-                    let tree = scenario.tree()?;
-                    let root = Node { element: scenario.root(&tree, ROOT)?, scope: &none };
+                    let root = Node { element: scenario.root(ROOT)?, scope: &none };
                     // A distribution may name the file of another distribution, or its own file, by mistake.
                     root.child("Storyboard")?;
                     let declared = declared_kinds(root)?;
@@ -133,8 +131,7 @@ impl Xosc {
         (distribution, mut notes): (Distribution, Vec<String>),
     ) -> Result<Self, ReadError> {
         let (catalogs, parameters) = {
-            let tree = document.tree()?;
-            let root = document.root(&tree, ROOT)?;
+            let root = document.root(ROOT)?;
             version::check(root)?;
             notes.extend(in_file(&schema().check(root)?, root.file()));
             let none = Scope::default();
@@ -161,12 +158,9 @@ impl Xosc {
 
     /// Returns the names of the parameters of tests that choose the file of the roads.
     fn roads_chosen_by(&self) -> Vec<String> {
-        let named = |tree: &roxmltree::Document<'_>| {
-            let root = self.document.root(tree, ROOT)?;
-            let logic = root.child("RoadNetwork")?.child("LogicFile")?;
-            Ok(self.parameters.behind(logic.required("filepath")?))
-        };
-        self.document.tree().and_then(|tree| named(&tree)).unwrap_or_default()
+        let logic = self.document.root(ROOT).and_then(|root| root.child("RoadNetwork")?.child("LogicFile"));
+        let named = logic.and_then(|logic| Ok(self.parameters.behind(logic.required("filepath")?)));
+        named.unwrap_or_default()
     }
 
     /// Returns the 128-bit XXH3 of the scenario, its catalogs, and the roads of a test. Roads that cannot be read make the test invalid.
@@ -182,9 +176,8 @@ impl Xosc {
     }
 
     fn roads_of(&self, test: &Values) -> Result<Roads, ReadError> {
-        let tree = self.document.tree()?;
         let none = Scope::default();
-        let root = Node { element: self.document.root(&tree, ROOT)?, scope: &none };
+        let root = Node { element: self.document.root(ROOT)?, scope: &none };
         let scope = self.parameters.values(root, test)?;
         self.roads_in(Node { scope: &scope, ..root }.child("RoadNetwork")?.child("LogicFile")?)
     }
@@ -274,10 +267,8 @@ impl Xosc {
         values: &mut dyn FnMut(Node<'_>) -> Result<Scope, ReadError>,
         with_test: bool,
     ) -> Result<Read, ReadError> {
-        let tree = self.document.tree()?;
-        let root = self.document.root(&tree, ROOT)?;
-        let trees = self.catalogs.trees()?;
-        let catalogs = self.catalogs.catalogs(&trees)?;
+        let root = self.document.root(ROOT)?;
+        let catalogs = self.catalogs.catalogs()?;
         let scope = values(Node { element: root, scope: &Scope::default() })?;
         let root = Node { element: root, scope: &scope };
         let logic = root.child("RoadNetwork")?.child("LogicFile")?;

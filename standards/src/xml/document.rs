@@ -4,6 +4,7 @@ use super::element::Element;
 use super::encoding;
 use super::error::{Flaw, Malformed, ReadError};
 use super::source::Source;
+use self_cell::self_cell;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -11,9 +12,21 @@ use std::path::Path;
 /// The greatest size of a file in bytes.
 const MOST_BYTES: u64 = 256 << 20;
 
+type Tree<'t> = roxmltree::Document<'t>;
+
+self_cell! {
+    /// A text with the tree of its elements, which borrows the text.
+    struct Parsed {
+        owner: Source,
+        #[covariant]
+        dependent: Tree,
+    }
+    impl { Debug }
+}
+
 /// An XML file.
 #[derive(Debug)]
-pub(crate) struct Document(Source);
+pub(crate) struct Document(Parsed);
 
 impl Document {
     /// Reads a file.
@@ -27,54 +40,49 @@ impl Document {
             let bytes = std::fs::metadata(file).map_or(bytes.len() as u64, |metadata| metadata.len());
             return Err(fails(Flaw::TooLarge { bytes, limit: MOST_BYTES }));
         }
-        Ok(Self::of(file, encoding::text(bytes).map_err(fails_for)?))
+        Self::of(file, encoding::text(bytes).map_err(fails_for)?)
     }
 
-    /// Takes a text. `file` is the name for messages.
-    pub fn of(file: &Path, text: String) -> Self {
-        Self(Source::new(file, text))
+    /// Parses a text. `file` is the name for messages.
+    pub fn of(file: &Path, text: String) -> Result<Self, ReadError> {
+        Parsed::try_new(Source::new(file, text), parse).map(Self)
     }
 
     /// Returns the path of the file.
     pub fn file(&self) -> &Path {
-        self.0.file()
+        self.0.borrow_owner().file()
     }
 
     /// Returns the text of the file.
     pub fn text(&self) -> &str {
-        self.0.text()
+        self.0.borrow_owner().text()
     }
 
-    /// Returns the tree of the elements of the text.
-    pub fn tree(&self) -> Result<roxmltree::Document<'_>, ReadError> {
-        roxmltree::Document::parse(self.0.text()).map_err(|error| {
-            let line = match error {
-                // The file is cut off: its end is the place of the mistake.
-                roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode => {
-                    self.0.line(self.text().len())
-                }
-                _ => error.pos().row,
-            };
-            let line = Some(line);
-            let flaw = match error {
-                roxmltree::Error::DtdDetected => Flaw::DocumentType,
-                error => Flaw::Malformed(Malformed(error)),
-            };
-            ReadError { file: self.0.file().to_owned(), line, flaw: Box::new(flaw) }
-        })
-    }
-
-    /// Returns the outermost element of a tree of this text, if the element has the expected name.
-    pub fn root<'a, 'i>(
-        &'a self,
-        tree: &'a roxmltree::Document<'i>,
-        expected: &'static str,
-    ) -> Result<Element<'a, 'i>, ReadError> {
-        let root = Element::new(&self.0, tree.root_element());
+    /// Returns the outermost element, if the element has the expected name.
+    pub fn root(&self, expected: &'static str) -> Result<Element<'_, '_>, ReadError> {
+        let root = Element::new(self.0.borrow_owner(), self.0.borrow_dependent().root_element());
         if root.name() == expected {
             Ok(root)
         } else {
             Err(root.error(Flaw::Root { found: root.name().to_owned(), expected }))
         }
     }
+}
+
+fn parse(source: &Source) -> Result<Tree<'_>, ReadError> {
+    Tree::parse(source.text()).map_err(|error| {
+        let line = match error {
+            // The file is cut off: its end is the place of the mistake.
+            roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode => {
+                source.line(source.text().len())
+            }
+            _ => error.pos().row,
+        };
+        let line = Some(line);
+        let flaw = match error {
+            roxmltree::Error::DtdDetected => Flaw::DocumentType,
+            error => Flaw::Malformed(Malformed(error)),
+        };
+        ReadError { file: source.file().to_owned(), line, flaw: Box::new(flaw) }
+    })
 }

@@ -199,9 +199,13 @@ impl Stage {
 
     /// Starts an element, or stops it, if its triggers say so.
     fn update(&mut self, index: usize, truths: &[bool]) {
-        let runs = self.items[index].item.parent.is_none_or(|parent| self.items[parent].state == State::Running);
-        match self.items[index].state {
-            State::Standby if runs => {
+        let playing = &mut self.items[index];
+        match playing.state {
+            State::Standby => {
+                let parent = playing.item.parent;
+                if parent.is_some_and(|parent| self.items[parent].state != State::Running) {
+                    return;
+                }
                 let mut watch = self.items[index].start.take();
                 let fires = self.check(&mut watch, truths) != Some(false);
                 self.items[index].start = watch;
@@ -209,8 +213,8 @@ impl Stage {
                     self.start(index);
                 }
             }
-            State::Running if self.items[index].stop.is_some() => {
-                let mut watch = self.items[index].stop.take();
+            State::Running if playing.stop.is_some() => {
+                let mut watch = playing.stop.take();
                 let fires = self.check(&mut watch, truths) == Some(true);
                 self.items[index].stop = watch;
                 if fires {
@@ -314,15 +318,10 @@ impl Stage {
     fn carry_out(&mut self, dt: f64) {
         // A motion that began before the driver got the car is over.
         let driven = self.cast.lead.driven().map(|_| self.cast.ego);
-        for index in 0..self.items.len() {
-            if self.items[index].motions.is_empty() {
-                continue;
-            }
-            let mut motions = std::mem::take(&mut self.items[index].motions);
-            motions.retain_mut(|(entity, motion)| {
+        for playing in &mut self.items {
+            playing.motions.retain_mut(|(entity, motion)| {
                 Some(*entity) != driven && !motion.carry_out(*entity, &mut self.cast, dt)
             });
-            self.items[index].motions = motions;
         }
     }
 
