@@ -224,7 +224,7 @@ impl Operation {
     /// Writes the value of a tick, and whether the stream is over, to the operation's place.
     #[inline(always)]
     fn evaluate(&mut self, clock: Clock, values: &mut [DatumSample], over: &mut [bool]) {
-        if !self.evaluate_simple(clock, values, over) {
+        if !self.evaluate_simple(values, over) {
             let (before, rest) = values.split_at_mut(self.at);
             over[self.at] = self.evaluate_wide(clock, before, &mut rest[..self.width], over);
         }
@@ -235,7 +235,7 @@ impl Operation {
     /// Samples are read and written part by part. A processor waits when it loads a whole sample at once whose parts
     /// it has just stored one by one.
     #[inline(always)]
-    fn evaluate_simple(&mut self, clock: Clock, values: &mut [DatumSample], over: &mut [bool]) -> bool {
+    fn evaluate_simple(&mut self, values: &mut [DatumSample], over: &mut [bool]) -> bool {
         let [left, right] = self.inputs;
         let width = self.width;
         let (values, rest) = values.split_at_mut(self.at);
@@ -267,10 +267,6 @@ impl Operation {
                 put(&mut rest[..width], !ended, &values[left..left + width]);
                 ended || over[left]
             }
-            NodeKind::Time => {
-                *output = (clock.tick as f64 * clock.dt).into();
-                false
-            }
             _ => return false,
         };
         true
@@ -290,6 +286,10 @@ impl Operation {
         let ([left, right], [left_over, right_over]) = ([*left, *right], [over[*left], over[*right]]);
         let from = |at: usize| &values[at..at + width];
         match (&node.kind, memory) {
+            (NodeKind::Time, _) => {
+                output[0] = (clock.tick as f64 * clock.dt).into();
+                false
+            }
             (NodeKind::Signal { shape, .. }, Memory::Numbers(numbers)) => {
                 output[0] = shape.number_at(numbers, clock.tick, clock.ticks).into();
                 false

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
-const MUTANTS: usize = 200;
+const MUTANTS: usize = 64;
 /// The seeds of the mutants that set the size of a better suite, and of the mutants that grade it.
 const SEEDS: [u64; 2] = [0, 1];
 /// The time for the coverage and the holes of a suite, and the search for a better suite.

@@ -22,10 +22,10 @@ const STRATEGIES: [Strategy; 6] = [
     Strategy::SOBOL_OWEN,
     Strategy::GREEDY,
 ];
-const SEEDS: u64 = 4;
+const SEEDS: u64 = 3;
 /// The number of tests of a suite.
 const TESTS: usize = 40;
-const MUTANTS: usize = 150;
+const MUTANTS: usize = 64;
 /// The time for the coverage of a suite. A measure that is not exact by then is left out, and the row says so.
 const LIMIT: Duration = Duration::from_secs(60);
 
