@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// The driver whose defects are on trial.
 const DRIVER: &str = "planner";
 /// The number of random tests in which each defect is on before. Some tests of the regulation last an hour, so they are few.
-const SCREEN: usize = 32;
+const SCREEN: usize = 16;
 /// The folders of logical scenarios, from the folder of this crate, with the part of a name that a logical scenario has.
 const FOLDERS: [(&str, &str); 3] = [
     ("alks/logical_scenarios", "_variation."),

@@ -8,14 +8,13 @@ use paracosm::analysis::audit::{Audit, Audited, Runs, Screen, Suite};
 use paracosm::generators::{Look, MarkShape};
 use paracosm::report::{Entry, Picture, PlotFrame, Series, Shares};
 use paracosm::space::Value;
-use paracosm::{Error, Study};
+use paracosm::Study;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
-const MUTANTS: usize = 64;
-/// The seeds of the mutants that set the size of a better suite, and of the mutants that grade it.
-const SEEDS: [u64; 2] = [0, 1];
+/// The number of mutants. Every second mutant says when a better suite is large enough, and the others grade it.
+const MUTANTS: usize = 128;
 /// The time for the coverage and the holes of a suite, and the search for a better suite.
 const LIMIT: Duration = Duration::from_secs(600);
 
@@ -75,14 +74,15 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
             continue;
         }
         let (study, suite) = Suite::of_listed(&study(&file.to_string_lossy())?)?;
-        let first = audited(&study, vec![suite.clone()], SEEDS[0])?.remove(0);
+        let runs = Runs::default();
+        let [known, other] = halves(Screen::of(&study, MUTANTS, SCREEN, 0, &runs)?);
+        let audit = Audit::of(&study, vec![suite.clone()])?.mutants(known).runs(runs.clone()).time_limit(LIMIT);
+        let first = audit.run(&mut Vec::new(), |_| Ok(()))?.suites.remove(0);
         let mut graded = vec![suite.clone()];
         if let Some(better) = &first.better {
             let points = better.suite.iter().map(|test| study.space().encode(test)).collect::<Result<Vec<_>, _>>()?;
             graded.push(Suite::new("better".to_owned(), points, &study)?);
         }
-        let runs = Runs::default();
-        let other = Screen::of(&study, MUTANTS, SCREEN, SEEDS[1], &runs)?;
         let scores: Vec<Option<f64>> = other
             .scores(&study, &graded, &runs)?
             .into_iter()
@@ -131,11 +131,12 @@ fn chart(rows: &[Row]) -> Shares {
     }
 }
 
-fn audited(study: &Study, suites: Vec<Suite>, seed: u64) -> Result<Vec<Audited>, Error> {
-    let runs = Runs::default();
-    let screen = Screen::of(study, MUTANTS, SCREEN, seed, &runs)?;
-    let audit = Audit::of(study, suites)?.mutants(screen).runs(runs).time_limit(LIMIT);
-    Ok(audit.run(&mut Vec::new(), |_| Ok(()))?.suites)
+/// Returns two screens with every second mutant each.
+fn halves(screen: Screen) -> [Screen; 2] {
+    [0, 1].map(|first| {
+        let mutants = screen.mutants.iter().skip(first).step_by(2).cloned().collect();
+        Screen { mutants, ..screen.clone() }
+    })
 }
 
 fn row(name: &str, study: &Study, of: &Audited, other_mutants: usize, scores: &[Option<f64>]) -> Row {
