@@ -8,9 +8,21 @@ use std::io::{self, Write};
 use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
 use std::process;
 
+/// The headings of options.
+pub(super) const TESTED: &str = "What is tested";
+pub(super) const CHOSEN: &str = "How tests are chosen";
+pub(super) const REQUIRED: &str = "Requirements";
+pub(super) const SUITES: &str = "The suites";
+pub(super) const COMPARED: &str = "What is compared";
+pub(super) const ESTIMATED: &str = "The estimate";
+pub(super) const RECORDED: &str = "What is recorded";
+pub(super) const TRIED: &str = "The perceiver on trial";
+pub(super) const RUNNING: &str = "Running";
+pub(super) const OUTPUT: &str = "Output";
+
 /// Returns the program's arguments. Ends the program if they are wrong, or if only help was asked for.
 pub(super) fn parse<C: Parser>() -> C {
-    let matches = with_negative_numbers(C::command()).try_get_matches();
+    let matches = adapted(C::command()).try_get_matches();
     let read = matches.and_then(|mut matches| C::from_arg_matches_mut(&mut matches));
     read.unwrap_or_else(|error| match explained(&error) {
         Some(message) => {
@@ -31,9 +43,12 @@ pub(super) fn parse<C: Parser>() -> C {
     })
 }
 
-/// Reads `-1` as a value and not as an option, so that the error can say which value was expected.
-fn with_negative_numbers(command: Command) -> Command {
-    command.allow_negative_numbers(true).mut_subcommands(with_negative_numbers)
+/// Reads `-1` as a value and not as an option, so that the error can say which value was expected. The short help of a command with
+/// subcommands lists the subcommands alone.
+fn adapted(command: Command) -> Command {
+    let lists = command.has_subcommands();
+    let command = command.allow_negative_numbers(true).mut_subcommands(adapted);
+    if lists { command.mut_args(|option| option.hide_short_help(true)) } else { command }
 }
 
 /// Says what was found and what was expected, if a number was expected.

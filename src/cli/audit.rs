@@ -1,5 +1,6 @@
 //! `paracosm-fuzz audit`: puts a suite of tests on trial.
 
+use super::arguments::{OUTPUT, RUNNING, SUITES};
 use super::cover::time_limit;
 use super::draw::FileKind;
 use super::export;
@@ -25,22 +26,25 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz audit pedestrian-crossing --tests my-tests.csv --driver planner
   paracosm-fuzz audit cut-in --tests halton:40 --tests lhs:40 --tests grid:4x3x3x2
-  paracosm-fuzz audit alks_4_4_1_variation.xosc --driver fsm --out audit        its own values are the suite
+  paracosm-fuzz audit alks_4_4_1_variation.xosc --driver fsm --out audit
+      its own values are the suite
 
 An audit says what a suite of tests would have missed:
-  coverage   the k-wise coverage, and for each row of discrete values the largest box that no test has entered
-  witness    a driver that drives like the given one, but does not brake in such a box. It has the same verdict as the
-             given driver in every test of the suite, and fails in the box
-  mutants    drivers with defects of many kinds and sizes, always on or on under conditions. A suite kills a mutant if
-             a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants
-             are fixed before: each is noticed in one of the random tests of --screen
-  additions  the fewest tests of the screen that kill the mutants which the suite misses, and a test that kills the witness
-  better     a suite with fewer tests than the first suite and smaller holes that kills as many mutants, if one is found. No
-             mutant chooses a test, but they say how many tests there are. Grade it with other mutants: --seed 1
+  coverage: the k-wise coverage, and for each row of discrete values the largest box that no test has entered
+  witness: a driver that drives like the given one, but does not brake in such a box. It has the same verdict as \
+    the given driver in every test of the suite, and fails in the box
+  mutants: drivers with defects of many kinds and sizes, always on or on under conditions. A suite kills a mutant \
+    if a test of the suite violates a requirement with the mutant, and keeps it with the given driver. The mutants \
+    are fixed before: each is noticed in one of the random tests of --screen
+  additions: the fewest tests of the screen that kill the mutants which the suite misses, and a test that kills \
+    the witness
+  better: a suite with fewer tests than the first suite and smaller holes that kills as many mutants, if one is \
+    found. No mutant chooses a test, but they say how many tests there are. Grade it with other mutants: --seed 1
 
-The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite certificate-1.json, a
-proof of its holes that tests/check_certificate.py checks, additions-1.csv, better-1.csv and witness-1.gif, and so on, to
-the folder --out. If the scenario is a file, additions-1.xosc and better-1.xosc list the same tests.";
+The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite \
+    certificate-1.json, a proof of its holes that tests/check_certificate.py checks, additions-1.csv, better-1.csv \
+    and witness-1.gif, and so on, to the folder --out. If the scenario is a file, additions-1.xosc and better-1.xosc \
+    list the same tests.";
 
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
@@ -50,39 +54,51 @@ const ROWS: usize = 5;
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// A suite: a CSV file of tests, the folder of a campaign, a folder of concrete files .xosc of the scenario, STRATEGY:N for
-    /// the first N tests of a strategy, or grid:AxB for an even grid; the option can be repeated [default: the values of the
-    /// parameters in a scenario file]
-    #[arg(long, value_name = "SUITE")]
+    /// A suite of tests
+    ///
+    /// A CSV file of tests, the folder of a campaign, a folder of concrete files .xosc of the scenario, STRATEGY:N for the
+    /// first N tests of a strategy, or grid:AxB for an even grid. The option can be repeated [default: the values of the
+    /// parameters in a scenario file].
+    #[arg(long, value_name = "SUITE", help_heading = SUITES)]
     tests: Vec<String>,
     /// The number of mutants
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = 200, help_heading = SUITES)]
     mutants: usize,
-    /// The number of random tests of the screen: each mutant is noticed in one of them
-    #[arg(long, value_name = "N", default_value_t = Screen::TESTS)]
+    /// The random tests that notice the mutants
+    ///
+    /// Each mutant is noticed in one of these random tests.
+    #[arg(long, value_name = "N", default_value_t = Screen::TESTS, help_heading = SUITES)]
     screen: usize,
-    /// The seed of the tests of the screen and of the mutants; another seed gives other mutants
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    /// The seed of the screen and of the mutants
+    ///
+    /// Another seed gives other mutants.
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = SUITES)]
     seed: u64,
-    /// Compare the first suite with suites of as many tests, one by each strategy that does not learn from outcomes
-    #[arg(long)]
+    /// Compare with suites of each strategy
+    ///
+    /// The first suite is compared with suites of as many tests, one by each strategy that does not learn from outcomes.
+    #[arg(long, help_heading = SUITES)]
     compare: bool,
-    /// Limit the seconds for the coverage and the certificate of each suite and for the better suite; holes are brackets if the
-    /// time is too short [default: no limit]
-    #[arg(long, value_name = "SECONDS")]
+    /// Limit the seconds for each suite
+    ///
+    /// The limit is for the coverage and the certificate of each suite, and for the better suite. Holes are brackets if the
+    /// time is too short [default: no limit].
+    #[arg(long, value_name = "SECONDS", help_heading = RUNNING)]
     time_limit: Option<f64>,
-    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
-    #[arg(long, value_name = "N")]
+    /// The tests that run at a time
+    ///
+    /// Results do not depend on this number [default: one per core].
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "paracosm-audit")]
+    #[arg(long, value_name = "DIR", default_value = "paracosm-audit", help_heading = OUTPUT)]
     out: PathBuf,
     /// Continue the audit in the folder
-    #[arg(long)]
+    #[arg(long, help_heading = RUNNING)]
     resume: bool,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -134,7 +150,7 @@ impl Options {
             }
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => table(&report),
             Format::Json => json(&report),
         })?;

@@ -1,5 +1,6 @@
 //! `paracosm-fuzz bench`: compares strategies by the failures that they find, and shows the progress.
 
+use super::arguments::{COMPARED, OUTPUT, RUNNING};
 use super::output::{Format, json, plural};
 use super::subject::Subject;
 use super::usage;
@@ -23,73 +24,92 @@ use std::thread::available_parallelism;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
-  paracosm-fuzz bench                                          eight strategies on pedestrian-crossing
+  paracosm-fuzz bench
+      eight strategies on pedestrian-crossing
   paracosm-fuzz bench --scenarios cut-in,pedestrian-crossing+friction+fog --strategies random,halton,greedy,auto
-  paracosm-fuzz bench --scenarios ball5,decoy5,valley2 --reference-tests 0       functions whose failures are known
+  paracosm-fuzz bench --scenarios ball5,decoy5,valley2 --reference-tests 0
+      functions whose failures are known
   paracosm-fuzz bench --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)' --strategies random,auto
 
-Every strategy runs on every scenario with every seed, to the end of the budget. Runs with the same seed are compared as
-pairs. NAME+PARAMETER+PARAMETER names a scenario and parameters to open. The functions corner5 ball5 decoy5 errors5 valley2
-ring2 rough3 few20 words2 needle2 can be named like scenarios; each seed puts their failures elsewhere.
+Every strategy runs on every scenario with every seed, to the end of the budget. Runs with the same seed are \
+    compared as pairs. NAME+PARAMETER+PARAMETER names a scenario and parameters to open. The functions corner5 ball5 \
+    decoy5 errors5 valley2 ring2 rough3 few20 words2 needle2 can be named like scenarios; each seed puts their \
+    failures elsewhere.
 
-Open-loop strategies draw discrete values for every test, uniformly among the valid values. `run` uses the rows of a
-covering array instead. A test that repeats an earlier test costs nothing. A run without a failure is censored at the
-budget. If the strategy had nothing more to test, the run is exhausted: there was no failure to find.
+Open-loop strategies draw discrete values for every test, uniformly among the valid values. `run` uses the rows \
+    of a covering array instead. A test that repeats an earlier test costs nothing. A run without a failure is \
+    censored at the budget. If the strategy had nothing more to test, the run is exhausted: there was no failure to \
+    find.
 
-A map of many random tests measures how well a run knows where tests fail. A test of the map is predicted to fail if the
-nearest test of the run fails. Recall is the share of the failing tests of the map that are predicted to fail. Precision is
-the share of the predicted failures that do fail. Maps are read from --reference, or made and kept there if they are missing.
+A map of many random tests measures how well a run knows where tests fail. A test of the map is predicted to \
+    fail if the nearest test of the run fails. Recall is the share of the failing tests of the map that are \
+    predicted to fail. Precision is the share of the predicted failures that do fail. Maps are read from \
+    --reference, or made and kept there if they are missing.
 
-DIR gets runs.csv (a row for each run), summary.csv (success rates with Wilson's interval; restricted means of
-the tests to the first failure with bootstrap intervals; against the baseline their ratio, Vargha and Delaney's A12,
-Wilcoxon's p over pairs, the log-rank test's p and Holm's correction of both), survival.csv (Kaplan and Meier's curves),
-correlations.csv (dispersion and recall), standings.csv, table.tex, and for each scenario figures as SVG and PNG.";
+DIR gets runs.csv (a row for each run), summary.csv (success rates with Wilson's interval; restricted means of \
+    the tests to the first failure with bootstrap intervals; against the baseline their ratio, Vargha and Delaney's \
+    A12, Wilcoxon's p over pairs, the log-rank test's p and Holm's correction of both), survival.csv (Kaplan and \
+    Meier's curves), correlations.csv (dispersion and recall), standings.csv, table.tex, and for each scenario \
+    figures as SVG and PNG.";
 
 /// The options of `bench`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// The scenarios, each NAME or NAME+PARAMETER+.. to open parameters, or functions
-    #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"])]
+    /// The scenarios, or functions
+    ///
+    /// Each is NAME, or NAME+PARAMETER+.. to open parameters.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"], help_heading = COMPARED)]
     scenarios: Vec<String>,
-    /// The strategies; `paracosm-fuzz list` shows them all [default:
-    /// random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto]
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    /// The strategies
+    ///
+    /// `paracosm-fuzz list` shows them all [default: random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = COMPARED)]
     strategies: Vec<String>,
     /// The number of tests of a run
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = 200, help_heading = COMPARED)]
     budget: usize,
     /// The number of seeds of each strategy
-    #[arg(long, value_name = "N", default_value_t = 30)]
+    #[arg(long, value_name = "N", default_value_t = 30, help_heading = COMPARED)]
     seeds: usize,
     /// The first seed; the others follow it
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = COMPARED, hide_short_help = true)]
     seed: u64,
-    /// The number of tests that a strategy proposes at a time; this number changes the tests of an adaptive strategy
-    #[arg(long, value_name = "N", default_value_t = 16)]
+    /// The tests that are proposed at a time
+    ///
+    /// This number changes the tests of an adaptive strategy.
+    #[arg(long, value_name = "N", default_value_t = 16, help_heading = COMPARED, hide_short_help = true)]
     batch: usize,
-    /// The strategy that the others are compared with [default: random if it runs, else the first]
-    #[arg(long, value_name = "S")]
+    /// The strategy to compare with
+    ///
+    /// [default: random if it runs, else the first]
+    #[arg(long, value_name = "S", help_heading = COMPARED)]
     baseline: Option<String>,
-    /// The folder of the reference maps, NAME.json for each scenario [default: the folder `maps` in DIR]
-    #[arg(long, value_name = "FOLDER")]
+    /// The folder of the reference maps
+    ///
+    /// The folder has NAME.json for each scenario [default: the folder `maps` in DIR].
+    #[arg(long, value_name = "FOLDER", help_heading = COMPARED)]
     reference: Option<PathBuf>,
-    /// The number of tests of a new reference map; 0 for no maps
-    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    /// The tests of a new reference map
+    ///
+    /// 0 makes no maps.
+    #[arg(long, value_name = "N", default_value_t = 20_000, help_heading = COMPARED)]
     reference_tests: usize,
-    /// The number of runs that are made at a time; results do not depend on this number [default: one per core]
-    #[arg(long, value_name = "N")]
+    /// The runs that are made at a time
+    ///
+    /// Results do not depend on this number [default: one per core].
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to, empty or new
-    #[arg(long, value_name = "DIR", default_value = "paracosm-bench")]
+    #[arg(long, value_name = "DIR", default_value = "paracosm-bench", help_heading = OUTPUT)]
     out: PathBuf,
     /// Continue the bench in the folder
-    #[arg(long)]
+    #[arg(long, help_heading = RUNNING)]
     resume: bool,
-    /// The form of the summary [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the summary
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -125,7 +145,7 @@ impl Options {
             verbosity.note(note);
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => paracosm_report::bench::table(&benched),
             Format::Json => json(&json!({"runs": benched.rows.len(), "baseline": bench.baseline.name(),
                 "budget": bench.budget, "summary": benched.cells, "correlations": benched.correlations,

@@ -1,5 +1,6 @@
 //! `paracosm-fuzz blame`: shows which failures other drivers could have avoided.
 
+use super::arguments::OUTPUT;
 use super::map::Axes;
 use super::output::{Format, Table, digits, json, percent, plural};
 use super::progress::bar;
@@ -19,13 +20,14 @@ Examples:
   paracosm-fuzz blame paracosm-out
   paracosm-fuzz blame paracosm-out --driver ideal,reg157
 
-Every failing test is run again with each reference driver, in its standard settings. A driver prevents a failure if the
-violated requirements hold in its run, and no other requirement is violated instead. The failure is
-  unpreventable   if no reference driver prevents it. Reference drivers brake; they do not steer around anybody and do not
-                  drive slower beforehand. So another driver may still prevent the failure
-  preventable     if a reference driver prevents it
-  induced         if `cruise` prevents it, which never brakes for others: braking has caused the failure
-  unknown         if no reference driver prevents it, and a run with a reference driver broke or could not be built
+Every failing test is run again with each reference driver, in its standard settings. A driver prevents a \
+    failure if the violated requirements hold in its run, and no other requirement is violated instead. The failure \
+    is
+  unpreventable: if no reference driver prevents it. Reference drivers brake; they do not steer around anybody and \
+    do not drive slower beforehand. So another driver may still prevent the failure
+  preventable: if a reference driver prevents it
+  induced: if `cruise` prevents it, which never brakes for others: braking has caused the failure
+  unknown: if no reference driver prevents it, and a run with a reference driver broke or could not be built
 
 Blame writes blame.json and blame.csv to DIR, and blame-map.svg and .png if two continuous parameters are open.";
 
@@ -34,7 +36,9 @@ Blame writes blame.json and blame.csv to DIR, and blame-map.svg and .png if two 
 pub(super) struct Options {
     /// The folder of the campaign
     dir: PathBuf,
-    /// The reference drivers to judge by; `paracosm-fuzz list drivers` shows all drivers
+    /// The reference drivers
+    ///
+    /// `paracosm-fuzz list drivers` shows all drivers.
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', default_values_t = REFERENCES.map(str::to_owned))]
     driver: Vec<String>,
     #[command(flatten)]
@@ -42,14 +46,16 @@ pub(super) struct Options {
     /// The number of failing tests in the table
     #[arg(long, value_name = "N", default_value_t = 10)]
     limit: usize,
-    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
+    /// The tests that run at a time
+    ///
+    /// Results do not depend on this number [default: one per core].
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     #[command(flatten)]
     trust: trust::OfDrivers,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -72,7 +78,7 @@ impl Options {
         bar.finish_and_clear();
         let blame = blame?;
         self.write(&log, &blame, axes, verbosity)?;
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => self.table(&log, &blame),
             Format::Json => json(&blame),
         })?;

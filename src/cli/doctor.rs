@@ -1,5 +1,6 @@
 //! `paracosm-fuzz doctor`: shows the graphics adapter of this machine, and how fast it draws.
 
+use super::arguments::OUTPUT;
 use super::output::{Format, Table, json};
 use super::{Failure, Status, print};
 use crate::engine::driver;
@@ -13,9 +14,9 @@ use std::time::{Duration, Instant};
 /// The options of `doctor`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 /// The findings about this machine.
@@ -105,7 +106,7 @@ impl Options {
                 }
             }
         }
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => table(&findings),
             Format::Json => json(&findings),
         })?;

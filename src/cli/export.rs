@@ -16,9 +16,10 @@ Examples:
   paracosm-fuzz export paracosm-out 17 --out case-17
   paracosm-fuzz export paracosm-out 17 --out case-17 --ego-as controller
 
-The folder of --out gets a scenario with the name of the folder, such as case-17.xosc (ASAM OpenSCENARIO XML 1.2), and roads.xodr (ASAM
-OpenDRIVE). Every road user follows the trajectory that the test had. With --ego-as controller, the ego vehicle begins at its place and with its speed, and the other
-simulator drives it from there on. If the scenario is a file, the export is then its own storyboard with the values of the test.";
+The folder of --out gets a scenario with the name of the folder, such as case-17.xosc (ASAM OpenSCENARIO XML \
+    1.2), and roads.xodr (ASAM OpenDRIVE). Every road user follows the trajectory that the test had. With --ego-as \
+    controller, the ego vehicle begins at its place and with its speed, and the other simulator drives it from there \
+    on. If the scenario is a file, the export is then its own storyboard with the values of the test.";
 
 /// The name of the exported scenario, if its folder has no name.
 const SCENARIO: &str = "scenario";

@@ -8,25 +8,42 @@ use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
 Examples:
-  paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
+  paracosm-fuzz --strategy halton --budget 500
+      the pedestrian study of the paper, into paracosm-out/
   paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
-  paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
-  paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           require more of every run
-  paracosm-fuzz follow-leader --driver-command 'python3 my_driver.py'       a driver of your own, in its own process
-  paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'    a system of your own
-  paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
-  paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
-  paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
-  paracosm-fuzz blame paracosm-out                   which failures other drivers could have avoided
-  paracosm-fuzz trace paracosm-out                   requirements by tests, and the untested rest
-  paracosm-fuzz audit cut-in --tests halton:40       what these tests would have missed
-  paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       evaluate formulas on a recorded trace
-  paracosm-fuzz record pedestrian-crossing --budget 20 --out images      labelled camera images of tests
-  paracosm-fuzz perceive highway-traffic --perceiver detector.onnx        a perception network on trial
-  paracosm-fuzz roads town.xodr --draw town.svg      the roads of a file (ASAM OpenDRIVE)
-  paracosm-fuzz list                                 scenarios, strategies, drivers
+  paracosm-fuzz --open friction:piecewise-linear:3
+      the friction varies while a test runs
+  paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'
+      require more of every run
+  paracosm-fuzz follow-leader --driver-command 'python3 my_driver.py'
+      a driver of your own, in its own process
+  paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'
+      a system of your own
+  paracosm-fuzz map paracosm-out --x speed --y friction
+      the failure map over other parameters
+  paracosm-fuzz replay paracosm-out 17
+      test 17 again, with its trace as CSV
+  paracosm-fuzz shrink paracosm-out 17
+      the simplest test near test 17 that still fails
+  paracosm-fuzz blame paracosm-out
+      which failures other drivers could have avoided
+  paracosm-fuzz trace paracosm-out
+      requirements by tests, and the untested rest
+  paracosm-fuzz audit cut-in --tests halton:40
+      what these tests would have missed
+  paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'
+      evaluate formulas on a recorded trace
+  paracosm-fuzz record pedestrian-crossing --budget 20 --out images
+      labelled camera images of tests
+  paracosm-fuzz perceive highway-traffic --perceiver detector.onnx
+      a perception network on trial
+  paracosm-fuzz roads town.xodr --draw town.svg
+      the roads of a file (ASAM OpenDRIVE)
+  paracosm-fuzz list
+      scenarios, strategies, drivers
 
-Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input or a failed run.";
+Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input or a failed \
+    run.";
 
 const REPLAYS: &str = "\
 Examples:
@@ -34,21 +51,23 @@ Examples:
   paracosm-fuzz replay paracosm-out 17 --draw test-17.gif
   paracosm-fuzz replay paracosm-out 17 --camera front-17.mp4
   paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json
-  paracosm-fuzz replay regressions/*.json                      the failures are still the same
+  paracosm-fuzz replay regressions/*.json
+      the failures are still the same
   paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: mended failures stay mended
-  paracosm-fuzz replay regressions/*.json --junit report.xml   also writes a report that CI systems read
+  paracosm-fuzz replay regressions/*.json --junit report.xml
+      also writes a report that CI systems read
 
-A regression file says how its test should end. `shrink --save` writes `\"expect\": \"fail\"`. After you
-have mended the failure, change it to `\"pass\"`. Every file is run. A line for each file says how
-its test ended, and whether this was expected.
+A regression file says how its test should end. `shrink --save` writes `\"expect\": \"fail\"`. After you have \
+    mended the failure, change it to `\"pass\"`. Every file is run. A line for each file says how its test ended, \
+    and whether this was expected.
 
-Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with
---fail-on-violation); 2 a file cannot be run, a test broke, or a test that should fail had another
-trace than the trace that the same version of the software recorded.";
+Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with --fail-on-violation); \
+    2 a file cannot be run, a test broke, or a test that should fail had another trace than the trace that the same \
+    version of the software recorded.";
 
 /// Tests a driver over the open parameters of a scenario.
 #[derive(Debug, Parser)]
-#[command(name = "paracosm-fuzz", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+#[command(name = "paracosm-fuzz", version, after_long_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 #[command(override_usage = "paracosm-fuzz [run] [SCENARIO] [OPTIONS]\n       \
     paracosm-fuzz [run] --system COMMAND --space SPACE.toml [OPTIONS]\n       paracosm-fuzz <COMMAND>")]
 pub(super) struct Command {
@@ -63,65 +82,87 @@ pub(super) struct Command {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Run a campaign; this is the default command
-    #[command(after_help = EXAMPLES)]
+    #[command(after_long_help = EXAMPLES)]
     Run(Box<run::Options>),
-    /// Estimate the probability that a test fails, for given distributions of the parameters
-    #[command(after_help = likelihood::EXAMPLES)]
+    /// Estimate the probability that a test fails
+    ///
+    /// The parameters have given distributions.
+    #[command(after_long_help = likelihood::EXAMPLES)]
     Likelihood(Box<likelihood::Options>),
-    /// Put a suite of tests on trial: what it does not cover, and which defects of a driver it does not notice
-    #[command(after_help = audit::EXAMPLES)]
+    /// Put a suite of tests on trial: what would it have missed?
+    ///
+    /// The audit shows what the suite does not cover, and which defects of a driver it does not notice.
+    #[command(after_long_help = audit::EXAMPLES)]
     Audit(Box<audit::Options>),
-    /// Compare strategies: how soon each finds a failure, and how well each knows where tests fail
-    #[command(after_help = bench::EXAMPLES)]
+    /// Compare strategies by the failures that they find
+    ///
+    /// The bench measures how soon each strategy finds a failure, and how well each strategy knows where tests fail.
+    #[command(after_long_help = bench::EXAMPLES)]
     Bench(Box<bench::Options>),
-    /// Show everything that has a name: scenarios, strategies, drivers, measures, sensors, camera settings
-    #[command(after_help = "Example:\n  paracosm-fuzz list")]
+    /// Show everything that has a name
+    ///
+    /// These are scenarios, strategies, drivers, measures, sensors and settings of cameras.
+    #[command(after_long_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
-    /// Show a scenario: its parameters and requirements, its graph of streams, or its world from above
+    /// Show a scenario: parameters, streams, the world from above
     #[command(
-        after_help = "Examples:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg\n  \
+        after_long_help = "Examples:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg\n  \
                             paracosm-fuzz describe pedestrian-crossing --set friction=0.3 --open lanes\n  \
                             paracosm-fuzz describe pedestrian-crossing --draw world.svg\n  \
                             paracosm-fuzz describe grid-traffic --roads city.xodr"
     )]
     Describe(Box<describe::Options>),
-    /// Draw the failure map of a campaign again, over other parameters
-    #[command(after_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
+    /// Draw the failure map of a campaign again
+    ///
+    /// The map may have other parameters as its axes.
+    #[command(after_long_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
                             paracosm-fuzz map paracosm-out --x distance --y friction --out slippery.svg")]
     Map(map::Options),
-    /// Run a logged test again and compare its trace hash with the log's, or run regression files
+    /// Run a logged test again, or run regression files
+    ///
+    /// The trace hash of a logged test is compared with the hash in the log.
     #[command(
         override_usage = "paracosm-fuzz replay DIR INDEX [OPTIONS]\n       paracosm-fuzz replay FILE... [OPTIONS]"
     )]
-    #[command(after_help = REPLAYS)]
+    #[command(after_long_help = REPLAYS)]
     Replay(replay::Options),
-    /// Write a logged test as a scenario and its roads (ASAM OpenSCENARIO and OpenDRIVE), for other simulators
-    #[command(after_help = export::EXAMPLES)]
+    /// Write a logged test as OpenSCENARIO and OpenDRIVE
+    ///
+    /// Other simulators play the scenario (ASAM OpenSCENARIO) on its roads (ASAM OpenDRIVE).
+    #[command(after_long_help = export::EXAMPLES)]
     Export(export::Options),
     /// Find the simplest test near a failing one that still fails
-    #[command(after_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
+    #[command(after_long_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
                             paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json")]
     Shrink(shrink::Options),
-    /// Run each failing test again with reference drivers, to see which driver avoids the failure
-    #[command(after_help = blame::EXAMPLES)]
+    /// Find out which failures other drivers avoid
+    ///
+    /// Each failing test is run again with reference drivers.
+    #[command(after_long_help = blame::EXAMPLES)]
     Blame(blame::Options),
-    /// Show for each requirement which tests passed and failed, and what is untested
-    #[command(after_help = trace::EXAMPLES)]
+    /// Show requirements by tests, and what is untested
+    ///
+    /// The matrix shows for each requirement which tests passed and failed.
+    #[command(after_long_help = trace::EXAMPLES)]
     Trace(trace::Options),
-    /// Evaluate formulas on a trace, also while it is being recorded
-    #[command(after_help = monitor::EXAMPLES)]
+    /// Evaluate formulas on a trace, also while it is recorded
+    #[command(after_long_help = monitor::EXAMPLES)]
     Monitor(monitor::Options),
-    /// Run a campaign and record its tests with cameras: images, masks, depths, boxes and controls
-    #[command(after_help = record::EXAMPLES)]
+    /// Record the tests of a campaign with cameras
+    ///
+    /// The record has images, masks, depths, boxes and controls.
+    #[command(after_long_help = record::EXAMPLES)]
     Record(Box<record::Options>),
-    /// Run a campaign with a perception network on trial, which sees the images of a camera
-    #[command(after_help = perceive::examples())]
+    /// Put a perception network on trial
+    ///
+    /// A campaign is run. The network sees the images of a camera.
+    #[command(after_long_help = perceive::examples())]
     Perceive(Box<perceive::Options>),
-    /// Show what was read from a file of roads (ASAM OpenDRIVE), and draw it
-    #[command(after_help = roads::EXAMPLES)]
+    /// Show and draw the roads of a file (ASAM OpenDRIVE)
+    #[command(after_long_help = roads::EXAMPLES)]
     Roads(roads::Options),
-    /// Show the graphics adapter of this machine, and how fast it draws
-    #[command(after_help = "Example:\n  paracosm-fuzz doctor")]
+    /// Show the graphics adapter of this machine, and its speed
+    #[command(after_long_help = "Example:\n  paracosm-fuzz doctor")]
     Doctor(doctor::Options),
 }
 

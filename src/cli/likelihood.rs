@@ -1,5 +1,6 @@
 //! `paracosm-fuzz likelihood`: estimates the probability that a test fails.
 
+use super::arguments::{ESTIMATED, OUTPUT, RUNNING};
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::progress::bar;
 use super::subject::Subject;
@@ -18,12 +19,13 @@ Examples:
   paracosm-fuzz likelihood --open lanes --distribution lanes=weights:7,2,1 --budget 5000
   paracosm-fuzz likelihood --method subset --budget 20000 --set driver.ttc=3
   paracosm-fuzz likelihood highway-traffic --perceiver detector.onnx --open fog --distribution fog=beta:1,8
-  paracosm-fuzz likelihood --system 'python3 model.py' --space SPACE.toml        SPACE.toml has the distributions
+  paracosm-fuzz likelihood --system 'python3 model.py' --space SPACE.toml
+      SPACE.toml has the distributions
 
-monte-carlo counts independent tests. Its interval is valid for every system.
-qmc spreads tests evenly. Its interval is narrower if few parameters decide.
-subset reaches rare failures level by level, when monte-carlo finds almost no failure in thousands of tests.
-All methods estimate. No method proves that a system does not fail.";
+monte-carlo counts independent tests. Its interval is valid for every system. qmc spreads tests evenly. Its \
+    interval is narrower if few parameters decide. subset reaches rare failures level by level, when monte-carlo \
+    finds almost no failure in thousands of tests. All methods estimate. No method proves that a system does not \
+    fail.";
 
 /// The options of `likelihood`.
 #[derive(Debug, Args)]
@@ -32,28 +34,34 @@ pub(super) struct Options {
     subject: Subject,
     #[command(flatten)]
     perceiver: perceiver::Options,
-    /// The distribution of a parameter over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or
-    /// for a choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform]
-    #[arg(long, value_name = "NAME=DISTRIBUTION")]
+    /// The distribution of a parameter
+    ///
+    /// One of uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or for a choice weights:W,W,.. in the order of its
+    /// values [default: the distribution in SPACE.toml, or uniform].
+    #[arg(long, value_name = "NAME=DISTRIBUTION", help_heading = ESTIMATED)]
     distribution: Vec<String>,
-    /// The method of estimation: monte-carlo, qmc or subset
-    #[arg(long, value_name = "METHOD", default_value = "monte-carlo")]
+    /// monte-carlo, qmc or subset
+    #[arg(long, value_name = "METHOD", default_value = "monte-carlo", help_heading = ESTIMATED)]
     method: String,
     /// The most tests to run
-    #[arg(long, value_name = "N", default_value_t = 1000)]
+    #[arg(long, value_name = "N", default_value_t = 1000, help_heading = ESTIMATED)]
     budget: usize,
-    /// The probability that the interval contains the true value
-    #[arg(long, value_name = "C", default_value_t = 0.95)]
+    /// The probability that the interval is right
+    ///
+    /// This is the probability that the interval contains the true value.
+    #[arg(long, value_name = "C", default_value_t = 0.95, help_heading = ESTIMATED)]
     confidence: f64,
     /// The seed of all random choices
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = ESTIMATED)]
     seed: u64,
-    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
-    #[arg(long, value_name = "N")]
+    /// The tests that run at a time
+    ///
+    /// Results do not depend on this number [default: one per core].
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     jobs: Option<NonZeroUsize>,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 /// The estimate with the distributions of the parameters, as JSON.
@@ -89,7 +97,7 @@ impl Options {
         });
         bar.finish_and_clear();
         let likelihood = likelihood?;
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => table(&likelihood, &study),
             Format::Json => json(&Report {
                 likelihood: &likelihood,

@@ -17,7 +17,6 @@ use markdown::{markdown, named};
 use serde_json::json;
 use standards::standard;
 use std::fmt::Write;
-use std::io::{self, IsTerminal};
 
 /// The options of `list`.
 #[derive(Debug, Args)]
@@ -25,15 +24,16 @@ pub(super) struct Options {
     /// The kind to list [default: all kinds]
     #[arg(value_enum)]
     kind: Option<ListKind>,
-    /// The form of the list [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Form>,
+    /// The form of the list
+    #[arg(long, value_enum, default_value_t)]
+    format: Form,
 }
 
 /// The form of what is printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 enum Form {
     /// For people
+    #[default]
     Table,
     /// For programs
     Json,
@@ -72,9 +72,7 @@ impl Options {
     pub fn execute(&self) -> Result<Status, Failure> {
         let lists = Lists::of_this_software();
         let kinds = self.kind.map_or_else(|| ListKind::NAMED.to_vec(), |kind| vec![kind]);
-        let fitting = if io::stdout().is_terminal() { Form::Table } else { Form::Json };
-        let form = self.format.unwrap_or(fitting);
-        let text = match form {
+        let text = match self.format {
             form if self.kind == Some(ListKind::Opendrive) => standard(opendrive::elements(), &standards::ROADS, form),
             form if self.kind == Some(ListKind::Openscenario) => {
                 standard(openscenario::elements(), &standards::SCENARIOS, form)

@@ -1,5 +1,6 @@
 //! `paracosm-fuzz map`: draws the failure map of a campaign again, over other parameters.
 
+use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
 use super::output::{Format, Table, json, percent};
 use super::usage;
@@ -23,9 +24,9 @@ pub(super) struct Options {
     /// Write to this file, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// The form of the numbers of the map [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the numbers of the map
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 /// The options for the axes of a map.
@@ -63,7 +64,7 @@ impl Options {
             verbosity.note(format_args!("{name} has no effect: {why}"));
         }
         let estimate = map.estimate.as_ref();
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => {
                 let mut table = Table::default();
                 table.heading(&format!("{}: {}", map.title, map.note));

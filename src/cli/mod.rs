@@ -91,9 +91,11 @@ impl Verbosity {
 /// The option that refuses a file of a space if reading the file gives notes, and groups that give notes.
 #[derive(Debug, Clone, Copy, Args)]
 struct Strict {
-    /// Refuse a file of a space, or --strength, if notes on it would be printed: for example a PICT model with an
-    /// unknown parameter in a constraint, or a group that adds nothing
-    #[arg(long, requires = "space")]
+    /// Refuse files with notes
+    ///
+    /// A file of a space, or --strength, is refused if notes on it would be printed: for example a PICT model with an
+    /// unknown parameter in a constraint, or a group that adds nothing.
+    #[arg(long, requires = "space", hide_short_help = true)]
     strict: bool,
 }
 

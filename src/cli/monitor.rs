@@ -1,5 +1,6 @@
 //! `paracosm-fuzz monitor`: evaluates formulas on a trace, sample by sample.
 
+use super::arguments::OUTPUT;
 use super::output::{Format, Table, digits, json, plural};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
@@ -17,8 +18,8 @@ Examples:
   ./vehicle --log-csv | paracosm-fuzz monitor --spec 'always (speed < 30)' --stop-when-decided
   paracosm-fuzz monitor trace-17.csv --dense --spec 'always[0,0.25] (car.speed > 1)'
 
-A trace is CSV with a header: a column `time` in seconds, evenly spaced from 0 on, and a column for each signal. As soon as
-a formula is decided, whatever follows, a line on standard error says so.
+A trace is CSV with a header: a column `time` in seconds, evenly spaced from 0 on, and a column for each signal. \
+    As soon as a formula is decided, whatever follows, a line on standard error says so.
 
 Exit status: 0 done; 1 a formula is violated (with --fail-on-violation); 2 wrong use or bad input.";
 
@@ -41,9 +42,9 @@ pub(super) struct Options {
     /// Exit with status 1 if a formula is violated
     #[arg(long)]
     fail_on_violation: bool,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 /// A formula with its verdict so far.
@@ -82,7 +83,7 @@ impl Options {
         })?;
         let judged: Vec<(&Asked, Evaluation, Option<Cause>)> =
             asked.iter().map(|asked| self.judged(asked, &trace)).collect::<Result<_, Error>>()?;
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => self.table(&trace, &judged),
             Format::Json => json(&self.json(&trace, &judged)),
         })?;

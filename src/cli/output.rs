@@ -6,22 +6,15 @@ use crate::space::{Domain, Point, Record, Space, Value};
 use clap::ValueEnum;
 use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
 use std::fmt::Write;
-use std::io::IsTerminal;
 
 /// The form of a printed result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(super) enum Format {
     /// For people
+    #[default]
     Table,
     /// For programs
     Json,
-}
-
-impl Format {
-    /// Returns the given form, or without a given form a table on a terminal and JSON elsewhere.
-    pub fn or_fitting(asked: Option<Self>) -> Self {
-        asked.unwrap_or(if std::io::stdout().is_terminal() { Self::Table } else { Self::Json })
-    }
 }
 
 /// Returns a value as indented JSON.

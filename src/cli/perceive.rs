@@ -11,9 +11,9 @@ Examples:
   paracosm-fuzz perceive grid-traffic --perceiver-command 'python3 my_detector.py' --cameras cameras.toml --k 2
   paracosm-fuzz perceive highway-traffic --perceiver detector.onnx --spec 'always (perception.false_alarms < 3)'
 
-detector.toml beside detector.onnx describes the input and the outputs of the network (docs/perception.md).
-The driver only drives [default: planner], and its requirements do not count. Without --spec, a detector has the
-requirement `detection`: every road user that is visible to 75 % and within 40 m is matched within 0.5 s.";
+detector.toml beside detector.onnx describes the input and the outputs of the network (docs/perception.md). The \
+    driver only drives [default: planner], and its requirements do not count. Without --spec, a detector has the \
+    requirement `detection`: every road user that is visible to 75 % and within 40 m is matched within 0.5 s.";
 
 /// Returns the examples, and the signals for formulas.
 pub(super) fn examples() -> String {

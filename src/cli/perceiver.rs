@@ -1,5 +1,6 @@
 //! The options that put a perception network on trial.
 
+use super::arguments::TRIED;
 use super::subject::Subject;
 use super::usage;
 use clap::Args;
@@ -12,22 +13,32 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[group(skip)]
 pub(super) struct Options {
-    /// The network on trial. A file with the same name and the ending .toml describes it
-    #[arg(long, value_name = "MODEL.onnx")]
+    /// The network on trial
+    ///
+    /// A file with the same name and the ending .toml describes it.
+    #[arg(long, value_name = "MODEL.onnx", help_heading = TRIED)]
     perceiver: Option<PathBuf>,
-    /// The description of the network, if it has another name
-    #[arg(long, value_name = "FILE.toml", requires = "perceiver")]
+    /// The description of the network
+    ///
+    /// The option is needed if the description has another name than the network.
+    #[arg(long, value_name = "FILE.toml", requires = "perceiver", help_heading = TRIED, hide_short_help = true)]
     description: Option<PathBuf>,
-    /// Put your own perceiver on trial: a command that starts a program, which gets images on its standard input and
-    /// answers on its standard output. Each worker starts the command once
-    #[arg(long, value_name = "COMMAND", conflicts_with = "perceiver")]
+    /// A command that starts your own perceiver
+    ///
+    /// The program gets images on its standard input and answers on its standard output. Each worker starts the command
+    /// once.
+    #[arg(long, value_name = "COMMAND", conflicts_with = "perceiver", help_heading = TRIED)]
     perceiver_command: Option<String>,
-    /// The time limit for an answer of the perceiver [default: 60]
-    #[arg(long, value_name = "SECONDS", requires = "perceiver_command")]
+    /// Limit the seconds for an answer of the perceiver
+    ///
+    /// [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "perceiver_command", help_heading = TRIED, hide_short_help = true)]
     perceiver_timeout: Option<f64>,
-    /// The camera on the ego vehicle [default: the camera of `record --print-cameras`, in the look textured]. A setting
-    /// that is a range, "LO..HI", or a list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
-    #[arg(long, value_name = "CAMERAS.toml")]
+    /// The camera on the ego vehicle
+    ///
+    /// A setting that is a range, "LO..HI", or a list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
+    /// [default: the camera of `record --print-cameras`, in the look textured].
+    #[arg(long, value_name = "CAMERAS.toml", help_heading = TRIED)]
     cameras: Option<PathBuf>,
 }
 

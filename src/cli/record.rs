@@ -1,5 +1,6 @@
 //! `paracosm-fuzz record`: runs a campaign, and records its tests with cameras.
 
+use super::arguments::RECORDED;
 use super::output::plural;
 use super::run::{self, Conducted};
 use super::usage;
@@ -16,17 +17,21 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz record pedestrian-crossing --strategy halton --budget 20 --out images
   paracosm-fuzz record pedestrian-crossing --outputs rgb,depth --colours 7 --out images
-  paracosm-fuzz record --print-cameras > cameras.toml       a file of cameras to edit
-  paracosm-fuzz record pedestrian-crossing --cameras cameras.toml     use the edited file
+  paracosm-fuzz record --print-cameras > cameras.toml
+      a file of cameras to edit
+  paracosm-fuzz record pedestrian-crossing --cameras cameras.toml
+      use the edited file
 
-Beside the files of the campaign, --out gets a folder for each test. The folder 000017 of test 17 has for a camera `front`:
-  front/rgb/000003.png       colours of its fourth image, in sRGB
-  front/semantic/000003.png  the class of each pixel, numbered as CARLA numbers them
-  front/depth/000003.png     metres along the camera's axis times 256, 16 bits; 0 if the ray hits nothing (as in KITTI)
-  front/instance/000003.png  the number of the thing, 16 bits; 0 for a pixel without a thing
-  annotations.json           boxes in the COCO format, with occlusion and boxes in 3D
-  calibration.json           the cameras' matrices and where they are mounted
-  controls.csv               for each image its time, pose and speed, and the driver's answer
+Beside the files of the campaign, --out gets a folder for each test. The folder 000017 of test 17 has for a \
+    camera `front`:
+  front/rgb/000003.png: colours of its fourth image, in sRGB
+  front/semantic/000003.png: the class of each pixel, numbered as CARLA numbers them
+  front/depth/000003.png: metres along the camera's axis times 256, 16 bits; 0 if the ray hits nothing (as in \
+    KITTI)
+  front/instance/000003.png: the number of the thing, 16 bits; 0 for a pixel without a thing
+  annotations.json: boxes in the COCO format, with occlusion and boxes in 3D
+  calibration.json: the cameras' matrices and where they are mounted
+  controls.csv: for each image its time, pose and speed, and the driver's answer
 The file annotations.json beside these folders has the boxes of all tests as one dataset.";
 
 /// The options of `record`.
@@ -34,18 +39,26 @@ The file annotations.json beside these folders has the boxes of all tests as one
 pub(super) struct Options {
     #[command(flatten)]
     run: run::Options,
-    /// The cameras on the ego vehicle [default: the file of --print-cameras]. A setting that is a range, "LO..HI", or a
-    /// list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
-    #[arg(long, value_name = "CAMERAS.toml")]
+    /// The cameras on the ego vehicle
+    ///
+    /// A setting that is a range, "LO..HI", or a list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
+    /// [default: the file of --print-cameras].
+    #[arg(long, value_name = "CAMERAS.toml", help_heading = RECORDED)]
     cameras: Option<PathBuf>,
-    /// Only print the file of the default camera, with an explanation of every setting
-    #[arg(long)]
+    /// Only print the file of the default camera
+    ///
+    /// The file explains every setting.
+    #[arg(long, help_heading = RECORDED)]
     print_cameras: bool,
-    /// The outputs to write, some of: rgb, semantic, depth, instance, boxes
-    #[arg(long, value_name = "LIST", default_value = "rgb,semantic,depth,instance,boxes")]
+    /// The outputs to write
+    ///
+    /// Some of rgb, semantic, depth, instance, boxes [default: all of them].
+    #[arg(long, value_name = "LIST", default_value = "rgb,semantic,depth,instance,boxes", hide_default_value = true, help_heading = RECORDED)]
     outputs: String,
-    /// Paint the cars and people of every test in colours drawn from this seed; colours should not matter to a driver
-    #[arg(long, value_name = "SEED")]
+    /// Paint cars and people in random colours
+    ///
+    /// The colours of every test are drawn from this seed. Colours should not matter to a driver.
+    #[arg(long, value_name = "SEED", help_heading = RECORDED, hide_short_help = true)]
     colours: Option<u64>,
 }
 

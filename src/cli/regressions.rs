@@ -22,7 +22,7 @@ pub(super) fn replay(
     trust: &Trust,
     expect: Option<Expectation>,
     junit: Option<&Path>,
-    format: Option<Format>,
+    format: Format,
 ) -> Result<Status, Failure> {
     junit.map_or(Ok(()), |path| is_report(path, files))?;
     let mut regressions = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn replay(
         let suites = suites.map(|(((file, regression), trial), end)| suite(file, regression, (trial, end)));
         write_whole(path, Junit::of_cases(suites).text().as_bytes())?;
     }
-    print(&match Format::or_fitting(format) {
+    print(&match format {
         Format::Table => lines,
         Format::Json => json(&objects),
     })?;

@@ -1,5 +1,6 @@
 //! `paracosm-fuzz replay`: runs a test of a campaign's log again, or the tests in regression files.
 
+use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target, has_folder, is_ours_to_write};
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::usage;
@@ -28,14 +29,20 @@ pub(super) struct Options {
     /// The file for the trace [default: DIR/trace-INDEX.csv]
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
-    /// Draw the run from above to a file: as one picture (.svg, .png) or as a film (.gif)
+    /// Draw the run from above
+    ///
+    /// The file is one picture (.svg, .png) or a film (.gif).
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Film through a camera, into a FILE.mp4, a FILE.gif, or PNG files in a new FOLDER
-    #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
+    /// Film through a camera
+    ///
+    /// The film goes into a FILE.mp4, a FILE.gif, or PNG files in a new FOLDER.
+    #[arg(long, value_name = "FILE|FOLDER")]
     camera: Option<PathBuf>,
-    /// The file of cameras for --camera; `paracosm-fuzz record --print-cameras` prints an example [default: the cameras
-    /// of the driver; for a driver without cameras, a camera at the front with 640 x 480 pixels]
+    /// The file of cameras for --camera
+    ///
+    /// `paracosm-fuzz record --print-cameras` prints an example [default: the cameras of the driver; for a driver without
+    /// cameras, a camera at the front with 640 x 480 pixels].
     #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
     cameras: Option<PathBuf>,
     /// The name of the camera for --camera [default: the first by name]
@@ -52,9 +59,9 @@ pub(super) struct Options {
     fail_on_violation: bool,
     #[command(flatten)]
     trust: trust::Options,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 /// The expected end of a test.
@@ -151,7 +158,7 @@ impl Options {
                 format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => table(study, &trial),
             Format::Json => json(&trial),
         })?;

@@ -1,5 +1,6 @@
 //! `paracosm-fuzz roads`: shows what was read from a file of roads, and draws it.
 
+use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural};
 use super::usage;
@@ -14,9 +15,12 @@ use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
-  paracosm-fuzz roads town.xodr                      roads, junctions and lanes, and everything that has no effect
-  paracosm-fuzz roads town.xodr --draw town.svg      the roads from above
-  paracosm-fuzz roads town.xodr --lanes lanes.csv --step 0.5      points on the outer border of every lane
+  paracosm-fuzz roads town.xodr
+      roads, junctions and lanes, and everything that has no effect
+  paracosm-fuzz roads town.xodr --draw town.svg
+      the roads from above
+  paracosm-fuzz roads town.xodr --lanes lanes.csv --step 0.5
+      points on the outer border of every lane
 
 The file is ASAM OpenDRIVE, version 1.4 to 1.8. docs/opendrive.md lists the elements that are supported.
 
@@ -37,9 +41,9 @@ pub(super) struct Options {
     /// The distance between two points on a border, in metres
     #[arg(long, value_name = "M", default_value_t = 1.0, requires = "lanes")]
     step: f64,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 /// The least distance between two points on a border in metres, and the greatest number of points.
@@ -74,7 +78,7 @@ impl Options {
         if let Some(target) = &lanes {
             verbosity.note(target.write(|_| Ok(self.csv(&map)?))?);
         }
-        let text = match Format::or_fitting(self.format) {
+        let text = match self.format {
             Format::Table => self.table(&map, &network),
             Format::Json => self.as_json(&map, &network),
         };

@@ -1,5 +1,6 @@
 //! `paracosm-fuzz run`: runs a campaign, shows its progress and prints its summary.
 
+use super::arguments::{CHOSEN, OUTPUT, REQUIRED, RUNNING};
 use super::output::{Format, broken, json, plural};
 use super::progress::Progress;
 use super::sampling::Sampling;
@@ -30,52 +31,70 @@ pub(super) struct Conducted {
 pub(super) struct Options {
     #[command(flatten)]
     pub subject: Subject,
-    /// The strategy that chooses tests; `paracosm-fuzz list strategies` shows all of them [default: halton; greedy with
-    /// --extend; auto with --stop-at-first]
-    #[arg(long, value_name = "S")]
+    /// How tests are chosen [default: halton]
+    ///
+    /// `paracosm-fuzz list strategies` shows all strategies. The default is greedy with --extend, and auto with
+    /// --stop-at-first.
+    #[arg(long, value_name = "S", help_heading = CHOSEN)]
     strategy: Option<String>,
-    /// The number of tests to run
-    #[arg(long, value_name = "N", default_value_t = 500)]
+    /// The number of tests
+    #[arg(long, value_name = "N", default_value_t = 500, help_heading = CHOSEN)]
     budget: usize,
     #[command(flatten)]
     sampling: Sampling,
-    /// The number of tests that an adaptive strategy proposes at a time: with fewer it learns from more outcomes, with
-    /// more it keeps more cores busy [default: 16]
-    #[arg(long, value_name = "N")]
+    /// The tests that are proposed at a time
+    ///
+    /// This is the number of tests that an adaptive strategy proposes at a time: with fewer it learns from more outcomes,
+    /// with more it keeps more cores busy [default: 16].
+    #[arg(long, value_name = "N", help_heading = CHOSEN, hide_short_help = true)]
     batch: Option<usize>,
-    /// Count the tests in this file as done: run only the tests that complete them, and measure the coverage of all
-    /// tests together. The columns of the file are the open parameters
-    #[arg(long, value_name = "TESTS.csv")]
+    /// Add to the tests of a file
+    ///
+    /// The tests in this file count as done. Only the tests that complete them are run, and the coverage of all tests is
+    /// measured together. The columns of the file are the open parameters.
+    #[arg(long, value_name = "TESTS.csv", help_heading = CHOSEN, hide_short_help = true)]
     extend: Option<PathBuf>,
-    /// The number of tests that run at a time; results do not depend on this number [default: one per core]
-    #[arg(long, value_name = "N")]
+    /// The tests that run at a time
+    ///
+    /// Results do not depend on this number [default: one per core].
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "paracosm-out")]
+    #[arg(long, value_name = "DIR", default_value = "paracosm-out", help_heading = OUTPUT)]
     pub out: PathBuf,
     /// Continue the campaign in the folder
-    #[arg(long)]
+    #[arg(long, help_heading = RUNNING)]
     resume: bool,
-    /// Give a violation that none of these drivers avoids in the same test the verdict `unpreventable`; such a test is no
-    /// failure. `paracosm-fuzz list drivers` shows all drivers
-    #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
+    /// Excuse violations that no driver avoids
+    ///
+    /// A violation that none of these drivers avoids in the same test gets the verdict `unpreventable`; such a test is no
+    /// failure. `paracosm-fuzz list drivers` shows all drivers.
+    #[arg(long, value_name = "A,B,..", value_delimiter = ',', help_heading = REQUIRED)]
     reference: Vec<String>,
-    /// Find the combinations of discrete values behind the failures with at most N further tests, into located.json
-    /// [default: 200]
-    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200")]
+    /// Find combinations of values that fail
+    ///
+    /// The combinations of discrete values behind the failures are found with at most N further tests, and written to
+    /// located.json [default: 200].
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200", help_heading = RUNNING, hide_short_help = true)]
     locate: Option<usize>,
-    /// End with the first test that violates a requirement, in the order of their indices
-    #[arg(long)]
+    /// End with the first failing test
+    ///
+    /// Tests count in the order of their indices.
+    #[arg(long, help_heading = RUNNING)]
     stop_at_first: bool,
-    /// Exit with status 1 if a test violates a requirement
-    #[arg(long)]
+    /// Exit with status 1 if a test fails
+    ///
+    /// A test fails if it violates a requirement.
+    #[arg(long, help_heading = OUTPUT)]
     fail_on_violation: bool,
-    /// Also write junit.xml to the folder, a report that CI systems read
-    #[arg(long)]
+    /// Also write junit.xml, for CI systems
+    ///
+    /// The report is written to the folder.
+    #[arg(long, help_heading = OUTPUT, hide_short_help = true)]
     junit: bool,
-    /// The form of the summary [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the summary
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -118,7 +137,7 @@ impl Options {
         self.note_end(&report, extension.as_ref(), verbosity);
         let printed =
             report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => printed.table(),
             Format::Json => json(&printed.json()),
         })?;

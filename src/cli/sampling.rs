@@ -1,34 +1,48 @@
 //! The options that choose tests. `paracosm-fuzz run` and `paracosm-cover generate` share them.
 
+use super::arguments::CHOSEN;
 use crate::generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
 use clap::Args;
 
 /// The options of a strategy.
 #[derive(Debug, Args)]
 pub(super) struct Sampling {
-    /// The seed of all random choices; a sequence is plain without a seed, and randomly shifted with a seed
-    #[arg(long, value_name = "N")]
+    /// The seed of all random choices
+    ///
+    /// Without a seed, a sequence is plain. With a seed, it is randomly shifted.
+    #[arg(long, value_name = "N", help_heading = CHOSEN)]
     pub seed: Option<u64>,
-    /// The index of the first point of a sequence [default: 1 for halton, 0 for the others]
-    #[arg(long, value_name = "N")]
+    /// The first index of a sequence
+    ///
+    /// [default: 1 for halton, 0 for the others]
+    #[arg(long, value_name = "N", help_heading = CHOSEN, hide_short_help = true)]
     pub skip: Option<u64>,
-    /// The family of rows that covers discrete parameters: ipog (a covering array), random (Proposition 3.2) or cross
-    /// (all combinations) [default: ipog]
-    #[arg(long, value_name = "FAMILY")]
+    /// How discrete values are covered
+    ///
+    /// The family of rows: ipog (a covering array), random (Proposition 3.2) or cross (all combinations) [default: ipog].
+    #[arg(long, value_name = "FAMILY", help_heading = CHOSEN, hide_short_help = true)]
     pub discrete: Option<String>,
-    /// The probability with which random rows may miss a combination [default: 0.05]
-    #[arg(long, value_name = "D")]
+    /// The chance that random rows miss a combination
+    ///
+    /// This is the probability with which random rows may miss some combination [default: 0.05].
+    #[arg(long, value_name = "D", help_heading = CHOSEN, hide_short_help = true)]
     pub delta: Option<f64>,
-    /// The number of parameters that are covered together; if fewer are discrete, all their combinations [default: 2]
-    #[arg(long, value_name = "K")]
+    /// Cover all combinations of K values [default: 2]
+    ///
+    /// If fewer parameters are discrete, all their combinations are covered.
+    #[arg(long, value_name = "K", help_heading = CHOSEN)]
     pub k: Option<usize>,
-    /// Add tests until no row of discrete values has an empty box above this volume, with as few tests as possible; if
-    /// --budget is too small, the largest box is made as small as possible
-    #[arg(long, value_name = "E")]
+    /// Leave no empty box above this volume
+    ///
+    /// Tests are added until no row of discrete values has an empty box above this volume, with as few tests as possible.
+    /// If --budget is too small, the largest box is made as small as possible.
+    #[arg(long, value_name = "E", help_heading = CHOSEN)]
     pub epsilon: Option<f64>,
-    /// The measure that greedy makes small: dispersion or k-wise-dispersion [default: dispersion in continuous spaces
-    /// and for each row of --discrete, else k-wise-dispersion]
-    #[arg(long, value_name = "MEASURE")]
+    /// The measure that greedy makes small
+    ///
+    /// dispersion or k-wise-dispersion [default: dispersion in continuous spaces and for each row of --discrete, else
+    /// k-wise-dispersion].
+    #[arg(long, value_name = "MEASURE", help_heading = CHOSEN, hide_short_help = true)]
     measure: Option<String>,
 }
 

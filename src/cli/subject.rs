@@ -1,6 +1,7 @@
 //! The options that describe the system under test and its world. All commands that run tests share them.
 
 use super::Verbosity;
+use super::arguments::{REQUIRED, TESTED};
 use super::system::System;
 use super::usage;
 use crate::campaign;
@@ -18,53 +19,76 @@ use std::path::PathBuf;
 /// The options of the system under test and its world.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Subject {
-    /// The scenario to test in; `paracosm-fuzz list scenarios` shows all of them
+    /// A scenario, or a file of one (.xosc)
+    ///
+    /// `paracosm-fuzz list scenarios` shows all scenarios.
     #[arg(default_value = "pedestrian-crossing")]
     scenario: String,
-    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open parameter. With a SHAPE the
-    /// parameter varies while a test runs: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES,
-    /// per-tick, constant
-    #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
+    /// Open a parameter, or narrow its range
+    ///
+    /// Without a range, the parameter gets the range that the scenario states. RANGE is LO..HI, or the values A,B,C. With
+    /// NAME:SHAPE, the parameter varies while a test runs; SHAPE is polynomial:DEGREE, piecewise-linear:PIECES,
+    /// piecewise-constant:PIECES, per-tick or constant. The option can be repeated.
+    #[arg(long, value_name = "NAME[=RANGE]", help_heading = TESTED)]
     open: Vec<String>,
-    /// Open each parameter for which a scenario file has a range with a step to the whole range
-    #[arg(long)]
+    /// Open ranges with a step as intervals
+    ///
+    /// Each parameter for which a scenario file has a range with a step is open over the whole range.
+    #[arg(long, help_heading = TESTED, hide_short_help = true)]
     continuous: bool,
-    /// Let the driver have this entity of a scenario file [default: Ego, or the first entity with a controller]
-    #[arg(long, value_name = "NAME")]
+    /// Let the driver have this entity [default: Ego]
+    ///
+    /// Without this option, the driver of a scenario file gets the entity `Ego`, or else the first entity with a
+    /// controller.
+    #[arg(long, value_name = "NAME", help_heading = TESTED, hide_short_help = true)]
     ego: Option<String>,
-    /// End a run of a scenario file after this time, and after the delay of its stop trigger, if the trigger does not come. A
-    /// trigger at a later time still comes [default: 40]
-    #[arg(long, value_name = "SECONDS")]
+    /// Limit the seconds of a run [default: 40]
+    ///
+    /// A run of a scenario file ends after this time, and after the delay of its stop trigger, if the trigger does not
+    /// come. A trigger at a later time still comes.
+    #[arg(long, value_name = "SECONDS", help_heading = TESTED, hide_short_help = true)]
     duration: Option<f64>,
-    /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver or of the car:
-    /// driver.NAME=VALUE, vehicle.NAME=VALUE, vehicle=jointed
-    #[arg(long, value_name = "NAME=VALUE")]
+    /// Fix a parameter, or change a setting
+    ///
+    /// NAME=VALUE fixes a parameter (a signal: at one value or at A,B,C). driver.NAME=VALUE and vehicle.NAME=VALUE change a
+    /// setting of the driver or of the car, and vehicle=jointed chooses another vehicle. The option can be repeated.
+    #[arg(long, value_name = "NAME=VALUE", help_heading = TESTED)]
     set: Vec<String>,
-    /// The driver under test: a name of `paracosm-fuzz list drivers`; `grpc://HOST:PORT` for a driver that listens
-    /// there; or, in a program built with the feature `neural`, `cnn` for a network that comes with it or MODEL.onnx
-    /// [default: aeb]
-    #[arg(long, value_name = "NAME|grpc://HOST:PORT|MODEL.onnx")]
+    /// The driver under test [default: aeb]
+    ///
+    /// A name of `paracosm-fuzz list drivers`; or `grpc://HOST:PORT` for a driver that listens there; or, in a program
+    /// built with the feature `neural`, `cnn` for a network that comes with it, or MODEL.onnx.
+    #[arg(long, value_name = "DRIVER", help_heading = TESTED)]
     driver: Option<String>,
-    /// Test your own driver: a command that starts a driver, which listens over gRPC at the address in
-    /// PARACOSM_ADDRESS. Each worker starts the command once
-    #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
+    /// A command that starts your own driver
+    ///
+    /// The driver listens over gRPC at the address in PARACOSM_ADDRESS. Each worker starts the command once.
+    #[arg(long, value_name = "COMMAND", conflicts_with = "driver", help_heading = TESTED)]
     driver_command: Option<String>,
-    /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size. `car` is the ego vehicle;
-    /// other actors have their names of the traces; `tree` also stands for `tree-2` and so on
-    #[arg(long, value_name = "ACTOR=FILE.glb")]
+    /// Show an actor to cameras as a model
+    ///
+    /// The model is a glTF file, stretched to the size of the actor. `car` is the ego vehicle; other actors have their
+    /// names of the traces; `tree` also stands for `tree-2` and so on.
+    #[arg(long, value_name = "ACTOR=FILE.glb", help_heading = TESTED, hide_short_help = true)]
     model: Vec<String>,
     #[command(flatten)]
     system: System,
-    /// Add the requirements of this file, with their sources and severities, and its operational design domain
-    #[arg(long, value_name = "FILE.toml")]
+    /// Add the requirements of a file
+    ///
+    /// The file also has the sources and severities of the requirements, and the operational design domain.
+    #[arg(long, value_name = "FILE.toml", help_heading = REQUIRED)]
     requirements: Option<PathBuf>,
-    /// Add a formula that every trace should satisfy; the option can be repeated. The requirements are called spec-1,
-    /// spec-2, ..; `paracosm-fuzz describe SCENARIO` shows the signals for formulas
-    #[arg(long, value_name = "FORMULA")]
+    /// Add a formula that every trace satisfies
+    ///
+    /// The option can be repeated. The requirements are called spec-1, spec-2, ..; `paracosm-fuzz describe SCENARIO` shows
+    /// the signals for formulas.
+    #[arg(long, value_name = "FORMULA", help_heading = REQUIRED)]
     spec: Vec<String>,
-    /// Evaluate the formulas of --spec in dense time: signals are straight lines between samples, and formulas are
-    /// about every instant. In a file of requirements, time = "dense" does the same for a requirement
-    #[arg(long, requires = "spec")]
+    /// Evaluate the formulas in dense time
+    ///
+    /// Signals are then straight lines between samples, and formulas are about every instant. In a file of requirements,
+    /// time = "dense" does the same for a requirement.
+    #[arg(long, requires = "spec", help_heading = REQUIRED, hide_short_help = true)]
     dense: bool,
 }
 

@@ -1,5 +1,6 @@
 //! The options that put a system of the user in the place of a scenario.
 
+use super::arguments::TESTED;
 use super::usage;
 use super::{Strict, Verbosity};
 use crate::space::demand::Demand;
@@ -10,18 +11,24 @@ use std::path::PathBuf;
 /// A system in its own process, and the space of its tests.
 #[derive(Debug, Clone, Args)]
 pub(super) struct System {
-    /// Test your own system instead of a scenario: a command that reads a test as a line of JSON from standard input
-    /// and answers with a line of JSON. Each worker starts the command once
-    #[arg(long, value_name = "COMMAND", requires = "space", conflicts_with_all = ["scenario", "driver", "driver_command", "open", "set"])]
+    /// Test your own system instead: a command
+    ///
+    /// Each worker starts the command once. The command reads a test as a line of JSON from standard input, and answers
+    /// with a line of JSON.
+    #[arg(long, value_name = "COMMAND", requires = "space", conflicts_with_all = ["scenario", "driver", "driver_command", "open", "set"], help_heading = TESTED)]
     system: Option<String>,
-    /// The file with the parameters of the system, SPACE.toml or a PICT model
-    #[arg(long, value_name = "SPACE.toml", requires = "system")]
+    /// The parameters of your own system
+    ///
+    /// SPACE.toml, or a PICT model.
+    #[arg(long, value_name = "SPACE.toml", requires = "system", help_heading = TESTED)]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,
-    /// The time limit for an answer of the system or of a driver in its own process; a driver that the program starts
-    /// has ten times as long until it listens [default: 60]
-    #[arg(long, value_name = "SECONDS")]
+    /// Limit the seconds for an answer [default: 60]
+    ///
+    /// This is the limit for an answer of your own system, or of a driver in a process of its own. A driver that the
+    /// program starts has ten times as long until it listens.
+    #[arg(long, value_name = "SECONDS", help_heading = TESTED, hide_short_help = true)]
     timeout: Option<f64>,
 }
 

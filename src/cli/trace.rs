@@ -1,5 +1,6 @@
 //! `paracosm-fuzz trace`: shows each requirement with its tests, and what is untested.
 
+use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural};
 use super::{Failure, Status, odd, print};
@@ -11,12 +12,13 @@ use std::path::PathBuf;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz trace paracosm-out
-  paracosm-fuzz trace paracosm-out --csv matrix.csv     a row for each requirement, a column for each test
+  paracosm-fuzz trace paracosm-out --csv matrix.csv
+      a row for each requirement, a column for each test
 
-A requirement passed in a test if it holds and the situation of the test came about. If the situation never came about, the
-requirement was not reached. If the test ended too early, the requirement is undecided. The untested list has requirements
-that no test decided, levels and tenths of ranges without a test, parameters with the same value in all tests or without an
-effect, and the exclusions of the operational design domain.";
+A requirement passed in a test if it holds and the situation of the test came about. If the situation never came \
+    about, the requirement was not reached. If the test ended too early, the requirement is undecided. The untested \
+    list has requirements that no test decided, levels and tenths of ranges without a test, parameters with the same \
+    value in all tests or without an effect, and the exclusions of the operational design domain.";
 
 /// The options of `trace`.
 #[derive(Debug, Args)]
@@ -26,9 +28,9 @@ pub(super) struct Options {
     /// Write the matrix to this file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -40,7 +42,7 @@ impl Options {
         if let Some(target) = &target {
             target.write(|_| Ok(paracosm_report::traceability::csv(&traceability)))?;
         }
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => table(log.study(), &traceability, effects.as_ref()),
             Format::Json => json(&traceability),
         })?;

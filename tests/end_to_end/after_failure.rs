@@ -140,7 +140,7 @@ fn the_opened_study_fails_in_at_least_three_ways_which_its_summary_names() {
 #[test]
 fn what_is_violated_without_a_contact_is_a_mode_by_its_time_and_place() {
     let dir = tempfile::tempdir().unwrap();
-    let options = ["roundabout-entry", "--budget", "60", "--out", "out", "-q"];
+    let options = ["roundabout-entry", "--budget", "60", "--out", "out", "-q", "--format", "json"];
     let summary = json(&stdout(&succeeds(fuzz(dir.path(), &options))));
     assert_eq!(summary["modes"], read(dir.path(), "out/modes.json")["modes"]);
     let mode = &summary["modes"][0];
@@ -174,8 +174,8 @@ fn a_shrunk_test_fails_and_passes_with_any_of_its_parameters_nominal() {
     let index = failing(dir.path(), "out");
     let shrink = |more: &[&str]| fuzz(dir.path(), &[&["shrink", "out", &index], more].concat());
     golden("shrink.txt", &stdout(&succeeds(shrink(&["--format", "table"]))));
-    let printed = stdout(&succeeds(shrink(&["--save", "kept/first.json"])));
-    assert_eq!(printed, stdout(&succeeds(shrink(&[]))), "shrinking is deterministic");
+    let printed = stdout(&succeeds(shrink(&["--save", "kept/first.json", "--format", "json"])));
+    assert_eq!(printed, stdout(&succeeds(shrink(&["--format", "json"]))), "shrinking is deterministic");
     let shrunk = json(&printed);
     assert_eq!((&shrunk["trial"]["verdict"], &shrunk["minimal"]), (&"fail".into(), &true.into()));
     let needed: Vec<_> = changes(&shrunk).into_iter().filter(|(_, _, nominal)| !nominal).collect();
@@ -193,7 +193,8 @@ fn a_shrunk_test_fails_and_passes_with_any_of_its_parameters_nominal() {
         other["test"][name] = nominal;
         other["expect"] = "pass".into();
         fs::write(dir.path().join("other.json"), other.to_string()).unwrap();
-        let passes = stdout(&succeeds(fuzz(dir.path(), &["replay", "other.json", "--fail-on-violation"])));
+        let passes =
+            stdout(&succeeds(fuzz(dir.path(), &["replay", "other.json", "--fail-on-violation", "--format", "json"])));
         assert_eq!(json(&passes)[0]["replayed"]["as_expected"], true, "{name}: {passes}");
     }
 }
@@ -205,7 +206,7 @@ fn shrinking_keeps_to_the_mode_where_that_is_asked_for_and_says_otherwise_when_i
     let mut changed = 0;
     for mode in read(dir.path(), "out/modes.json")["modes"].as_array().unwrap() {
         let index = mode["representative"].to_string();
-        let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index]))));
+        let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--format", "json"]))));
         assert!(shrunk["trial"]["robustness"]["no-collision"].as_f64().unwrap() < 0.0, "{shrunk}");
         let metrics = &shrunk["trial"]["metrics"];
         let same =
@@ -219,7 +220,8 @@ fn shrinking_keeps_to_the_mode_where_that_is_asked_for_and_says_otherwise_when_i
     assert!(changed > 0);
     for mode in read(dir.path(), "out/modes.json")["modes"].as_array().unwrap() {
         let index = mode["representative"].to_string();
-        let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--same-mode"]))));
+        let shrunk =
+            json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--same-mode", "--format", "json"]))));
         let metrics = &shrunk["trial"]["metrics"];
         assert_eq!(metrics["contact_face"], mode["contact"]["face"], "{shrunk}");
         assert_eq!(metrics["contact_motion"], mode["contact"]["motion"], "{shrunk}");
@@ -231,7 +233,7 @@ fn signals_are_shrunk_to_fewer_pieces() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), &["--open", "friction:piecewise-constant:8=0.2..0.8"]);
     let index = failing(dir.path(), "out");
-    let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index]))));
+    let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--format", "json"]))));
     let friction = &shrunk["parameters"].as_array().unwrap()[2];
     let distinct = |value: &Value| {
         let mut values: Vec<String> = value.as_array().unwrap().iter().map(ToString::to_string).collect();
@@ -247,7 +249,8 @@ fn few_runs_shrink_less_and_that_is_said() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), OPEN);
     let index = failing(dir.path(), "out");
-    let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--budget", "3"]))));
+    let shrunk =
+        json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--budget", "3", "--format", "json"]))));
     assert_eq!((&shrunk["runs"], &shrunk["minimal"]), (&3.into(), &false.into()));
     assert_eq!(shrunk["trial"]["verdict"], "fail");
 }

@@ -21,6 +21,8 @@ fn audit(dir: &Path, out: &str, more: &[&str]) -> Value {
         "--screen",
         "16",
         "-q",
+        "--format",
+        "json",
         "--out",
         out,
     ];
@@ -176,7 +178,8 @@ fn a_better_suite_is_graded_with_other_mutants() {
     let given = ["--driver", "planner", "--mutants", "30", "--screen", "16", "-q"];
     let run = |more: &[&str]| stdout(&succeeds(fuzz(dir.path(), &[&["audit"], &given[..], more].concat())));
     run(&["--tests", "grid:9x9", "--out", "first"]);
-    let both = ["--tests", "first/better-1.csv", "--tests", "grid:9x9", "--seed", "1", "--out", "second"];
+    let both =
+        ["--tests", "first/better-1.csv", "--tests", "grid:9x9", "--seed", "1", "--out", "second", "--format", "json"];
     let report: Value = serde_json::from_str(&run(&both)).unwrap();
     let (better, grid) = (&report, &report["others"][0]);
     assert!(better["tests"].as_u64() < grid["tests"].as_u64());
@@ -191,7 +194,8 @@ fn a_better_suite_is_graded_with_other_mutants() {
 #[test]
 fn a_suite_is_compared_with_suites_of_its_size_by_other_strategies() {
     let dir = tempfile::tempdir().unwrap();
-    let given = ["audit", "--tests", "grid:3x3", "--compare", "--mutants", "10", "--screen", "8", "-q"];
+    let given =
+        ["audit", "--tests", "grid:3x3", "--compare", "--mutants", "10", "--screen", "8", "-q", "--format", "json"];
     let report: Value = serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &given)))).unwrap();
     let suites: Vec<&Value> = [&report].into_iter().chain(report["others"].as_array().unwrap()).collect();
     let names: Vec<&str> = suites.iter().map(|suite| suite["suite"].as_str().unwrap()).collect();

@@ -117,7 +117,20 @@ fn a_run_is_the_campaign_of_its_seed() {
     let dir = tempfile::tempdir().unwrap();
     bench(dir.path(), "out", &["--seed", "7"]);
     for strategy in ["halton", "cmaes"] {
-        let campaign = ["run", "--strategy", strategy, "--budget", "40", "--seed", "9", "--out", strategy, "--quiet"];
+        let campaign = [
+            "run",
+            "--strategy",
+            strategy,
+            "--budget",
+            "40",
+            "--seed",
+            "9",
+            "--out",
+            strategy,
+            "--quiet",
+            "--format",
+            "json",
+        ];
         let printed: Value =
             serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &campaign)))).expect("the summary is JSON");
         let trials = fs::read_to_string(dir.path().join(strategy).join("trials.jsonl")).unwrap();

@@ -116,7 +116,7 @@ fn the_table_says_whose_fault_failures_are_and_the_folder_has_all_of_them() {
     }
     assert!(dir.path().join("out/blame-map.png").exists());
     for jobs in ["1", "2", "7"] {
-        assert_eq!(blame(dir.path(), "out", &["--jobs", jobs]), first[0], "{jobs} jobs");
+        assert_eq!(blame(dir.path(), "out", &["--jobs", jobs, "--format", "json"]), first[0], "{jobs} jobs");
         assert!(contents() == first, "{jobs} jobs");
     }
 }
@@ -126,7 +126,7 @@ fn others_may_be_asked_and_the_map_has_the_axes_that_are_asked_for() {
     let dir = tempfile::tempdir().unwrap();
     let more = ["cut-in", "--budget", "60", "--spec", "always[0,5] (car.speed > 1)"];
     campaign(dir.path(), "out", &more);
-    let asked = ["--driver", "reg157,aeb", "--x", "gap", "--y", "lateral_speed"];
+    let asked = ["--driver", "reg157,aeb", "--x", "gap", "--y", "lateral_speed", "--format", "json"];
     let told: Value = serde_json::from_str(&blame(dir.path(), "out", &asked)).unwrap();
     assert_eq!(told["references"], serde_json::json!(["reg157", "aeb"]));
     // The driver under test cannot prevent its own failures.

@@ -23,7 +23,8 @@ fn estimate(dir: &Path, n: u32, more: &[&str]) -> Output {
         tests += &format!("{lanes},{weather},{speed},{distance}\n");
     }
     fs::write(dir.join("tests.csv"), tests).unwrap();
-    let arguments = ["estimate", "tests.csv", "--space", "SPACE.toml", "--certificate", "certificate.json"];
+    let arguments =
+        ["estimate", "tests.csv", "--space", "SPACE.toml", "--certificate", "certificate.json", "--format", "json"];
     cover(dir, &[&arguments, more].concat())
 }
 

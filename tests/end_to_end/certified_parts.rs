@@ -22,7 +22,8 @@ fn certificate(dir: &Path, space: &str, n: u32, more: &[&str]) -> (Value, Value)
     let budget = n.to_string();
     let made = cover(dir, &["generate", "--space", "SPACE.toml", "--strategy", "halton", "--budget", &budget]);
     fs::write(dir.join("tests.csv"), stdout(&succeeds(made))).unwrap();
-    let arguments = ["estimate", "tests.csv", "--space", "SPACE.toml", "--certificate", "certificate.json"];
+    let arguments =
+        ["estimate", "tests.csv", "--space", "SPACE.toml", "--certificate", "certificate.json", "--format", "json"];
     let printed = stdout(&succeeds(cover(dir, &[&arguments, more].concat())));
     (read(&dir.join("certificate.json")), serde_json::from_str(&printed).unwrap())
 }
@@ -224,7 +225,17 @@ fn random_constraints_and_points_are_certified_as_they_are_measured() {
             continue;
         }
         fs::write(dir.path().join("tests.csv"), stdout(&made)).unwrap();
-        let given = ["estimate", "tests.csv", "--space", "SPACE.toml", "--certificate", "c.json", "--measures"];
+        let given = [
+            "estimate",
+            "tests.csv",
+            "--space",
+            "SPACE.toml",
+            "--certificate",
+            "c.json",
+            "--format",
+            "json",
+            "--measures",
+        ];
         let printed = stdout(&succeeds(cover(dir.path(), &[&given[..], &["dispersion,k-wise-dispersion"]].concat())));
         let printed: Value = serde_json::from_str(&printed).unwrap();
         let mut certificate = read(&dir.path().join("c.json"));

@@ -5,6 +5,7 @@ use paracosm::Log;
 use paracosm::report::{FailureMap, Picture};
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// A small campaign in `dir/out`.
 fn campaign(dir: &Path, more: &[&str]) -> String {
@@ -34,7 +35,8 @@ fn a_scenario_without_an_open_parameter_is_one_test_like_any_other() {
     assert!(text.starts_with("ncap-ccr, driver aeb: 1 test\n"), "{text}");
     assert!(text.contains("ego_speed 40") && text.contains("replay one 0"), "{text}");
     // The test can be continued, replayed and measured, and fails the run if it fails.
-    let json: serde_json::Value = serde_json::from_str(&stdout(&succeeds(run(&["--out", "one", "--resume"])))).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_str(&stdout(&succeeds(run(&["--out", "one", "--resume", "--format", "json"])))).unwrap();
     assert_eq!((&json["tests"], &json["coverage"]["tests"]), (&1.into(), &1.into()));
     succeeds(fuzz(dir.path(), &["replay", "one", "0"]));
     succeeds(fuzz(dir.path(), &["trace", "one"]));
@@ -98,7 +100,7 @@ fn estimate_of_a_campaign_prints_what_its_coverage_json_holds() {
     campaign(dir.path(), &[]);
     let printed = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--time-limit", "5", "--format", "json"])));
     assert_eq!(printed, fs::read_to_string(dir.path().join("out/coverage.json")).unwrap());
-    let piped = stdout(&succeeds(cover(dir.path(), &["estimate", "out"])));
+    let piped = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--format", "json"])));
     assert_eq!(piped, printed, "what goes into a pipe is JSON");
     // The flat table of the same trials, with the space beside it, says the same.
     let toml = "[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
@@ -151,7 +153,7 @@ fn replay_repeats_a_test_with_the_same_hash_and_writes_its_trace() {
 fn estimate_of_a_campaign_looks_at_as_many_parameters_together_as_the_campaign_did() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), &["--open", "lanes", "--open", "friction=0.2,0.5,0.8", "--k", "1"]);
-    let printed = stdout(&succeeds(cover(dir.path(), &["estimate", "out"])));
+    let printed = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--format", "json"])));
     assert_eq!(printed, fs::read_to_string(dir.path().join("out/coverage.json")).unwrap());
     let json: serde_json::Value = serde_json::from_str(&printed).unwrap();
     assert_eq!((json["discrete"]["k"].as_u64(), json["discrete"]["valid"].as_u64()), (Some(1), Some(6)));
@@ -248,23 +250,55 @@ fn list_shows_scenarios_strategies_and_drivers() {
     assert_eq!(list["drivers"][0]["name"], "aeb");
 }
 
+/// The help of a command on a terminal with this number of columns.
+fn help(program: &str, columns: usize, arguments: &[&str]) -> String {
+    let path = match program {
+        "paracosm-fuzz" => env!("CARGO_BIN_EXE_paracosm-fuzz"),
+        _ => env!("CARGO_BIN_EXE_paracosm-cover"),
+    };
+    let output = Command::new(path).args(arguments).env("COLUMNS", columns.to_string()).output().expect("it starts");
+    stdout(&succeeds(output))
+}
+
+/// The commands of a program, from its own short help.
+fn commands(program: &str) -> Vec<String> {
+    let help = help(program, 80, &["-h"]);
+    let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let names = lines.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help");
+    names.map(str::to_owned).collect()
+}
+
 #[test]
-fn every_command_has_help_with_an_example() {
-    let dir = tempfile::tempdir().unwrap();
-    for arguments in [
-        &["--help"][..],
-        &["run", "--help"],
-        &["list", "--help"],
-        &["describe", "--help"],
-        &["replay", "--help"],
-        &["shrink", "--help"],
-    ] {
-        let help = stdout(&succeeds(fuzz(dir.path(), arguments)));
-        assert!(help.contains("Example") && help.contains("paracosm-fuzz "), "{arguments:?}: {help}");
-    }
-    for arguments in [&["--help"][..], &["estimate", "--help"]] {
-        let help = stdout(&succeeds(cover(dir.path(), arguments)));
-        assert!(help.contains("Example") && help.contains("paracosm-cover "), "{arguments:?}: {help}");
+fn short_help_fits_a_screen_and_long_help_has_an_example_and_wraps_once() {
+    for (program, least) in [("paracosm-fuzz", 17), ("paracosm-cover", 4)] {
+        let commands = commands(program);
+        assert!(commands.len() >= least, "{commands:?}");
+        for command in [""].into_iter().chain(commands.iter().map(String::as_str)) {
+            let of = |columns: usize, flag: &str| {
+                let arguments: Vec<&str> = [command, flag].into_iter().filter(|word| !word.is_empty()).collect();
+                help(program, columns, &arguments)
+            };
+            let short = of(80, "-h");
+            assert!(short.lines().count() <= 45, "{program} {command}: {} lines\n{short}", short.lines().count());
+            let long = of(100, "--help");
+            assert!(long.contains("Example") && long.contains(&format!("{program} ")), "{command}: {long}");
+            for columns in [60, 80, 120] {
+                let usage = |line: &str| line.trim_start_matches("Usage:").trim_start().starts_with(program);
+                for line in of(columns, "--help").lines().filter(|line| line.starts_with("  paracosm") || !usage(line))
+                {
+                    // One word may be longer than a line.
+                    let has_one_word = line.split_whitespace().count() == 1;
+                    assert!(line.chars().count() <= columns || has_one_word, "{command}, {columns} columns: {line}");
+                }
+            }
+            // Text that is wrapped by hand has short lines on a wide terminal, and ragged lines on a narrow one.
+            let wide = of(2000, "--help");
+            let of_text = wide.lines().filter(|line| !line.starts_with(' ') && !line.is_empty()).collect::<Vec<_>>();
+            for pair in of_text.windows(2) {
+                let follows = wide.contains(&pair.join("\n"));
+                assert!(!follows || pair[1].starts_with("Usage") || pair[0].ends_with(':'), "{command}: {pair:?}");
+            }
+        }
     }
 }
 

@@ -77,7 +77,8 @@ fn sets_are_those_that_estimate_measures() {
     for (strategy, dims, budget, seed) in
         [("halton", "3", "24", ""), ("random", "2", "8", "45"), ("lhs", "3", "24", "40"), ("fibonacci", "2", "24", "")]
     {
-        let mut arguments = vec!["estimate", "--strategy", strategy, "--dims", dims, "--budget", budget];
+        let mut arguments =
+            vec!["estimate", "--strategy", strategy, "--dims", dims, "--budget", budget, "--format", "json"];
         if !seed.is_empty() {
             arguments.extend(["--seed", seed]);
         }

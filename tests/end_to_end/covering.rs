@@ -265,7 +265,8 @@ fn a_campaign_with_random_rows_says_what_they_promise_and_what_they_cover() {
     golden("random-campaign.txt", &lines.fold(String::new(), |lines, line| lines + line + "\n"));
     let study = fs::read_to_string(dir.path().join("enough/campaign.json")).unwrap();
     assert_eq!(serde_json::from_str::<Value>(&study).unwrap()["delta"], 0.3);
-    let summary: Value = serde_json::from_str(&campaign(&["--budget", "20", "--out", "fewer"])).unwrap();
+    let summary: Value =
+        serde_json::from_str(&campaign(&["--budget", "20", "--out", "fewer", "--format", "json"])).unwrap();
     let random = &summary["random_rows"];
     assert_eq!((&random["k"], &random["delta"], &random["rows"]), (&2.into(), &0.05.into(), &20.into()));
     // Nine combinations, each in a row with probability 1/9.

@@ -15,7 +15,7 @@ fn generated(dir: &Path, arguments: &[&str]) -> String {
 
 /// The value at a path of what `estimate` prints as JSON.
 fn measured(dir: &Path, arguments: &[&str], path: &str) -> f64 {
-    let printed = stdout(&succeeds(cover(dir, &[&["estimate"], arguments].concat())));
+    let printed = stdout(&succeeds(cover(dir, &[&["estimate", "--format", "json"], arguments].concat())));
     let json: serde_json::Value = serde_json::from_str(&printed).unwrap();
     json.pointer(path).and_then(serde_json::Value::as_f64).unwrap_or_else(|| panic!("no number {path} in {printed}"))
 }

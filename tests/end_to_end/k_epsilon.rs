@@ -81,7 +81,10 @@ fn where_fewer_than_k_parameters_are_discrete_all_their_combinations_are_covered
     fs::write(dir.path().join("tests.csv"), csv).unwrap();
     let estimate = succeeds(cover(dir.path(), &["estimate", "tests.csv", "--space", "SPACE.toml", "--k", "2"]));
     assert_eq!(stderr(&estimate), says);
-    let plan = succeeds(cover(dir.path(), &["plan", "--space", "SPACE.toml", "--k", "2", "--epsilon", "0.2"]));
+    let plan = succeeds(cover(
+        dir.path(),
+        &["plan", "--space", "SPACE.toml", "--k", "2", "--epsilon", "0.2", "--format", "json"],
+    ));
     assert_eq!(stderr(&plan), says);
     assert_eq!(serde_json::from_str::<Value>(&stdout(&plan)).unwrap()["k"], 1);
     // Without --k there is nothing to say, and beyond all parameters nothing to cover.

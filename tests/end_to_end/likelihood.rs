@@ -27,7 +27,7 @@ fn a_probability_comes_with_its_interval_and_what_it_was_taken_under() {
     let output = succeeds(likelihood(&["--budget", "400", "--format", "table"]));
     golden("likelihood.txt", &stdout(&output));
     assert!(!stdout(&output).contains("safe") && stderr(&output).is_empty());
-    golden("likelihood.json", &stdout(&succeeds(likelihood(&["--budget", "400"]))));
+    golden("likelihood.json", &stdout(&succeeds(likelihood(&["--budget", "400", "--format", "json"]))));
 }
 
 #[test]
@@ -36,7 +36,9 @@ fn the_methods_agree_whatever_the_number_of_jobs() {
     let mut least_upper: f64 = 1.0;
     for (method, budget) in [("monte-carlo", 800), ("qmc", 800), ("subset", 2000)] {
         let tests = budget.to_string();
-        let run = |jobs| stdout(&succeeds(likelihood(&["--method", method, "--budget", &tests, "--jobs", jobs])));
+        let run = |jobs| {
+            stdout(&succeeds(likelihood(&["--method", method, "--budget", &tests, "--jobs", jobs, "--format", "json"])))
+        };
         let found = run("1");
         assert_eq!(found, run("3"), "{method}");
         let found: Value = serde_json::from_str(&found).unwrap();
@@ -81,8 +83,19 @@ fn a_system_of_ones_own_has_the_distributions_of_its_space() {
         let text = format!("[[parameter]]\nname = \"x\"\ninterval = [-1, 1]\n{distribution}\n");
         fs::write(dir.path().join("SPACE.toml"), text).unwrap();
     };
-    let system =
-        ["likelihood", "--system", "sh system.sh", "--space", "SPACE.toml", "--budget", "600", "--confidence", "0.999"];
+    let system = [
+        "likelihood",
+        "--system",
+        "sh system.sh",
+        "--space",
+        "SPACE.toml",
+        "--budget",
+        "600",
+        "--confidence",
+        "0.999",
+        "--format",
+        "json",
+    ];
     let ask = || -> Value { serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &system)))).unwrap() };
     // (1 + x)^2 / 2.4 of the triangle with the mode 0.2 lies below x.
     for (distribution, truth) in [("", 0.5), ("distribution = { triangular = 0.2 }", 1.0 / 2.4)] {

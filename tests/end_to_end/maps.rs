@@ -20,7 +20,7 @@ fn a_map_over_other_parameters_says_what_is_known_of_every_place() {
     campaign(dir.path());
     let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
     assert!(read("failure-map.csv").starts_with("speed,distance,probability,deviation,decided\n"));
-    let map = ["map", "out", "--x", "distance", "--y", "friction"];
+    let map = ["map", "out", "--x", "distance", "--y", "friction", "--format", "json"];
     let said = stdout(&succeeds(fuzz(dir.path(), &map)));
     assert!(said.contains("\"others\": [\n    \"speed\",\n    \"lanes\"\n  ]"), "{said}");
     let (picture, numbers) = (read("failure-map.svg"), read("failure-map.csv"));

@@ -28,5 +28,6 @@ pub fn generated(dir: &Path, arguments: &[&str]) -> (String, String) {
 }
 
 pub fn measured(dir: &Path, arguments: &[&str]) -> Value {
-    serde_json::from_str(&stdout(&succeeds(cover(dir, &[&["estimate"], arguments].concat())))).unwrap()
+    serde_json::from_str(&stdout(&succeeds(cover(dir, &[&["estimate", "--format", "json"], arguments].concat()))))
+        .unwrap()
 }

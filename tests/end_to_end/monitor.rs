@@ -21,7 +21,7 @@ fn a_formula_is_judged_with_its_moment_and_its_reason() {
         "F[0,9] (speed > 9)",
     ];
     let asked = [&["monitor", "t.csv"][..], &specs].concat();
-    let said = succeeds(fuzz(dir.path(), &asked));
+    let said = succeeds(fuzz(dir.path(), &[&asked[..], &["--format", "json"]].concat()));
     assert!(stderr(&said).contains("spec-1 violated at 0.5 s\n"), "{}", stderr(&said));
     let said: Value = serde_json::from_str(&stdout(&said)).unwrap();
     let first = json!({"id": "spec-1", "formula": "always (speed < 2.5)", "truth": "violated", "decided_at": 0.5,
@@ -36,7 +36,7 @@ fn a_formula_is_judged_with_its_moment_and_its_reason() {
     assert!(table.contains("violated, known at 0.5 s") && table.contains("`(speed < 2.5)` at 0.5 s"), "{table}");
     let status = |more: &[&str]| fuzz(dir.path(), &[&asked[..], more].concat()).status.code();
     assert_eq!(status(&["--fail-on-violation"]), Some(1));
-    let dense = ["monitor", "t.csv", "--dense", "--spec", "always[0.125,0.25] (speed > 1)"];
+    let dense = ["monitor", "t.csv", "--dense", "--spec", "always[0.125,0.25] (speed > 1)", "--format", "json"];
     let dense: Value = serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &dense)))).unwrap();
     assert_eq!((&dense["requirements"][0]["robustness"], &dense["time"]), (&json!(0.5), &json!("dense")));
     assert_eq!(dense["requirements"][0]["cause"], json!({"time": 0.125, "part": "(speed > 1)"}));
@@ -46,7 +46,7 @@ fn a_formula_is_judged_with_its_moment_and_its_reason() {
 fn a_stream_is_left_when_all_is_decided() {
     let dir = tempfile::tempdir().unwrap();
     let mut monitor = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"))
-        .args(["monitor", "--spec", "always (speed < 2.5)", "--stop-when-decided"])
+        .args(["monitor", "--spec", "always (speed < 2.5)", "--stop-when-decided", "--format", "json"])
         .current_dir(dir.path())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

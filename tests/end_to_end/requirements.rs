@@ -143,7 +143,7 @@ fn trace_shows_requirement_by_test_and_what_is_untested() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), "20", &[]);
     golden("trace.txt", &stdout(&succeeds(fuzz(dir.path(), &["trace", "out", "--format", "table"]))));
-    let told = succeeds(fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv"]));
+    let told = succeeds(fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv", "--format", "json"]));
     let told: Value = serde_json::from_str(&stdout(&told)).unwrap();
     // Counted again from the log, in which every test came to its situation.
     let trials = trials(dir.path(), "out");
@@ -175,7 +175,7 @@ fn trace_shows_requirement_by_test_and_what_is_untested() {
         assert_eq!(json!(failed), traced["violated_in"], "{row:?}");
     }
     fs::write(dir.path().join("matrix.csv"), "older").unwrap();
-    succeeds(fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv"]));
+    succeeds(fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv", "--format", "json"]));
     assert_eq!(fs::read_to_string(dir.path().join("matrix.csv")).unwrap(), rows);
     refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.txt"]), &["matrix.txt", ".csv"]);
     refused(&fuzz(dir.path(), &["trace", "nowhere"]), &["nowhere"]);

@@ -37,7 +37,7 @@ fn a_file_of_roads_is_summed_up_with_its_notes() {
     {
         assert!(table.contains(part), "`{part}` is missing in: {table}");
     }
-    let json = stdout(&succeeds(fuzz(dir.path(), &["roads", "bend.xodr"])));
+    let json = stdout(&succeeds(fuzz(dir.path(), &["roads", "bend.xodr", "--format", "json"])));
     let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
     assert_eq!([&json["roads"], &json["junctions"], &json["lanes"]], [1, 0, 2]);
     assert_eq!(json["notes"].as_array().map(Vec::len), Some(1));
@@ -105,7 +105,7 @@ fn the_roads_of_a_scenario_are_written_and_read_again() {
     let dir = folder(BEND);
     for scenario in ["pedestrian-crossing", "grid-traffic", "roundabout-entry", "t-loop"] {
         succeeds(fuzz(dir.path(), &["describe", scenario, "--roads", "world.xodr"]));
-        let json = stdout(&succeeds(fuzz(dir.path(), &["roads", "world.xodr"])));
+        let json = stdout(&succeeds(fuzz(dir.path(), &["roads", "world.xodr", "--format", "json"])));
         let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
         assert!(json["lanes"].as_u64() > Some(1) && json["notes"].as_array().is_some_and(Vec::is_empty), "{json}");
     }

@@ -72,7 +72,7 @@ fn tests_of_signals_are_made_and_measured_as_tables() {
     let tests = stdout(&succeeds(tests));
     assert!(tests.starts_with("weather[0],weather[1],leader_speed[0],leader_speed[1]\n"), "{tests}");
     fs::write(dir.path().join("tests.csv"), &tests).unwrap();
-    let printed = cover(dir.path(), &[&["estimate", "tests.csv", "--k", "2"], &space[..]].concat());
+    let printed = cover(dir.path(), &[&["estimate", "tests.csv", "--k", "2", "--format", "json"], &space[..]].concat());
     let measured = json(&stdout(&succeeds(printed)));
     assert_eq!(measured["discrete"]["valid"], 4);
     assert_eq!(measured["discrete"]["ratio"], 1.0);

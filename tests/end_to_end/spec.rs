@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 fn run(dir: &Path, out: &str, more: &[&str]) -> Value {
-    let summary = succeeds(fuzz(dir, &[&["--budget", "30", "--out", out, "-q"], more].concat()));
+    let summary = succeeds(fuzz(dir, &[&["--budget", "30", "--out", out, "-q", "--format", "json"], more].concat()));
     serde_json::from_str(&stdout(&summary)).unwrap()
 }
 

@@ -34,7 +34,7 @@ fn run(dir: &Path, command: &str) -> (String, String) {
 }
 
 fn discrete(dir: &Path, command: &str) -> Value {
-    serde_json::from_str::<Value>(&run(dir, command).0).unwrap()["discrete"].clone()
+    serde_json::from_str::<Value>(&run(dir, &format!("{command} --format json")).0).unwrap()["discrete"].clone()
 }
 
 #[test]
@@ -85,11 +85,12 @@ fn a_test_with_a_negative_value_counts_only_for_that_value() {
     assert_eq!(measured["covered"], json!(3 + 6));
     assert_eq!(measured["strengths"][0]["covered"], json!(1));
     let missing = json!({"Lanes": 2, "Sky": "clear"});
-    let all = run(dir.path(), "estimate tests.csv --space MODEL.pict").0;
+    let all = run(dir.path(), "estimate tests.csv --space MODEL.pict --format json").0;
     assert!(measured["missing"].as_array().unwrap().contains(&missing), "{all}");
     let all: Value = serde_json::from_str(&all).unwrap();
     assert_eq!(all["k_wise_dispersion"]["lower"], json!(1.0));
-    let both: Value = serde_json::from_str(&run(dir.path(), "estimate both.csv --space MODEL.pict").0).unwrap();
+    let both: Value =
+        serde_json::from_str(&run(dir.path(), "estimate both.csv --space MODEL.pict --format json").0).unwrap();
     assert_eq!((&both["violating"], &both["discrete"]["covered"]), (&json!(1), &json!(0)));
 }
 

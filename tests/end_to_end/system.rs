@@ -21,7 +21,8 @@ const TRACE: &str =
 
 fn run(dir: &Path, out: &str, more: &[&str]) -> Output {
     let system = ["--system", "sh system.sh", "--space", "SPACE.toml", "-q", "--out", out];
-    fuzz(dir, &[&system[..], more].concat())
+    let json: &[&str] = if more.contains(&"--format") { &[] } else { &["--format", "json"] };
+    fuzz(dir, &[&system[..], more, json].concat())
 }
 
 fn log(dir: &Path, out: &str) -> String {

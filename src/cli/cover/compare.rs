@@ -1,6 +1,7 @@
 //! `paracosm-cover compare`: compares strategies by their point sets, and shows the progress.
 
 use super::{open_loop, time_limit};
+use crate::cli::arguments::OUTPUT;
 use crate::cli::output::{Format, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::generators::Strategy;
@@ -19,14 +20,15 @@ Examples:
   paracosm-cover compare --strategies random,halton,greedy --out compared
   paracosm-cover compare --strategies halton,sobol-owen,lhs --dims 2,4 --budgets 64,256 --measures dispersion,star
 
-Every strategy makes a set of points for every dimension, budget and seed; those that have one add their plain set, made
-without a seed. All measures are better the lower they are. DIR gets sets.csv (a row for each set), summary.csv (medians,
-quartiles; against the baseline the median ratio with its 95 % bootstrap interval, Vargha and Delaney's A12, Wilcoxon's p
-and Holm's correction of it), slopes.csv, table.tex, and for each measure and dimension a figure as SVG and PNG.";
+Every strategy makes a set of points for every dimension, budget and seed; those that have one add their plain \
+    set, made without a seed. All measures are better the lower they are. DIR gets sets.csv (a row for each set), \
+    summary.csv (medians, quartiles; against the baseline the median ratio with its 95 % bootstrap interval, Vargha \
+    and Delaney's A12, Wilcoxon's p and Holm's correction of it), slopes.csv, table.tex, and for each measure and \
+    dimension a figure as SVG and PNG.";
 
 /// The options of `compare`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = EXAMPLES)]
 pub(super) struct Options {
     /// The strategies; `paracosm-fuzz list` shows them all
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
@@ -45,24 +47,30 @@ pub(super) struct Options {
     seed: u64,
     #[arg(long, value_name = "LIST", value_delimiter = ',', help = measures_of_points())]
     measures: Vec<Measure>,
-    /// The number of coordinates that k-wise dispersion combines
+    /// The coordinates that k-wise dispersion combines
     #[arg(long, value_name = "K", default_value_t = 2)]
     k: usize,
-    /// The strategy that the others are compared with [default: halton if it is among them, else the first]
+    /// The strategy to compare with
+    ///
+    /// [default: halton if it is among them, else the first]
     #[arg(long, value_name = "S")]
     baseline: Option<String>,
-    /// Time for one measure of one set; a measure that does not finish gives a bracket
+    /// Limit the seconds of a measure of a set
+    ///
+    /// A measure that does not finish gives a bracket.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// The number of sets that are measured at a time; results do not depend on this number [default: one per core]
+    /// The sets that are measured at a time
+    ///
+    /// Results do not depend on this number [default: one per core].
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     /// The folder to write to, empty or new
     #[arg(long, value_name = "DIR", default_value = "paracosm-compare")]
     out: PathBuf,
-    /// The form of the summary [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the summary
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -85,7 +93,7 @@ impl Options {
             verbosity.note(note);
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Table => paracosm_report::compare::table(&compared),
             Format::Json => json(&json!({"sets": compared.sets.len(), "baseline": compared.comparison.baseline.name(),
                 "summary": compared.cells, "slopes": compared.slopes, "notes": compared.notes, "out": self.out})),

@@ -1,6 +1,7 @@
 //! `paracosm-cover estimate`: measures how well tests cover their space.
 
 use super::{certificate, open_loop, strength, time_limit};
+use crate::cli::arguments::OUTPUT;
 use crate::cli::draw::is_ours_to_write;
 use crate::cli::output::{Format, Table, broken, json, plural, short_bracket};
 use crate::cli::usage;
@@ -18,8 +19,10 @@ use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
-  paracosm-cover estimate                            the campaign in paracosm-out/
-  paracosm-cover estimate points.csv                 columns in [0,1], a row for each test
+  paracosm-cover estimate
+      the campaign in paracosm-out/
+  paracosm-cover estimate points.csv
+      columns in [0,1], a row for each test
   paracosm-cover estimate tests.csv --space SPACE.toml --k 2
   paracosm-cover estimate tests.csv --space SPACE.toml --strength lanes,weather,surface=3
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
@@ -29,49 +32,61 @@ Dispersion is the largest volume of an axis-parallel box that no test has entere
 
 /// The options of `estimate`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = EXAMPLES)]
 pub(super) struct Options {
     /// A CSV of tests, or the folder of a campaign [default: paracosm-out]
     #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
-    /// The space of the tests in a CSV; without a space the columns are in [0,1]
-    #[arg(long, value_name = "SPACE.toml|MODEL.pict|FILE.xosc|DIR", conflicts_with = "strategy")]
+    /// The space of the tests in a CSV
+    ///
+    /// Without a space the columns are in [0,1]. SPACE is a SPACE.toml, a PICT model, a scenario file, or the folder of a
+    /// campaign.
+    #[arg(long, value_name = "SPACE", conflicts_with = "strategy")]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,
-    /// The number of parameters that are combined; if fewer are discrete, k-wise combines all discrete parameters
-    /// [default: 2]
+    /// Count combinations of K values [default: 2]
+    ///
+    /// If fewer parameters are discrete, k-wise combines all discrete parameters.
     #[arg(long, value_name = "K")]
     k: Option<usize>,
-    /// A group of discrete parameters whose combinations of K are counted, too
-    #[arg(long, value_name = "NAME,NAME,..=K")]
+    /// Count combinations of K in a group
+    ///
+    /// The group has discrete parameters.
+    #[arg(long, value_name = "NAME,..=K")]
     strength: Vec<String>,
     #[arg(long, value_name = "LIST", value_delimiter = ',', help = measures_of_tests())]
     measures: Vec<Measure>,
-    /// Time for all measures together; a measure that does not finish gives a bracket
+    /// Limit the seconds of all measures
+    ///
+    /// A measure that does not finish gives a bracket.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// Write a certificate of dispersion and k-wise dispersion to this file: witnesses and proofs as JSON
+    /// Write a certificate of the dispersions
+    ///
+    /// The file has witnesses and proofs of the dispersion and the k-wise dispersion as JSON.
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
-    /// Measure a point set of this strategy instead of tests in a file
+    /// Measure a point set of this strategy
     #[arg(long, value_name = "S", requires_all = ["dims", "budget"])]
     strategy: Option<String>,
-    /// The number of dimensions of the strategy's point set
+    /// The dimensions of the point set
     #[arg(long, value_name = "D", requires = "strategy")]
     dims: Option<usize>,
-    /// The number of points of the strategy's point set
+    /// The number of points of the point set
     #[arg(long, value_name = "N", requires = "strategy")]
     budget: Option<usize>,
     /// The seed of the strategy
     #[arg(long, value_name = "N", requires = "strategy")]
     seed: Option<u64>,
-    /// The index of the first point of the strategy's sequence [default: 1 for halton, 0 for the others]
+    /// The first index of a sequence
+    ///
+    /// [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N", requires = "strategy")]
     skip: Option<u64>,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -112,7 +127,7 @@ impl Options {
         };
         bar.finish_and_clear();
         let coverage = coverage?;
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Json => json(&coverage),
             Format::Table => {
                 let mut table = Table::default();

@@ -25,9 +25,11 @@ const EXAMPLES: &str = "\
 Examples:
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --space SPACE.toml --budget 500 > tests.csv
-  paracosm-cover generate --space SPACE.toml --extend tests.csv --budget 20      the 20 tests to add
+  paracosm-cover generate --space SPACE.toml --extend tests.csv --budget 20
+      the 20 tests to add
   paracosm-cover generate --space MODEL.pict --k 3 --strength Type,Size,Format=4 --optimise 10
-  paracosm-cover generate --space SPACE.toml --k 2 --epsilon 0.1                 as many tests as needed
+  paracosm-cover generate --space SPACE.toml --k 2 --epsilon 0.1
+      as many tests as needed
   paracosm-cover generate --dims 20 --strategy greedy --measure k-wise-dispersion --k 2 --budget 200";
 
 /// The number of tests that are written between two updates of the progress bar.
@@ -35,35 +37,46 @@ const BATCH: usize = 64;
 
 /// The options of `generate`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true).multiple(true))]
+#[command(after_long_help = EXAMPLES, group = ArgGroup::new("of").required(true).multiple(true))]
 pub(super) struct Options {
     /// The space of the tests
-    #[arg(long, value_name = "SPACE.toml|MODEL.pict|FILE.xosc|DIR", conflicts_with = "dims", group = "of")]
+    ///
+    /// For a scenario file or the folder of a campaign, the space has the open parameters.
+    #[arg(long, value_name = "SPACE", conflicts_with = "dims", group = "of")]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,
     /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
-    /// The strategy that chooses tests; `paracosm-fuzz list strategies` shows all of them [default: halton; greedy with
-    /// --extend]
+    /// The strategy [default: halton]
+    ///
+    /// `paracosm-fuzz list strategies` shows all strategies. The default is greedy with --extend.
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
-    /// The number of tests to make [default: 500; all rows if no parameter is continuous]
+    /// The number of tests
+    ///
+    /// [default: 500; all rows if no parameter is continuous]
     #[arg(long, value_name = "N")]
     budget: Option<usize>,
     #[command(flatten)]
     sampling: Sampling,
-    /// A group of discrete parameters whose combinations of K are covered, too; K is more than --k
-    #[arg(long, value_name = "NAME,NAME,..=K")]
+    /// Cover combinations of K in a group
+    ///
+    /// A group of discrete parameters whose combinations of K are covered, too. K is more than --k.
+    #[arg(long, value_name = "NAME,..=K")]
     strength: Vec<String>,
-    /// Time for making the covering array smaller
+    /// Seconds for a smaller covering array
     #[arg(long, value_name = "SECONDS")]
     optimise: Option<f64>,
-    /// Time for --epsilon, from the first test on; tests made within this time are printed [default: 60]
+    /// Limit the seconds for --epsilon
+    ///
+    /// The time counts from the first test on. Tests made within this time are printed [default: 60].
     #[arg(long, value_name = "SECONDS", requires = "epsilon")]
     time_limit: Option<f64>,
-    /// Existing tests; only the tests to add are printed. Without a space the columns are in [0,1]
+    /// Print the tests to add to a file
+    ///
+    /// Without a space the columns are in [0,1].
     #[arg(long, value_name = "TESTS.csv", group = "of")]
     extend: Option<PathBuf>,
 }

@@ -18,7 +18,8 @@ use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
-  paracosm-cover estimate                            the campaign in paracosm-out/
+  paracosm-cover estimate
+      the campaign in paracosm-out/
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --dims 3 --extend points.csv --budget 20
@@ -30,7 +31,7 @@ Dispersion is the largest volume of an axis-parallel box that no test has entere
 
 /// Measures how well a set of tests covers its space, and makes sets that cover a space well.
 #[derive(Debug, Parser)]
-#[command(name = "paracosm-cover", version, after_help = EXAMPLES)]
+#[command(name = "paracosm-cover", version, after_long_help = EXAMPLES)]
 pub(super) struct Command {
     #[command(subcommand)]
     verb: Verb,

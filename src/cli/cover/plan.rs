@@ -1,6 +1,7 @@
 //! `paracosm-cover plan`: shows how many tests each guarantee needs.
 
 use super::{strength, time_limit};
+use crate::cli::arguments::OUTPUT;
 use crate::cli::output::{Format, Table, json, plural};
 use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::generators::Request;
@@ -15,39 +16,52 @@ Examples:
   paracosm-cover plan --space SPACE.toml --k 2 --epsilon 0.1 --delta 0.05
   paracosm-cover plan --dims 5 --epsilon 0.1
 
-A set is (k, epsilon)-covering if it contains all combinations of the values of any k discrete parameters, and if for each
-of these rows the continuous points leave no empty box of volume above epsilon.";
+A set is (k, epsilon)-covering if it contains all combinations of the values of any k discrete parameters, and \
+    if for each of these rows the continuous points leave no empty box of volume above epsilon.";
 
 /// The options of `plan`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true))]
+#[command(after_long_help = EXAMPLES, group = ArgGroup::new("of").required(true))]
 pub(super) struct Options {
-    /// The space of the tests; of a scenario file or of the folder of a campaign, the open parameters
-    #[arg(long, value_name = "SPACE.toml|MODEL.pict|FILE.xosc|DIR", group = "of")]
+    /// The space of the tests
+    ///
+    /// SPACE is a SPACE.toml, a PICT model, a scenario file, or the folder of a campaign, whose open parameters are the
+    /// space.
+    #[arg(long, value_name = "SPACE", group = "of")]
     space: Option<PathBuf>,
     #[command(flatten)]
     strict: Strict,
     /// The number of dimensions, if the space is a unit cube
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
-    /// The number of parameters that are covered together; if fewer are discrete, all their combinations [default: 2]
+    /// Cover all combinations of K values [default: 2]
+    ///
+    /// If fewer parameters are discrete, all their combinations are covered.
     #[arg(long, value_name = "K")]
     k: Option<usize>,
-    /// A group of discrete parameters whose combinations of K are covered, too; K is more than --k
-    #[arg(long, value_name = "NAME,NAME,..=K")]
+    /// Cover combinations of K in a group
+    ///
+    /// A group of discrete parameters whose combinations of K are covered, too. K is more than --k.
+    #[arg(long, value_name = "NAME,..=K")]
     strength: Vec<String>,
-    /// The largest volume of a box without a test, as a share of the continuous parameters' space
+    /// The largest volume of an empty box
+    ///
+    /// The volume is a share of the space of the continuous parameters.
     #[arg(long, value_name = "E", default_value_t = 0.1)]
     epsilon: f64,
-    /// The probability that a random set may miss the guarantee
+    /// The chance that a random set misses it
+    ///
+    /// This is the probability that a random set may miss the guarantee.
     #[arg(long, value_name = "D", default_value_t = 0.05)]
     delta: f64,
-    /// Time for making and measuring a covering array, together
+    /// Limit the seconds of all work
+    ///
+    /// The limit is for making and measuring a covering array, together.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// The form of the result [default: table on a terminal, json elsewhere]
-    #[arg(long)]
-    format: Option<Format>,
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    format: Format,
 }
 
 impl Options {
@@ -73,7 +87,7 @@ impl Options {
         if space.dims() > 3 {
             verbosity.note("above three dimensions the a-priori bounds are useless: rely on the measured numbers");
         }
-        print(&match Format::or_fitting(self.format) {
+        print(&match self.format {
             Format::Json => json(&plan),
             Format::Table => {
                 let groups = plan.k.map(|k| strength::beside(k, &demand.groups, &space));

@@ -36,12 +36,11 @@ impl Place {
     pub fn pose(&self, map: &Map) -> Pose {
         let road = &map.roads[self.road];
         let section = road.section_at(self.s);
-        let Pose { position, heading } =
-            road.lane_pose(section, self.lane, self.s, self.offset).unwrap_or_else(|| {
-                // A place beside all lanes goes along the reference line.
-                let here = road.line.at(self.s);
-                Pose { position: here.position + here.left() * self.offset, ..here }
-            });
+        let Pose { position, heading } = road.lane_pose(section, self.lane, self.s, self.offset).unwrap_or_else(|| {
+            // A place beside all lanes goes along the reference line.
+            let here = road.line.at(self.s);
+            Pose { position: here.position + here.left() * self.offset, ..here }
+        });
         Pose { position, heading: wrapped(heading + self.turn) }
     }
 
