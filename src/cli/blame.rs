@@ -67,7 +67,7 @@ impl Options {
         if let Some(jobs) = self.jobs {
             inquiry = inquiry.jobs(jobs);
         }
-        let axes = self.axes.find(study)?;
+        let axes = self.axes.find(&log)?;
         if !study.is_of_this_software() {
             verbosity
                 .note("the campaign was run by another version of this software; its failures are taken as logged");

@@ -53,7 +53,8 @@ Examples:
   paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json
   paracosm-fuzz replay regressions/*.json
       the failures are still the same
-  paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: mended failures stay mended
+  paracosm-fuzz replay regressions/*.json --fail-on-unexpected
+      in CI: known failures still fail, and mended failures stay mended
   paracosm-fuzz replay regressions/*.json --junit report.xml
       also writes a report that CI systems read
 
@@ -61,8 +62,8 @@ A regression file says how its test should end. `shrink --save` writes `\"expect
     mended the failure, change it to `\"pass\"`. Every file is run. A line for each file says how its test ended, \
     and whether this was expected.
 
-Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with --fail-on-violation); \
-    2 a file cannot be run, a test broke, or a test that should fail had another trace than the trace that the same \
+Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with --fail-on-violation), or \
+    did not end as expected (with --fail-on-unexpected); 2 a file cannot be run, a test broke, or a test that should fail had another trace than the trace that the same \
     version of the software recorded.";
 
 /// Tests a driver over the open parameters of a scenario.

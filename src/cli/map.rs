@@ -6,9 +6,10 @@ use super::output::{Format, Table, json, percent};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
+use paracosm_analysis::explanation::ranked_axes;
 use paracosm_analysis::{Effects, failure_estimate};
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Error, JsonArtefact, Log, Study};
+use paracosm_campaign::{Artefact, Error, JsonArtefact, Log};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{FailureMap, Picture};
 use serde_json::json;
@@ -32,10 +33,14 @@ pub(super) struct Options {
 /// The options for the axes of a map.
 #[derive(Debug, Args)]
 pub(super) struct Axes {
-    /// The parameter of the horizontal axis [default: the first open continuous parameter]
+    /// The parameter of the horizontal axis
+    ///
+    /// [default: of the two continuous parameters that separate failing tests from passing tests best, the first]
     #[arg(long, value_name = "NAME")]
     x: Option<String>,
-    /// The parameter of the vertical axis [default: the next open continuous parameter]
+    /// The parameter of the vertical axis
+    ///
+    /// [default: the second of these parameters]
     #[arg(long, value_name = "NAME")]
     y: Option<String>,
 }
@@ -46,7 +51,7 @@ impl Options {
         let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds, &[])).transpose()?;
         let log = Log::read(&self.dir, &crate::catalogue())?;
         let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
-        let [x, y] = self.axes.find(log.study())?.ok_or_else(|| usage(nowhere.into()))?;
+        let [x, y] = self.axes.find(&log)?.ok_or_else(|| usage(nowhere.into()))?;
         let map = FailureMap::over(&log, [&x, &y])?;
         match &target {
             Some(target) => verbosity.note(target.write(|kind| contents(&map, kind))?),
@@ -99,18 +104,21 @@ impl Options {
 }
 
 impl Axes {
-    /// Returns the names of the parameters on both axes of the map. The first free continuous coordinates take the
-    /// place of names that were not given. Returns `None` if the study has too few continuous coordinates.
+    /// Returns the names of the parameters on both axes of the map. The coordinates that separate failing tests from passing tests
+    /// best take the place of names that were not given. Returns `None` if the study has too few continuous coordinates.
     ///
     /// # Errors
     /// A name does not belong to a continuous coordinate, or both names are the same.
-    pub fn find(&self, study: &Study) -> Result<Option<[String; 2]>, Error> {
+    pub fn find(&self, log: &Log) -> Result<Option<[String; 2]>, Error> {
         let given = [&self.x, &self.y];
-        let coordinates = study.space().continuous().map(|coordinate| coordinate.name());
-        let mut free = coordinates.filter(|name| given.iter().all(|given| given.as_deref() != Some(name)));
+        let missing = given.iter().filter(|given| given.is_none()).count();
+        let is_free = |name: &String| given.iter().all(|given| given.as_ref() != Some(name));
+        let best: Vec<String> = ranked_axes(log)?.into_iter().filter(is_free).take(missing).collect();
+        let coordinates = log.study().space().continuous().map(|coordinate| coordinate.name());
+        let mut free = coordinates.filter(|name| best.contains(name));
         let [x, y] = given.map(|given| given.clone().or_else(|| free.next()));
         let (Some(x), Some(y)) = (x, y) else { return Ok(None) };
-        failure_estimate::axes(study, [&x, &y])?;
+        failure_estimate::axes(log.study(), [&x, &y])?;
         Ok(Some([x, y]))
     }
 }

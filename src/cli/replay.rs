@@ -11,7 +11,7 @@ use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::cameras::{VariedCameras, cameras_for_people, read_cameras};
 use paracosm_campaign::files::is_no_link;
-use paracosm_campaign::{Error, Expectation, Log, Metric, Study, Subject, Trial, Worker, write_trace};
+use paracosm_campaign::{Error, Expectation, Log, Metric, Replayed, Study, Subject, Trial, Worker, write_trace};
 use paracosm_render::Look;
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::plot;
@@ -54,6 +54,11 @@ pub(super) struct Options {
     /// Write a JUnit report on the tests in regression files to this file
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
+    /// Exit with status 1 if a test does not end as its regression file expects
+    ///
+    /// A known failure that still fails is expected, so it does not stop a pipeline. With --fail-on-violation, it does.
+    #[arg(long, conflicts_with = "fail_on_violation")]
+    fail_on_unexpected: bool,
     /// Exit with status 1 if a test violates a requirement, expected or not
     #[arg(long)]
     fail_on_violation: bool,
@@ -87,16 +92,24 @@ impl Options {
             }
             files => {
                 let expect = self.expect.map(Expectation::from);
-                regressions::replay(files, &self.trust.trust(), expect, self.junit.as_deref(), self.format)?
+                let counts: fn(&Replayed) -> bool = match self.fail_on_unexpected {
+                    true => |replayed| !replayed.as_expected,
+                    false => |replayed| replayed.trial.is_failure(),
+                };
+                regressions::replay(files, &self.trust.trust(), expect, self.junit.as_deref(), counts, self.format)?
             }
         };
-        Ok(if self.fail_on_violation { found } else { Status::Nothing })
+        Ok(if self.fail_on_violation || self.fail_on_unexpected { found } else { Status::Nothing })
     }
 
     /// Runs a logged test again.
     fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Status, Failure> {
-        if self.expect.is_some() || self.junit.is_some() {
-            let option = if self.expect.is_some() { "--expect" } else { "--junit" };
+        let only_files = [
+            ("--expect", self.expect.is_some()),
+            ("--junit", self.junit.is_some()),
+            ("--fail-on-unexpected", self.fail_on_unexpected),
+        ];
+        if let Some((option, _)) = only_files.into_iter().find(|(_, is_given)| *is_given) {
             let message = format!("{option} is for regression files; for a test of a campaign the log has the verdict");
             return Err(usage(message).into());
         }

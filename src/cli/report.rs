@@ -8,7 +8,8 @@ use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
 use paracosm_analysis::{Effects, Judged, Modes, RangeRecall, Segmented};
-use paracosm_campaign::{Extension, ExtensionRecord, Finish, Number, Study, Trial};
+use paracosm_campaign::{Artefact, Extension, ExtensionRecord, Finish, Number, Study, Trial};
+use paracosm_report::plot::MapFiles;
 use paracosm_report::{command_option, shell_word};
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -53,22 +54,7 @@ impl Printed<'_> {
                 &format!("at the first failing test; the budget was {}", plural(study.sampling().budget, "test")),
             );
         }
-        if let Some(known) = self.extends() {
-            table.row(
-                "extends",
-                &format!("{} of {}; the coverage counts them", plural(known.tests, "test"), known.name),
-            );
-        }
-        table.coverage(&self.report.coverage);
-        if let Some(promise) = &self.report.promise {
-            table.row("random rows", &format!("{}, {} of them different", promise.rows, self.different_rows()));
-            table.row("  guaranteed", &promise.words());
-            if let Some(Some(measured)) = &self.report.coverage.discrete {
-                table.row("  measured", &format!("{} of {} covered", measured.covered, measured.valid));
-            }
-        }
         self.show_perceived(&mut table);
-        suspects::show(&mut table, self.report, self.locate);
         self.show_modes(&mut table);
         if let Some(explanation) = &self.report.explanation {
             let rules = explanation.rules_in_words();
@@ -82,6 +68,27 @@ impl Printed<'_> {
         let mut label = "no effect";
         for line in self.report.effects.iter().flat_map(Effects::in_words) {
             table.row(std::mem::take(&mut label), &line);
+        }
+        suspects::show(&mut table, self.report, self.locate);
+        if let Some(map) = &self.report.map {
+            let file =
+                MapFiles::Failures(map).files().into_iter().find(|file| file.ends_with(".png")).unwrap_or_default();
+            let path = self.out.join(file);
+            table.row("picture", &format!("{}, over {} and {}", path.display(), map.x.label, map.y.label));
+        }
+        if let Some(known) = self.extends() {
+            table.row(
+                "extends",
+                &format!("{} of {}; the coverage counts them", plural(known.tests, "test"), known.name),
+            );
+        }
+        table.coverage(&self.report.coverage);
+        if let Some(promise) = &self.report.promise {
+            table.row("random rows", &format!("{}, {} of them different", promise.rows, self.different_rows()));
+            table.row("  guaranteed", &promise.words());
+            if let Some(Some(measured)) = &self.report.coverage.discrete {
+                table.row("  measured", &format!("{} of {} covered", measured.covered, measured.valid));
+            }
         }
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst(self.report.log.scales()) {

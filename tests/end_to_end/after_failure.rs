@@ -312,6 +312,9 @@ fn regression_files_tell_in_a_line_and_by_the_exit_status_what_became_of_them() 
         (&["mended.json", "--fail-on-violation"], 0),
         (&["again.json", "mended.json", "--fail-on-violation"], 1),
         (&["open.json", "--fail-on-violation"], 1),
+        (&["open.json", "mended.json", "--fail-on-unexpected"], 0),
+        (&["again.json", "--fail-on-unexpected"], 1),
+        (&["other.json", "--fail-on-unexpected"], 1),
         (&["open.json", "--expect", "pass"], 0),
         (&["noticed.json"], 2),
         (&["other.json"], 0),
@@ -346,6 +349,7 @@ fn files_that_are_no_regressions_are_refused() {
     refused(&fuzz(dir.path(), &["replay", "out"]), &["out is a folder", "index"]);
     refused(&fuzz(dir.path(), &["replay", "out", "one"]), &["found `one`", "index"]);
     refused(&fuzz(dir.path(), &["replay", "out", "1", "--expect", "pass"]), &["--expect"]);
+    refused(&fuzz(dir.path(), &["replay", "out", "1", "--fail-on-unexpected"]), &["--fail-on-unexpected"]);
     refused(&fuzz(dir.path(), &["replay", "open.json", "--draw", "a.svg"]), &["--draw", "replay DIR INDEX"]);
     refused(&fuzz(dir.path(), &["replay", "nowhere.json"]), &["nowhere.json"]);
 }

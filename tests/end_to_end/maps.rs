@@ -114,7 +114,7 @@ fn a_campaign_says_in_words_when_tests_fail_and_how_far_that_can_be_trusted() {
     let arguments = ["--driver", "cruise", "--budget", "500", "--out", "out"];
     let summary = stdout(&succeeds(fuzz(dir.path(), &[&arguments[..], &["--format", "table"]].concat())));
     let (_, shown) = summary.split_once("  explanation").unwrap();
-    let lines = shown.lines().take_while(|line| !line.contains("written to"));
+    let lines = shown.lines().take_while(|line| !line.starts_with("  picture"));
     let shown = lines.map(|line| line.trim_start().trim_start_matches("how good").trim_start()).collect::<Vec<_>>();
     let text = fs::read_to_string(dir.path().join("out/explanation.json")).unwrap();
     let told: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -208,4 +208,23 @@ fn after_200_tests_of_boundary_95_percent_of_the_map_are_told_right() {
     let told = model.probabilities(&map);
     let right = told.iter().zip(&truth).filter(|(p, truth)| (**p > 0.5) == truth.is_sign_negative()).count();
     assert!(right as f64 >= 0.95 * 4000.0, "{right} of 4000");
+}
+
+#[test]
+fn the_first_map_is_over_the_parameters_that_separate_failing_tests_best() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = ["cut-in", "--driver", "rss", "--budget", "300", "--out", "out"];
+    let summary = stdout(&succeeds(fuzz(dir.path(), &run)));
+    let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    assert!(read("explanation.json").contains("where gap < "), "{}", read("explanation.json"));
+    // The gap is the third parameter of the scenario.
+    let header = read("failure-map.csv").lines().next().unwrap().to_owned();
+    assert!(header.split(',').take(2).any(|name| name == "gap"), "{header}");
+    assert!(summary.contains("out/failure-map.png, over gap (m) and "), "{summary}");
+    // The same axes are the default of `map`, and one axis that is given leaves room for the best other one.
+    let other = read("failure-map.csv");
+    succeeds(fuzz(dir.path(), &["map", "out"]));
+    assert_eq!(read("failure-map.csv"), other);
+    succeeds(fuzz(dir.path(), &["map", "out", "--x", "ego_speed"]));
+    assert!(read("failure-map.csv").starts_with("ego_speed,gap,"));
 }

@@ -118,6 +118,29 @@ impl Explanation {
     }
 }
 
+/// Returns the names of the continuous coordinates of a campaign, from the coordinate that separates failing tests from passing
+/// tests best. They are in the order of the space if fewer than three tests passed or fewer than three failed.
+///
+/// # Errors
+/// A trial does not fit into the study's space.
+pub fn ranked_axes(log: &Log) -> Result<Vec<String>, Error> {
+    let (table, names) = table(log)?;
+    let failures = table.failed.iter().filter(|failed| **failed).count();
+    let is_explained = failures.min(table.failed.len() - failures) >= LEAST_TESTS;
+    let columns: Vec<_> = names.columns().collect();
+    let mut gains = vec![0.0; columns.len()];
+    if is_explained {
+        let rows: Vec<usize> = (0..table.failed.len()).collect();
+        gains = Tree::grow(&table, &rows, MOST_LEAVES, LEAST_TESTS).gains(columns.len());
+    }
+    let continuous =
+        columns.into_iter().zip(gains).filter(|((coordinate, _), _)| coordinate.parameter.levels().is_none());
+    let mut ranked: Vec<(String, f64)> = continuous.map(|((coordinate, _), gain)| (coordinate.name(), gain)).collect();
+    // A stable sort: coordinates that explain nothing keep the order of the space.
+    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+    Ok(ranked.into_iter().map(|(name, _)| name).collect())
+}
+
 impl Explanation {
     /// Returns the rules of the explanation in words, one line for each rule.
     pub fn rules_in_words(&self) -> Vec<String> {

@@ -41,6 +41,15 @@ pub enum Condition {
     Among(usize, Vec<bool>),
 }
 
+impl Condition {
+    /// Returns the column that the condition is about.
+    pub fn column(&self) -> usize {
+        match self {
+            Self::Below(column, _) | Self::Among(column, _) => *column,
+        }
+    }
+}
+
 /// A division of tests into two parts by a condition.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Split {

@@ -22,6 +22,8 @@ pub struct Node {
     pub failures: usize,
     /// The condition of the node, and the indices of the child nodes for yes and no; `None` at a leaf.
     pub split: Option<(Condition, [usize; 2])>,
+    /// The decrease of impurity by the split, in weighted tests; 0 at a leaf.
+    pub gain: f64,
 }
 
 impl Tree {
@@ -29,7 +31,7 @@ impl Tree {
     pub fn grow(table: &Table, rows: &[usize], leaves: usize, least: usize) -> Self {
         let leaf = |part: &Part| {
             let [tests, failures] = part.counts(table);
-            Node { tests, failures, split: None }
+            Node { tests, failures, split: None, gain: 0.0 }
         };
         let all = Part::of(table, rows);
         let mut tree = Self { nodes: vec![leaf(&all)] };
@@ -40,14 +42,14 @@ impl Tree {
             let gain = |split: &Option<Split>| split.as_ref().map_or(0.0, |split| split.gain);
             let best = (0..open.len()).rev().max_by(|&a, &b| gain(&open[a].2).total_cmp(&gain(&open[b].2)));
             let Some(best) = best.filter(|&best| open[best].2.is_some()) else { break };
-            let (node, part, Some(Split { condition, .. })) = open.remove(best) else { break };
+            let (node, part, Some(Split { condition, gain })) = open.remove(best) else { break };
             let children = [tree.nodes.len(), tree.nodes.len() + 1];
             for (child, part) in children.into_iter().zip(part.divided(table, &condition)) {
                 tree.nodes.push(leaf(&part));
                 let split = table.best_split(&part, weights, least);
                 open.push((child, part, split));
             }
-            tree.nodes[node].split = Some((condition, children));
+            (tree.nodes[node].split, tree.nodes[node].gain) = (Some((condition, children)), gain);
         }
         tree
     }
@@ -60,6 +62,17 @@ impl Tree {
             node.split.take_if(|(_, children)| children[1] >= kept);
         }
         Self { nodes }
+    }
+
+    /// Returns the decrease of impurity by all splits of each of `columns` columns.
+    pub fn gains(&self, columns: usize) -> Vec<f64> {
+        let mut gains = vec![0.0; columns];
+        for node in &self.nodes {
+            if let Some((condition, _)) = &node.split {
+                gains[condition.column()] += node.gain;
+            }
+        }
+        gains
     }
 
     /// Checks whether a node predicts failure, which it does if a larger share of its tests failed than among all

@@ -32,7 +32,7 @@ impl<'a> Names<'a> {
 
     /// Returns the conditions on the path to a leaf in words: one for each coordinate that the path uses.
     pub(super) fn conditions(&self, path: &[(&Condition, bool)]) -> Vec<String> {
-        let of = |column: usize| path.iter().filter(move |(test, _)| column_of(test) == column);
+        let of = |column: usize| path.iter().filter(move |(test, _)| test.column() == column);
         let asked = (0..self.columns.len()).filter(|&column| of(column).next().is_some());
         asked.map(|column| self.condition(column, of(column))).collect()
     }
@@ -70,12 +70,6 @@ impl<'a> Names<'a> {
                 }
             }
         }
-    }
-}
-
-fn column_of(test: &Condition) -> usize {
-    match test {
-        Condition::Below(column, _) | Condition::Among(column, _) => *column,
     }
 }
 
