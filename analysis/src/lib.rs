@@ -23,6 +23,7 @@ pub mod blame;
 pub mod certificate;
 mod combinations;
 pub mod compare;
+pub mod difference;
 pub mod effects;
 pub mod estimate;
 pub mod explanation;
@@ -39,6 +40,7 @@ pub mod summary;
 pub mod suspects;
 pub mod traceability;
 
+pub use difference::Difference;
 pub use effects::{Effect, Effects, ParameterEffect};
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measured, Strength, Watch,

@@ -1,7 +1,7 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Status, Verbosity, audit, bench, blame, describe, doctor, export, likelihood, list, map, monitor,
+    Failure, Status, Verbosity, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map, monitor,
     perceive, record, replay, roads, run, shrink, trace,
 };
 use clap::{Parser, Subcommand};
@@ -27,6 +27,8 @@ Examples:
       the simplest test near test 17 that still fails
   paracosm-fuzz blame paracosm-out
       which failures other drivers could have avoided
+  paracosm-fuzz diff before after
+      new failures, mended ones and changed margins under another driver or version
   paracosm-fuzz trace paracosm-out
       requirements by tests, and the untested rest
   paracosm-fuzz audit cut-in --tests halton:40
@@ -141,6 +143,11 @@ enum Verb {
     /// Each failing test is run again with reference drivers.
     #[command(after_long_help = blame::EXAMPLES)]
     Blame(blame::Options),
+    /// Compare two campaigns with the same tests: new failures, mended ones
+    ///
+    /// The campaigns have two drivers, or were run by two versions of the software.
+    #[command(after_long_help = diff::EXAMPLES)]
+    Diff(diff::Options),
     /// Show requirements by tests, and what is untested
     ///
     /// The matrix shows for each requirement which tests passed and failed.
@@ -182,6 +189,7 @@ impl Command {
             Some(Verb::Export(options)) => options.execute(self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(self.verbosity),
             Some(Verb::Blame(options)) => options.execute(self.verbosity),
+            Some(Verb::Diff(options)) => options.execute(self.verbosity),
             Some(Verb::Trace(options)) => options.execute(),
             Some(Verb::Monitor(options)) => options.execute(self.verbosity),
             Some(Verb::Record(options)) => options.execute(self.verbosity),

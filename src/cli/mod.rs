@@ -10,6 +10,7 @@ mod bench;
 mod blame;
 mod cover;
 mod describe;
+mod diff;
 mod doctor;
 mod draw;
 mod export;

@@ -86,7 +86,8 @@ fn a_certificate_proves_what_estimate_prints_and_is_accepted() {
 fn what_is_printed_does_not_depend_on_the_certificate() {
     let dir = tempfile::tempdir().unwrap();
     let with = stdout(&succeeds(estimate(dir.path(), 50, &[])));
-    let without = stdout(&succeeds(cover(dir.path(), &["estimate", "tests.csv", "--space", "SPACE.toml"])));
+    let without =
+        stdout(&succeeds(cover(dir.path(), &["estimate", "tests.csv", "--space", "SPACE.toml", "--format", "json"])));
     assert_eq!(with, without);
 }
 

@@ -100,13 +100,14 @@ fn estimate_of_a_campaign_prints_what_its_coverage_json_holds() {
     campaign(dir.path(), &[]);
     let printed = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--time-limit", "5", "--format", "json"])));
     assert_eq!(printed, fs::read_to_string(dir.path().join("out/coverage.json")).unwrap());
-    let piped = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--format", "json"])));
-    assert_eq!(piped, printed, "what goes into a pipe is JSON");
+    let piped = stdout(&succeeds(cover(dir.path(), &["estimate", "out"])));
+    assert_eq!(piped, stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--format", "table"]))));
+    assert_ne!(piped, printed, "a pipe gets a table, like a terminal");
     // The flat table of the same trials, with the space beside it, says the same.
     let toml = "[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
                 [[parameter]]\nname = \"distance\"\ninterval = [5.0, 60.0]\n";
     fs::write(dir.path().join("SPACE.toml"), toml).unwrap();
-    let table = cover(dir.path(), &["estimate", "out/trials.csv", "--space", "SPACE.toml"]);
+    let table = cover(dir.path(), &["estimate", "out/trials.csv", "--space", "SPACE.toml", "--format", "json"]);
     assert_eq!(stdout(&succeeds(table)), printed);
 }
 

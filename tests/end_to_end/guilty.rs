@@ -103,8 +103,10 @@ fn locating_leaves_the_log_of_the_campaign_as_it_is() {
 /// The part of the table that is about suspects and the guilty.
 fn table(dir: &Path, arguments: &[&str]) -> String {
     let table = stdout(&succeeds(fuzz(dir, &[arguments, &["--format", "table"]].concat())));
-    let about =
-        table.lines().skip_while(|line| !line.contains("suspects")).take_while(|line| !line.contains("written"));
+    let about = table
+        .lines()
+        .skip_while(|line| !line.contains("suspects"))
+        .take_while(|line| !line.contains("-wise coverage") && !line.starts_with("  dispersion"));
     about.map(|line| format!("{line}\n")).collect()
 }
 

@@ -17,6 +17,7 @@ mod common;
 mod comparison;
 mod computed_constraints;
 mod covering;
+mod diff;
 mod documents;
 mod earlier_versions;
 mod exports;

@@ -17,7 +17,7 @@ fn a_plan_says_of_every_number_what_it_guarantees() {
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let plan = ["plan", "--space", "SPACE.toml", "--k", "2", "--epsilon", "0.1", "--delta", "0.05"];
     golden("plan.txt", &stdout(&succeeds(cover(dir.path(), &[&plan[..], &["--format", "table"]].concat()))));
-    golden("plan.json", &stdout(&succeeds(cover(dir.path(), &plan))));
+    golden("plan.json", &stdout(&succeeds(cover(dir.path(), &[&plan[..], &["--format", "json"]].concat()))));
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn what_cannot_be_planned_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let cases: [(&[&str], &[&str]); 6] = [
-        (&[], &["--space <SPACE.toml|MODEL.pict|FILE.xosc|DIR>|--dims <D>"]),
+        (&[], &["--space <SPACE>|--dims <D>"]),
         (&["--dims", "0"], &["no parameters"]),
         (&["--dims", "2", "--k", "2"], &["--k is a number of discrete parameters"]),
         (&["--space", "SPACE.toml", "--k", "6"], &["k is 6", "has 5 parameters"]),

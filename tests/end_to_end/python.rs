@@ -165,8 +165,7 @@ def step(self, observation):
     return Control(np.float32(0.0), 0)
 "#;
     let Some(command) = driver(dir, body) else { return };
-    let told =
-        run(dir, &command, &["--budget", "2", "--set", "driver.seed=5", "--set", "driver.gain=2", "--format", "json"]);
+    let told = run(dir, &command, &["--budget", "2", "--set", "driver.seed=5", "--set", "driver.gain=2"]);
     let output = succeeds(told);
     assert!(stdout(&output).contains("\"error\": 0"), "{}{}", stdout(&output), stderr(&output));
     for trial in trials(dir, "paracosm-out") {

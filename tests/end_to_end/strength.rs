@@ -51,8 +51,8 @@ fn a_group_is_measured_at_its_own_strength_beside_all_pairs() {
     assert_eq!((&group["k"], &group["valid"], &group["covered"]), (&json!(3), &json!(10), &json!(4)));
     assert_eq!(group["missing"][0], json!({"lanes": 2, "sky": "clear", "wet": "yes"}));
     assert_eq!(measured["strengths"][1]["ratio"], json!(1.0));
-    golden("estimate-strength.json", &run(dir.path(), command).0);
-    golden("estimate-strength.txt", &run(dir.path(), &format!("{command} --format table")).0);
+    golden("estimate-strength.json", &run(dir.path(), &format!("{command} --format json")).0);
+    golden("estimate-strength.txt", &run(dir.path(), command).0);
     assert!(discrete(dir.path(), "estimate tests.csv --space SPACE.toml").get("strengths").is_none());
 }
 

@@ -74,7 +74,7 @@ fn a_campaign_written_before_its_scenario_asked_for_the_sun_is_replayed_as_it_wa
     fs::write(&path, study.to_string()).expect("a file");
     let log = fs::read_to_string(dir.join("old/trials.jsonl")).expect("a log");
     fs::write(dir.join("old/trials.jsonl"), without_study(&log)).expect("a file");
-    assert!(stdout(&succeeds(fuzz(dir, &["replay", "old", "1"]))).contains("trace_hash"));
+    assert!(stdout(&succeeds(fuzz(dir, &["replay", "old", "1", "--format", "json"]))).contains("trace_hash"));
 }
 
 #[test]

@@ -7,6 +7,7 @@
 mod bootstrap;
 mod interval;
 mod log_rank;
+mod mcnemar;
 pub mod random;
 mod rank;
 mod signed_rank;
@@ -16,6 +17,7 @@ mod versus;
 pub use bootstrap::{RESAMPLES, bootstrap_interval};
 pub use interval::{clopper_pearson, log_normal_mean_interval, mean_interval, student_quantile, wilson};
 pub use log_rank::log_rank_p;
+pub use mcnemar::mcnemar_p;
 pub use rank::spearman;
 pub use signed_rank::{MOST_EXACT, signed_rank_p};
 pub use survival::{Lifetime, Survival};
