@@ -31,7 +31,7 @@ pub(super) struct Conducted {
 pub(super) struct Options {
     #[command(flatten)]
     pub subject: Subject,
-    /// How tests are chosen [default: halton]
+    /// The strategy that chooses tests [default: halton]
     ///
     /// `paracosm-fuzz list strategies` shows all strategies. The default is greedy with --extend, and auto with
     /// --stop-at-first.

@@ -17,7 +17,7 @@ pub(super) struct Sampling {
     /// [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N", help_heading = CHOSEN, hide_short_help = true)]
     pub skip: Option<u64>,
-    /// How discrete values are covered
+    /// The rows of discrete values
     ///
     /// The family of rows: ipog (a covering array), random (Proposition 3.2) or cross (all combinations) [default: ipog].
     #[arg(long, value_name = "FAMILY", help_heading = CHOSEN, hide_short_help = true)]
