@@ -237,6 +237,14 @@ impl<'a> Runner<'a> {
         // Further tests may fail, so the results of the campaign are written before.
         report.effects = Some(self.effects(&report.log)?);
         report.effects.iter().try_for_each(|effects| kept.put(effects))?;
+        // A map over a parameter without effect would mislead.
+        if let (Some(map), Some(effects)) = (&report.map, &report.effects)
+            && effects.without_effect().next().is_some()
+        {
+            let map = map.clone().noting(effects);
+            kept.put(&MapFiles::Failures(&map))?;
+            report.map = Some(map);
+        }
         if let Some(limit) = self.locate {
             report.located = self.located(&report.log, limit)?;
             report.located.iter().try_for_each(|located| kept.put(located))?;

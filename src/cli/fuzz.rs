@@ -65,8 +65,8 @@ A regression file says how its test should end. `shrink --save` writes `\"expect
     and whether this was expected.
 
 Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with --fail-on-violation), or \
-    did not end as expected (with --fail-on-unexpected); 2 a file cannot be run, a test broke, or a test that should fail had another trace than the trace that the same \
-    version of the software recorded.";
+    did not end as expected (with --fail-on-unexpected); 2 a file cannot be run, a test broke, or a test that should \
+    fail had another trace than the trace that the same version of the software recorded.";
 
 /// Tests a driver over the open parameters of a scenario.
 #[derive(Debug, Parser)]

@@ -52,7 +52,8 @@ impl Options {
         let log = Log::read(&self.dir, &crate::catalogue())?;
         let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
         let [x, y] = self.axes.find(&log)?.ok_or_else(|| usage(nowhere.into()))?;
-        let map = FailureMap::over(&log, [&x, &y])?;
+        let effects = Effects::read(&self.dir)?;
+        let map = effects.iter().fold(FailureMap::over(&log, [&x, &y])?, FailureMap::noting);
         match &target {
             Some(target) => verbosity.note(target.write(|kind| contents(&map, kind))?),
             None => {
@@ -63,7 +64,6 @@ impl Options {
                 verbosity.note(format_args!("written to {}", self.dir.join("failure-map.svg").display()));
             }
         }
-        let effects = Effects::read(&self.dir)?;
         let without = effects.iter().flat_map(Effects::without_effect);
         for (name, why) in without.filter(|(name, _)| [&x, &y].iter().any(|axis| axis == name)) {
             verbosity.note(format_args!("{name} has no effect: {why}"));

@@ -228,3 +228,21 @@ fn the_first_map_is_over_the_parameters_that_separate_failing_tests_best() {
     succeeds(fuzz(dir.path(), &["map", "out", "--x", "ego_speed"]));
     assert!(read("failure-map.csv").starts_with("ego_speed,gap,"));
 }
+
+#[test]
+fn a_map_names_the_parameters_that_changed_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    // The driver `aeb` does not see the fog.
+    succeeds(fuzz(dir.path(), &["--open", "fog", "--budget", "60", "--out", "out"]));
+    let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    let picture = read("failure-map.svg");
+    assert!(picture.contains("no effect: fog"), "{picture}");
+    succeeds(fuzz(dir.path(), &["map", "out", "--x", "fog", "--y", "speed", "--out", "fog.svg"]));
+    let other = fs::read_to_string(dir.path().join("fog.svg")).unwrap();
+    assert!(other.contains("no effect: fog"), "{other}");
+    // The same axes give the same picture again.
+    succeeds(fuzz(dir.path(), &["map", "out"]));
+    assert_eq!(read("failure-map.svg"), picture);
+    succeeds(fuzz(dir.path(), &["--budget", "60", "--out", "none"]));
+    assert!(!fs::read_to_string(dir.path().join("none/failure-map.svg")).unwrap().contains("no effect"));
+}

@@ -5,6 +5,7 @@ use super::drawn::{MOST_MARKS, is_drawn};
 use super::mark::{Drawn, Mark, ORDER};
 use super::wrapped::wrapped;
 use super::{GRID, HPos, INK, Tints, ink, level, shade};
+use paracosm_analysis::Effects;
 use paracosm_analysis::blame::Blame;
 use paracosm_analysis::failure_estimate;
 use paracosm_analysis::failure_estimate::{Axes, AxesFlaw, FailureEstimate};
@@ -100,6 +101,16 @@ impl FailureMap {
         let mut map = Self::at(log, axes, mark).expect("there are coordinates of these names");
         map.note = format!("{}, failures judged by {}", map.note, blame.references.join(", "));
         Ok(map)
+    }
+
+    /// Adds the open parameters that changed no trace to the note of the map.
+    #[must_use]
+    pub fn noting(mut self, effects: &Effects) -> Self {
+        let names: Vec<&str> = effects.without_effect().map(|(name, _)| name).collect();
+        if !names.is_empty() {
+            self.note = format!("{}; no effect: {}", self.note, names.join(", "));
+        }
+        self
     }
 
     fn at(log: &Log, axes: Axes, mark: impl Fn(&Trial) -> Mark) -> Option<Self> {
