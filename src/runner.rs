@@ -1,8 +1,7 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
-use crate::analysis::explanation::ranked_axes;
 use crate::analysis::{
-    Coverage, Effects, Explanation, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport,
+    Coverage, Effects, Explanation, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
@@ -120,7 +119,7 @@ impl Report {
 
     fn of(log: Log, finish: Finish, summary: Summary) -> Result<Self, Error> {
         let coverage = Coverage::of(&log.test_set()?, &Measure::all().collect::<Vec<_>>(), None, Some(COVERAGE_LIMIT))?;
-        let map = first_axes(&log)?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
+        let map = explanation::axes(&log, [None, None])?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
         let has_levels = !log.study().space().levels().is_empty();
         Ok(Self {
             coverage,
@@ -139,14 +138,6 @@ impl Report {
             summary,
         })
     }
-}
-
-/// Returns the names of the two continuous coordinates that separate failing tests from passing tests best, in the order of the space:
-/// the axes of the first map. `None` if there are fewer.
-fn first_axes(log: &Log) -> Result<Option<[String; 2]>, Error> {
-    let best: Vec<String> = ranked_axes(log)?.into_iter().take(2).collect();
-    let mut axes = log.study().space().continuous().map(|axis| axis.name()).filter(|name| best.contains(name));
-    Ok(axes.next().zip(axes.next()).map(|(x, y)| [x, y]))
 }
 
 impl<'a> Runner<'a> {

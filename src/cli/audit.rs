@@ -4,7 +4,7 @@ use super::arguments::{OUTPUT, RUNNING, SUITES};
 use super::cover::time_limit;
 use super::draw::FileKind;
 use super::export;
-use super::output::{Format, Table, digits, json, percent, plural, short_bracket, value_words};
+use super::output::{Format, FormatOption, Table, digits, json, percent, plural, short_bracket, value_words};
 use super::progress::bar;
 use super::replay::draw;
 use super::subject::Subject;
@@ -96,9 +96,8 @@ pub(super) struct Options {
     /// Continue the audit in the folder
     #[arg(long, help_heading = RUNNING)]
     resume: bool,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -150,7 +149,7 @@ impl Options {
             }
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => table(&report),
             Format::Json => json(&report),
         })?;

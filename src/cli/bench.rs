@@ -1,7 +1,7 @@
 //! `paracosm-fuzz bench`: compares strategies by the failures that they find, and shows the progress.
 
 use super::arguments::{COMPARED, OUTPUT, RUNNING};
-use super::output::{Format, json, plural};
+use super::output::{Format, FormatOption, json, plural};
 use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print};
@@ -107,9 +107,8 @@ pub(super) struct Options {
     /// Continue the bench in the folder
     #[arg(long, help_heading = RUNNING)]
     resume: bool,
-    /// The form of the summary
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -145,7 +144,7 @@ impl Options {
             verbosity.note(note);
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => paracosm_report::bench::table(&benched),
             Format::Json => json(&json!({"runs": benched.rows.len(), "baseline": bench.baseline.name(),
                 "budget": bench.budget, "summary": benched.cells, "correlations": benched.correlations,

@@ -1,8 +1,7 @@
 //! `paracosm-fuzz blame`: shows which failures other drivers could have avoided.
 
-use super::arguments::OUTPUT;
 use super::map::Axes;
-use super::output::{Format, Table, digits, json, percent, plural};
+use super::output::{Format, FormatOption, Table, digits, json, percent, plural};
 use super::progress::bar;
 use super::report::in_words;
 use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
@@ -53,9 +52,8 @@ pub(super) struct Options {
     jobs: Option<NonZeroUsize>,
     #[command(flatten)]
     trust: trust::OfDrivers,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -78,7 +76,7 @@ impl Options {
         bar.finish_and_clear();
         let blame = blame?;
         self.write(&log, &blame, axes, verbosity)?;
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => self.table(&log, &blame),
             Format::Json => json(&blame),
         })?;

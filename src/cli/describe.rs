@@ -1,8 +1,7 @@
 //! `paracosm-fuzz describe`: shows the parameters, the requirements and the world of a scenario.
 
-use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
-use super::output::{Format, Table, digits, domain_words, json, value_words};
+use super::output::{Format, FormatOption, Table, digits, domain_words, json, value_words};
 use super::subject::Subject;
 use super::{Failure, Status, Verbosity, print};
 use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup};
@@ -29,9 +28,8 @@ pub(super) struct Options {
     /// Write the roads of the world to a file of ASAM OpenDRIVE: .xodr
     #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "draw", "format"])]
     roads: Option<PathBuf>,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -51,7 +49,7 @@ impl Options {
             verbosity.note(target.write(|_| Ok(opendrive::write(run.network(), program.name())?.into_bytes()))?);
             return Ok(Status::Nothing);
         }
-        let text = match self.format {
+        let text = match self.form.format {
             _ if self.dot => program.dot()?,
             Format::Table => table(&study, program, &declaration)?,
             Format::Json => as_json(&study, program, &declaration)?,

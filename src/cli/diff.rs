@@ -1,11 +1,11 @@
 //! `paracosm-fuzz diff`: compares two campaigns with the same tests.
 
 use super::arguments::OUTPUT;
-use super::output::{Format, Table, digits, json, percent, plural};
+use super::output::{Format, FormatOption, Table, digits, json, percent, plural};
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use paracosm_analysis::Difference;
-use paracosm_analysis::difference::{Changed, MarginChange, ModeCount};
+use paracosm_analysis::difference::{Changed, Loss, MarginChange, ModeCount};
 use paracosm_campaign::Log;
 use std::path::PathBuf;
 
@@ -36,9 +36,8 @@ pub(super) struct Options {
     /// Exit with status 1 if a test fails that did not fail before
     #[arg(long, help_heading = OUTPUT)]
     fail_on_new_failure: bool,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -54,7 +53,7 @@ impl Options {
                 self.after.display()
             ));
         }
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => self.table(&difference),
             Format::Json => json(&difference),
         })?;
@@ -109,7 +108,7 @@ fn in_words(margin: &MarginChange) -> String {
         "{requirement}: smaller in {smaller} and larger in {larger} of {pairs}, median change {sign}{}",
         number(*median)
     );
-    if let Some((change, index)) = worst {
+    if let Some(Loss { index, change }) = worst {
         text.push_str(&format!("; at worst {} (test {index})", number(*change)));
     }
     text

@@ -1,7 +1,6 @@
 //! `paracosm-fuzz doctor`: shows the graphics adapter of this machine, and how fast it draws.
 
-use super::arguments::OUTPUT;
-use super::output::{Format, Table, json};
+use super::output::{Format, FormatOption, Table, json};
 use super::{Failure, Status, print};
 use crate::engine::driver;
 use crate::engine::{Run, Setup};
@@ -14,9 +13,8 @@ use std::time::{Duration, Instant};
 /// The options of `doctor`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 /// The findings about this machine.
@@ -106,7 +104,7 @@ impl Options {
                 }
             }
         }
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => table(&findings),
             Format::Json => json(&findings),
         })?;

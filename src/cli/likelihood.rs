@@ -1,7 +1,7 @@
 //! `paracosm-fuzz likelihood`: estimates the probability that a test fails.
 
-use super::arguments::{ESTIMATED, OUTPUT, RUNNING};
-use super::output::{Format, Table, digits, json, plural, value_words};
+use super::arguments::{ESTIMATED, RUNNING};
+use super::output::{Format, FormatOption, Table, digits, json, plural, value_words};
 use super::progress::bar;
 use super::subject::Subject;
 use super::usage;
@@ -59,9 +59,8 @@ pub(super) struct Options {
     /// Results do not depend on this number [default: one per core].
     #[arg(long, value_name = "N", help_heading = RUNNING)]
     jobs: Option<NonZeroUsize>,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 /// The estimate with the distributions of the parameters, as JSON.
@@ -97,7 +96,7 @@ impl Options {
         });
         bar.finish_and_clear();
         let likelihood = likelihood?;
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => table(&likelihood, &study),
             Format::Json => json(&Report {
                 likelihood: &likelihood,

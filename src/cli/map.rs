@@ -1,13 +1,11 @@
 //! `paracosm-fuzz map`: draws the failure map of a campaign again, over other parameters.
 
-use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
-use super::output::{Format, Table, json, percent};
+use super::output::{Format, FormatOption, Table, json, percent};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
-use paracosm_analysis::explanation::ranked_axes;
-use paracosm_analysis::{Effects, failure_estimate};
+use paracosm_analysis::{Effects, explanation, failure_estimate};
 use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Error, JsonArtefact, Log};
 use paracosm_report::plot::MapFiles;
@@ -25,9 +23,8 @@ pub(super) struct Options {
     /// Write to this file, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// The form of the numbers of the map
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 /// The options for the axes of a map.
@@ -69,7 +66,7 @@ impl Options {
             verbosity.note(format_args!("{name} has no effect: {why}"));
         }
         let estimate = map.estimate.as_ref();
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => {
                 let mut table = Table::default();
                 table.heading(&format!("{}: {}", map.title, map.note));
@@ -110,14 +107,8 @@ impl Axes {
     /// # Errors
     /// A name does not belong to a continuous coordinate, or both names are the same.
     pub fn find(&self, log: &Log) -> Result<Option<[String; 2]>, Error> {
-        let given = [&self.x, &self.y];
-        let missing = given.iter().filter(|given| given.is_none()).count();
-        let is_free = |name: &String| given.iter().all(|given| given.as_ref() != Some(name));
-        let best: Vec<String> = ranked_axes(log)?.into_iter().filter(is_free).take(missing).collect();
-        let coordinates = log.study().space().continuous().map(|coordinate| coordinate.name());
-        let mut free = coordinates.filter(|name| best.contains(name));
-        let [x, y] = given.map(|given| given.clone().or_else(|| free.next()));
-        let (Some(x), Some(y)) = (x, y) else { return Ok(None) };
+        let found = explanation::axes(log, [self.x.as_deref(), self.y.as_deref()])?;
+        let Some([x, y]) = found else { return Ok(None) };
         failure_estimate::axes(log.study(), [&x, &y])?;
         Ok(Some([x, y]))
     }

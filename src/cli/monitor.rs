@@ -1,7 +1,6 @@
 //! `paracosm-fuzz monitor`: evaluates formulas on a trace, sample by sample.
 
-use super::arguments::OUTPUT;
-use super::output::{Format, Table, digits, json, plural};
+use super::output::{Format, FormatOption, Table, digits, json, plural};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use crate::oracles::{Cause, Evaluation, Formula, Monitor, Semantics, Trace, Truth};
@@ -42,9 +41,8 @@ pub(super) struct Options {
     /// Exit with status 1 if a formula is violated
     #[arg(long)]
     fail_on_violation: bool,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 /// A formula with its verdict so far.
@@ -83,7 +81,7 @@ impl Options {
         })?;
         let judged: Vec<(&Asked, Evaluation, Option<Cause>)> =
             asked.iter().map(|asked| self.judged(asked, &trace)).collect::<Result<_, Error>>()?;
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => self.table(&trace, &judged),
             Format::Json => json(&self.json(&trace, &judged)),
         })?;

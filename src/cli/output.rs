@@ -1,9 +1,10 @@
 //! Prints results: as a table for people, as JSON for programs.
 
+use super::arguments::OUTPUT;
 use crate::coverage::Bracket;
 pub(super) use crate::space::plural;
 use crate::space::{Domain, Point, Record, Space, Value};
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
 use std::fmt::Write;
 
@@ -15,6 +16,14 @@ pub(super) enum Format {
     Table,
     /// For programs
     Json,
+}
+
+/// The option that chooses the form of a printed result.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct FormatOption {
+    /// The form of the result
+    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
+    pub format: Format,
 }
 
 /// Returns a value as indented JSON.

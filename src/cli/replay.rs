@@ -1,8 +1,7 @@
 //! `paracosm-fuzz replay`: runs a test of a campaign's log again, or the tests in regression files.
 
-use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target, has_folder, is_ours_to_write};
-use super::output::{Format, Table, digits, json, plural, value_words};
+use super::output::{Format, FormatOption, Table, digits, json, plural, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions, trust};
 use crate::engine::sensor::Cameras;
@@ -64,9 +63,8 @@ pub(super) struct Options {
     fail_on_violation: bool,
     #[command(flatten)]
     trust: trust::Options,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 /// The expected end of a test.
@@ -96,7 +94,14 @@ impl Options {
                     true => |replayed| !replayed.as_expected,
                     false => |replayed| replayed.trial.is_failure(),
                 };
-                regressions::replay(files, &self.trust.trust(), expect, self.junit.as_deref(), counts, self.format)?
+                regressions::replay(
+                    files,
+                    &self.trust.trust(),
+                    expect,
+                    self.junit.as_deref(),
+                    counts,
+                    self.form.format,
+                )?
             }
         };
         Ok(if self.fail_on_violation || self.fail_on_unexpected { found } else { Status::Nothing })
@@ -171,7 +176,7 @@ impl Options {
                 format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => table(study, &trial),
             Format::Json => json(&trial),
         })?;

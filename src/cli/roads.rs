@@ -1,8 +1,7 @@
 //! `paracosm-fuzz roads`: shows what was read from a file of roads, and draws it.
 
-use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
-use super::output::{Format, Table, digits, json, plural};
+use super::output::{Format, FormatOption, Table, digits, json, plural};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use crate::engine::road::{Lane, RoadNetwork};
@@ -41,9 +40,8 @@ pub(super) struct Options {
     /// The distance between two points on a border, in metres
     #[arg(long, value_name = "M", default_value_t = 1.0, requires = "lanes")]
     step: f64,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 /// The least distance between two points on a border in metres, and the greatest number of points.
@@ -78,7 +76,7 @@ impl Options {
         if let Some(target) = &lanes {
             verbosity.note(target.write(|_| Ok(self.csv(&map)?))?);
         }
-        let text = match self.format {
+        let text = match self.form.format {
             Format::Table => self.table(&map, &network),
             Format::Json => self.as_json(&map, &network),
         };

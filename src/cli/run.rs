@@ -1,7 +1,7 @@
 //! `paracosm-fuzz run`: runs a campaign, shows its progress and prints its summary.
 
 use super::arguments::{CHOSEN, OUTPUT, REQUIRED, RUNNING};
-use super::output::{Format, broken, json, plural};
+use super::output::{Format, FormatOption, broken, json, plural};
 use super::progress::Progress;
 use super::sampling::Sampling;
 use super::subject::Subject;
@@ -92,9 +92,8 @@ pub(super) struct Options {
     /// The report is written to the folder.
     #[arg(long, help_heading = OUTPUT, hide_short_help = true)]
     junit: bool,
-    /// The form of the summary
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -137,7 +136,7 @@ impl Options {
         self.note_end(&report, extension.as_ref(), verbosity);
         let printed =
             report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => printed.table(),
             Format::Json => json(&printed.json()),
         })?;

@@ -1,7 +1,6 @@
 //! `paracosm-fuzz shrink`: finds the simplest test near a failing test that still fails.
 
-use super::arguments::OUTPUT;
-use super::output::{Format, Table, digits, json, plural, value_words};
+use super::output::{Format, FormatOption, Table, digits, json, plural, value_words};
 use super::replay::logged;
 use super::{Failure, Status, Verbosity, print, trust};
 use clap::Args;
@@ -28,9 +27,8 @@ pub(super) struct Options {
     save: Option<PathBuf>,
     #[command(flatten)]
     trust: trust::Options,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -45,7 +43,7 @@ impl Options {
             Regression::new(about, study, &shrunk.trial).write(path)?;
             verbosity.note(format_args!("regression test written to {}", path.display()));
         }
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => table(study, &shrunk),
             Format::Json => {
                 let mut printed = serde_json::json!(shrunk);

@@ -1,8 +1,7 @@
 //! `paracosm-fuzz trace`: shows each requirement with its tests, and what is untested.
 
-use super::arguments::OUTPUT;
 use super::draw::{FileKind, Target};
-use super::output::{Format, Table, digits, json, plural};
+use super::output::{Format, FormatOption, Table, digits, json, plural};
 use super::{Failure, Status, odd, print};
 use clap::Args;
 use paracosm_analysis::{Effects, Gap, Traceability, Traced};
@@ -28,9 +27,8 @@ pub(super) struct Options {
     /// Write the matrix to this file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -42,7 +40,7 @@ impl Options {
         if let Some(target) = &target {
             target.write(|_| Ok(paracosm_report::traceability::csv(&traceability)))?;
         }
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => table(log.study(), &traceability, effects.as_ref()),
             Format::Json => json(&traceability),
         })?;

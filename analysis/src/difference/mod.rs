@@ -1,9 +1,8 @@
 //! Compares two campaigns test by test: the same tests under two drivers, or with two versions of the software.
 //!
 //! Tests are pairs if they have the same values. A *new failure* fails in the second campaign and does not fail in the first one; a
-//! *mended* test is the other way round. McNemar's test says whether the two counts differ by more than chance: if neither campaign
-//! were better, a test of which only one campaign fails would be as likely to be new as to be mended (McNemar, Note on the sampling
-//! error of the difference between correlated proportions or percentages, Psychometrika 12, 1947).
+//! *mended* test is the other way round. McNemar's test says whether the two counts differ by more than chance. If both drivers were
+//! equally good, a test that fails in one campaign alone would fail in either campaign with the same probability.
 
 #[cfg(test)]
 mod tests;
@@ -25,7 +24,7 @@ pub struct Difference {
     pub titles: [String; 2],
     /// The number of pairs: tests that both campaigns have.
     pub tests: usize,
-    /// The numbers of tests that only the first and only the second campaign have.
+    /// The numbers of tests of each campaign that have no pair. A pair counts once, however often a campaign repeats its test.
     pub unpaired: [usize; 2],
     /// The numbers of failing tests among the pairs.
     pub failing: [usize; 2],
@@ -79,16 +78,25 @@ pub struct MarginChange {
     pub unit: String,
     /// The number of pairs.
     pub pairs: usize,
-    /// The numbers of pairs in which the margin is smaller, the same and larger in the second campaign.
+    /// The number of pairs in which the margin is smaller in the second campaign.
     pub smaller: usize,
-    /// See `smaller`.
+    /// The number of pairs in which the margin is the same.
     pub same: usize,
-    /// See `smaller`.
+    /// The number of pairs in which the margin is larger in the second campaign.
     pub larger: usize,
     /// The median of the changes.
     pub median: f64,
-    /// The greatest loss, as a change below 0, and the index of its test in the second campaign; `None` if no margin is smaller.
-    pub worst: Option<(f64, usize)>,
+    /// The greatest loss; `None` if no margin is smaller.
+    pub worst: Option<Loss>,
+}
+
+/// The greatest loss of a margin.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Loss {
+    /// The index of the test in the second campaign.
+    pub index: usize,
+    /// The change of the margin, which is below 0.
+    pub change: f64,
 }
 
 /// The reason why two campaigns cannot be compared.
@@ -256,7 +264,10 @@ fn margins(study: &Study, pairs: &[[&Trial; 2]]) -> Vec<MarginChange> {
             same: count(|change| change == 0.0),
             larger: count(|change| change > 0.0),
             median: quantile(&sorted, 0.5),
-            worst: changes.first().copied().filter(|(change, _)| *change < 0.0),
+            worst: changes
+                .first()
+                .map(|(change, index)| Loss { index: *index, change: *change })
+                .filter(|loss| loss.change < 0.0),
         })
     };
     ids.into_iter().filter_map(of).collect()

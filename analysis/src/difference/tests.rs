@@ -40,7 +40,7 @@ fn tests_are_paired_by_their_values_and_counted_by_what_became_of_them() {
     let margin = &difference.margins[0];
     assert_eq!((margin.smaller, margin.same, margin.larger), (1, 1, 2));
     // The changes are -2.5, 0, 3.5 and 6.
-    assert_eq!((margin.median, margin.worst), (1.75, Some((-2.5, 4))));
+    assert_eq!((margin.median, margin.worst), (1.75, Some(super::Loss { index: 4, change: -2.5 })));
 }
 
 #[test]

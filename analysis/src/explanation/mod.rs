@@ -118,27 +118,33 @@ impl Explanation {
     }
 }
 
-/// Returns the names of the continuous coordinates of a campaign, from the coordinate that separates failing tests from passing
-/// tests best. They are in the order of the space if fewer than three tests passed or fewer than three failed.
+/// Returns the names of two continuous coordinates as the axes of a map. The coordinates that separate failing tests from passing tests
+/// best take the place of names that are not given, in the order of the space. If fewer than three tests passed or fewer than three
+/// failed, these are the first ones. `None` if the space has too few continuous coordinates.
 ///
 /// # Errors
 /// A trial does not fit into the study's space.
-pub fn ranked_axes(log: &Log) -> Result<Vec<String>, Error> {
+pub fn axes(log: &Log, given: [Option<&str>; 2]) -> Result<Option<[String; 2]>, Error> {
     let (table, names) = table(log)?;
-    let failures = table.failed.iter().filter(|failed| **failed).count();
-    let is_explained = failures.min(table.failed.len() - failures) >= LEAST_TESTS;
     let columns: Vec<_> = names.columns().collect();
-    let mut gains = vec![0.0; columns.len()];
-    if is_explained {
-        let rows: Vec<usize> = (0..table.failed.len()).collect();
-        gains = Tree::grow(&table, &rows, MOST_LEAVES, LEAST_TESTS).gains(columns.len());
-    }
-    let continuous =
-        columns.into_iter().zip(gains).filter(|((coordinate, _), _)| coordinate.parameter.levels().is_none());
-    let mut ranked: Vec<(String, f64)> = continuous.map(|((coordinate, _), gain)| (coordinate.name(), gain)).collect();
-    // A stable sort: coordinates that explain nothing keep the order of the space.
-    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-    Ok(ranked.into_iter().map(|(name, _)| name).collect())
+    let rows: Vec<usize> = (0..table.failed.len()).collect();
+    let failures = table.failed.iter().filter(|failed| **failed).count();
+    let is_explained = failures.min(rows.len() - failures) >= LEAST_TESTS;
+    let tree = if is_explained { Tree::grow(&table, &rows, MOST_LEAVES, LEAST_TESTS) } else { Tree::default() };
+    let coordinates =
+        columns.iter().map(|(coordinate, levels)| (coordinate.name(), levels)).zip(tree.gains(columns.len()));
+    let mut free: Vec<(usize, f64, String)> = coordinates
+        .enumerate()
+        .filter(|(_, ((name, levels), _))| levels.is_none() && !given.contains(&Some(name.as_str())))
+        .map(|(place, ((name, _), gain))| (place, gain, name))
+        .collect();
+    // A stable sort: coordinates that separate nothing keep the order of the space.
+    free.sort_by(|a, b| b.1.total_cmp(&a.1));
+    free.truncate(given.iter().filter(|name| name.is_none()).count());
+    free.sort_by_key(|(place, ..)| *place);
+    let mut free = free.into_iter().map(|(_, _, name)| name);
+    let [x, y] = given.map(|name| name.map(str::to_owned).or_else(|| free.next()));
+    Ok(x.zip(y).map(|(x, y)| [x, y]))
 }
 
 impl Explanation {

@@ -1,8 +1,7 @@
 //! `paracosm-cover compare`: compares strategies by their point sets, and shows the progress.
 
 use super::{open_loop, time_limit};
-use crate::cli::arguments::OUTPUT;
-use crate::cli::output::{Format, json};
+use crate::cli::output::{Format, FormatOption, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::generators::Strategy;
 use clap::Args;
@@ -68,9 +67,8 @@ pub(super) struct Options {
     /// The folder to write to, empty or new
     #[arg(long, value_name = "DIR", default_value = "paracosm-compare")]
     out: PathBuf,
-    /// The form of the summary
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -93,7 +91,7 @@ impl Options {
             verbosity.note(note);
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Table => paracosm_report::compare::table(&compared),
             Format::Json => json(&json!({"sets": compared.sets.len(), "baseline": compared.comparison.baseline.name(),
                 "summary": compared.cells, "slopes": compared.slopes, "notes": compared.notes, "out": self.out})),

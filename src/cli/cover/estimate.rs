@@ -1,9 +1,8 @@
 //! `paracosm-cover estimate`: measures how well tests cover their space.
 
 use super::{certificate, open_loop, strength, time_limit};
-use crate::cli::arguments::OUTPUT;
 use crate::cli::draw::is_ours_to_write;
-use crate::cli::output::{Format, Table, broken, json, plural, short_bracket};
+use crate::cli::output::{Format, FormatOption, Table, broken, json, plural, short_bracket};
 use crate::cli::usage;
 use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::coverage::Bracket;
@@ -84,9 +83,8 @@ pub(super) struct Options {
     /// [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N", requires = "strategy")]
     skip: Option<u64>,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -127,7 +125,7 @@ impl Options {
         };
         bar.finish_and_clear();
         let coverage = coverage?;
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Json => json(&coverage),
             Format::Table => {
                 let mut table = Table::default();

@@ -1,8 +1,7 @@
 //! `paracosm-cover plan`: shows how many tests each guarantee needs.
 
 use super::{strength, time_limit};
-use crate::cli::arguments::OUTPUT;
-use crate::cli::output::{Format, Table, json, plural};
+use crate::cli::output::{Format, FormatOption, Table, json, plural};
 use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::generators::Request;
 use crate::space::Space;
@@ -59,9 +58,8 @@ pub(super) struct Options {
     /// The limit is for making and measuring a covering array, together.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// The form of the result
-    #[arg(long, value_enum, value_name = "table|json", default_value_t, hide_possible_values = true, help_heading = OUTPUT)]
-    format: Format,
+    #[command(flatten)]
+    form: FormatOption,
 }
 
 impl Options {
@@ -87,7 +85,7 @@ impl Options {
         if space.dims() > 3 {
             verbosity.note("above three dimensions the a-priori bounds are useless: rely on the measured numbers");
         }
-        print(&match self.format {
+        print(&match self.form.format {
             Format::Json => json(&plan),
             Format::Table => {
                 let groups = plan.k.map(|k| strength::beside(k, &demand.groups, &space));
