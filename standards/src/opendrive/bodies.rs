@@ -252,27 +252,32 @@ fn pieces(
     parts: &mut Vec<(Body, Pose)>,
 ) -> Result<(), ReadError> {
     let start = along(repeat, "s", road)?;
-    let length = repeat.length("length")?.min(road.length - start);
+    let length = repeat.length("length")?;
+    // Beyond the end of the road there is no reference line. A note says what is cut.
+    let reach = length.min(road.length - start);
     let distance = repeat.length("distance")?;
     let [t, t_end] = [repeat.number("tStart")?, repeat.number("tEnd")?];
     let ends = [Measures::read(repeat, STARTS, *measures)?, Measures::read(repeat, ENDS, *measures)?];
     let step = if distance > 0.0 { distance } else { PIECE };
-    let count = length / step;
+    let count = reach / step;
     if count > MOST {
         return Err(repeat.unexpected("distance", format!("a distance that gives at most {MOST} pieces")));
     }
-    let at = |share: f64| (start + share * length, t + share * (t_end - t), ends[0].between(ends[1], share));
+    let at = |way: f64| {
+        let share = if length > 0.0 { way / length } else { 0.0 };
+        (start + way, t + share * (t_end - t), ends[0].between(ends[1], share))
+    };
     if distance > 0.0 {
         for i in 0..=count as usize {
-            let share = if length > 0.0 { (i as f64 * distance / length).min(1.0) } else { 0.0 };
-            let (s, t, measures) = at(share);
+            let (s, t, measures) = at((i as f64 * distance).min(reach));
             parts.extend(measures.body(class).map(|body| (body, pose(road, s, t, turned))));
         }
         return Ok(());
     }
     let count = count.ceil().max(1.0);
     for i in 0..count as usize {
-        let [(s, t, _), (_, _, middle), (s_end, t_end, _)] = [0.0, 0.5, 1.0].map(|part| at((i as f64 + part) / count));
+        let [(s, t, _), (_, _, middle), (s_end, t_end, _)] =
+            [0.0, 0.5, 1.0].map(|part| at((i as f64 + part) / count * reach));
         if let Some(top) = middle.top() {
             let thickness = if middle.width > 0.0 { middle.width } else { WALL };
             wall([road.point(s, t), road.point(s_end, t_end)], [thickness, top], class, parts);

@@ -58,6 +58,18 @@ pub enum Note {
         /// The number of such objects.
         count: usize,
     },
+    /// Objects, signals or repetitions of objects reach beyond the end of their road. The rest of a repetition is cut; an object
+    /// or a signal stands at the end.
+    BeyondEnd {
+        /// The line of the first such element in the file, from 1.
+        line: u32,
+        /// The name of the elements: `object`, `signal` or `repeat`.
+        element: &'static str,
+        /// The distance in metres from the end of the road to the end of the first element.
+        excess: f64,
+        /// The number of such elements.
+        count: usize,
+    },
     /// Reference lines of roads are not continuous.
     Jump {
         /// The identifier of the road with the widest jump.
@@ -149,6 +161,7 @@ impl Note {
             | Self::NoLane { line, .. }
             | Self::NoRoad { line, .. }
             | Self::SameId { line, .. }
+            | Self::BeyondEnd { line, .. }
             | Self::Apart { line, .. }
             | Self::RoadApart { line, .. } => Some(*line),
             _ => None,
@@ -195,6 +208,11 @@ impl fmt::Display for Note {
             }
             Self::SameId { element, id, count, .. } => {
                 write!(f, "the {element} has the id `{id}` of another {element}; both are read")?;
+                others(f, *count, element)
+            }
+            Self::BeyondEnd { element, excess, count, .. } => {
+                let effect = if *element == "repeat" { "the rest is cut" } else { "it stands at the end" };
+                write!(f, "the {element} reaches {excess:.3} m beyond the end of its road; {effect}")?;
                 others(f, *count, element)
             }
             Self::Jump { road, s, gap, count } => {

@@ -50,3 +50,32 @@ fn kinks_and_links_between_roads_apart_are_noted() {
     let many: String = (1..=1001).map(|number| lane.replace("\"-1\"", &format!("\"-{number}\""))).collect();
     refuses(&[(lane, &many)], "<laneSection> has 1002 lanes, expected at most 1000");
 }
+
+#[test]
+fn things_beyond_the_end_of_their_road_are_noted() {
+    let object = |s: f64, child: &str| {
+        let sizes = "type=\"pole\" t=\"4\" zOffset=\"0\" hdg=\"0\" radius=\"0.1\" height=\"2\"";
+        format!("</lanes>\n<objects>\n<object id=\"1\" s=\"{s}\" {sizes}>{child}</object>\n</objects>")
+    };
+    let of = |s: f64, child: &str| notes(&[("</lanes>", &object(s, child))]);
+    let repeat = |s: f64, length: f64| {
+        format!(
+            "\n<repeat s=\"{s}\" length=\"{length}\" distance=\"10\" tStart=\"4\" tEnd=\"8\" zOffsetStart=\"0\" zOffsetEnd=\"0\" heightStart=\"2\" heightEnd=\"2\"/>"
+        )
+    };
+    assert!(of(50.0, &repeat(10.0, 40.0)).is_empty());
+    let line =
+        with(&[("</lanes>", &object(0.0, ""))]).lines().position(|line| line.starts_with("<object id")).unwrap() + 1;
+    assert_eq!(
+        of(50.5, ""),
+        [format!("x.xodr:{line}: the object reaches 0.500 m beyond the end of its road; it stands at the end")]
+    );
+    assert_eq!(
+        of(0.0, &repeat(10.0, 80.0)),
+        [format!("x.xodr:{}: the repeat reaches 40.000 m beyond the end of its road; the rest is cut", line + 1)]
+    );
+    // The cut part does not pull the rest aside: half of the way, half of the offset.
+    let map = parse(with(&[("</lanes>", &object(0.0, &repeat(10.0, 80.0)))])).unwrap();
+    let last = map.roads[0].objects[0].parts.last().unwrap().1.position;
+    assert!((last - nalgebra::Vector2::new(50.0, 6.0)).norm() < 1e-9, "{last}");
+}
