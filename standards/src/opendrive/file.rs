@@ -22,8 +22,14 @@ const STRETCHES: [(&str, &str); 8] = [
     ("border", "sOffset"),
     ("roadMark", "sOffset"),
 ];
-/// The elements that stand along a road, and the groups that hold them.
-const THINGS: [&str; 5] = ["objects", "object", "repeat", "signals", "signal"];
+/// The paths from a road to the elements with a place along the road.
+const PLACED: [&[&str]; 5] = [
+    &["objects", "object"],
+    &["objects", "object", "repeat"],
+    &["objects", "object", "outline", "cornerRoad"],
+    &["objects", "object", "outlines", "outline", "cornerRoad"],
+    &["signals", "signal"],
+];
 /// The angle in radians from which on kinks of a reference line are reported.
 const SHARP: f64 = 0.05;
 /// The distance in metres from which on differences between the pieces of a reference line are reported.
@@ -57,7 +63,7 @@ impl Map {
         notes.extend(map.flattened());
         notes
             .extend([("objects", "object"), ("signals", "signal")].into_iter().filter_map(|kind| same_ids(root, kind)));
-        notes.extend(["object", "signal", "repeat"].into_iter().filter_map(|element| beyond_end(root, element)));
+        notes.extend(PLACED.into_iter().filter_map(|path| beyond_end(root, path)));
         notes.extend(widest(map.roads.iter().flat_map(jumps)));
         notes.extend(kinks(&map));
         notes.extend(widest(map.roads.iter().flat_map(lengths)));
@@ -152,27 +158,26 @@ fn same_ids(root: Element<'_, '_>, (group, element): (&'static str, &'static str
     Some(Note::SameId { line, element, id: id.to_owned(), count: 1 + same.count() })
 }
 
-/// Returns a note on the elements of a name that reach beyond the end of their road.
-fn beyond_end(root: Element<'_, '_>, element: &'static str) -> Option<Note> {
-    let excess = |of: Element<'_, '_>, road: f64| {
-        let length = if element == "repeat" { of.number("length").ok()? } else { 0.0 };
-        Some(of.number("s").ok()? + length - road).filter(|excess| *excess > GAP)
-    };
+/// Returns a note on the elements at the end of a path within their road that reach beyond the end of the road.
+fn beyond_end(root: Element<'_, '_>, path: &[&'static str]) -> Option<Note> {
+    let element = *path.last()?;
     let of_road = |road: Element<'_, '_>| {
-        let (length, mut open, mut found) = (road.number("length").ok()?, vec![road], Vec::new());
-        while let Some(parent) = open.pop() {
-            for child in parent.elements().filter(|child| THINGS.contains(&child.name())) {
-                let excess = excess(child, length).filter(|_| child.name() == element);
-                found.extend(excess.map(|excess| (child.line(), excess)));
-                open.push(child);
-            }
+        let end = road.number("length").ok()?;
+        let mut found = vec![road];
+        for name in path {
+            found = found.iter().flat_map(|one| one.all(name)).collect();
         }
-        Some(found)
+        // A repetition takes the place of its object.
+        found.retain(|of| of.first("repeat").is_none());
+        let excess = |of: Element<'_, '_>| {
+            let length = if element == "repeat" { of.number("length").ok()? } else { 0.0 };
+            Some((of.line(), of.number("s").ok()? + length - end)).filter(|(_, excess)| *excess > GAP)
+        };
+        Some(found.into_iter().filter_map(excess).collect::<Vec<_>>())
     };
-    let mut all: Vec<_> = root.all("road").filter_map(of_road).flatten().collect();
-    all.sort_by_key(|(line, _)| *line);
-    let (line, excess) = *all.first()?;
-    Some(Note::BeyondEnd { line, element, excess, count: all.len() })
+    let mut all = root.all("road").filter_map(of_road).flatten();
+    let (line, excess) = all.next()?;
+    Some(Note::BeyondEnd { line, element, excess, count: 1 + all.count() })
 }
 
 /// Returns the differences in metres between the pieces of a reference line, and a note on each difference.

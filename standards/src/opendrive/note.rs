@@ -58,12 +58,12 @@ pub enum Note {
         /// The number of such objects.
         count: usize,
     },
-    /// Objects, signals or repetitions of objects reach beyond the end of their road. The rest of a repetition is cut; an object
-    /// or a signal stands at the end.
+    /// Objects, corners of outlines, repetitions of objects, or signals reach beyond the end of their road. The rest of a repetition
+    /// is cut, and everything else is moved to the end.
     BeyondEnd {
         /// The line of the first such element in the file, from 1.
         line: u32,
-        /// The name of the elements: `object`, `signal` or `repeat`.
+        /// The name of the elements: `object`, `cornerRoad`, `repeat` or `signal`.
         element: &'static str,
         /// The distance in metres from the end of the road to the end of the first element.
         excess: f64,
@@ -211,7 +211,7 @@ impl fmt::Display for Note {
                 others(f, *count, element)
             }
             Self::BeyondEnd { element, excess, count, .. } => {
-                let effect = if *element == "repeat" { "the rest is cut" } else { "it stands at the end" };
+                let effect = if *element == "repeat" { "the rest is cut" } else { "it is moved to the end" };
                 write!(f, "the {element} reaches {excess:.3} m beyond the end of its road; {effect}")?;
                 others(f, *count, element)
             }

@@ -68,11 +68,22 @@ fn things_beyond_the_end_of_their_road_are_noted() {
         with(&[("</lanes>", &object(0.0, ""))]).lines().position(|line| line.starts_with("<object id")).unwrap() + 1;
     assert_eq!(
         of(50.5, ""),
-        [format!("x.xodr:{line}: the object reaches 0.500 m beyond the end of its road; it stands at the end")]
+        [format!("x.xodr:{line}: the object reaches 0.500 m beyond the end of its road; it is moved to the end")]
     );
     assert_eq!(
         of(0.0, &repeat(10.0, 80.0)),
         [format!("x.xodr:{}: the repeat reaches 40.000 m beyond the end of its road; the rest is cut", line + 1)]
+    );
+    // The repetition takes the place of its object, which stands nowhere.
+    assert!(of(50.5, &repeat(10.0, 40.0)).is_empty());
+    let corner = |s: f64| format!("<cornerRoad s=\"{s}\" t=\"5\" dz=\"0\" height=\"2\"/>");
+    let outline = format!("\n<outlines><outline id=\"1\">{}{}</outline></outlines>", corner(40.0), corner(50.25));
+    assert_eq!(
+        of(0.0, &outline),
+        [format!(
+            "x.xodr:{}: the cornerRoad reaches 0.250 m beyond the end of its road; it is moved to the end",
+            line + 1
+        )]
     );
     // The cut part does not pull the rest aside: half of the way, half of the offset.
     let map = parse(with(&[("</lanes>", &object(0.0, &repeat(10.0, 80.0)))])).unwrap();
