@@ -36,8 +36,8 @@ pub(super) struct Options {
     perceiver: perceiver::Options,
     /// The distribution of a parameter
     ///
-    /// One of uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or for a choice weights:W,W,.. in the order of its
-    /// values [default: the distribution in SPACE.toml, or uniform].
+    /// One of uniform, beta:A,B, normal:MEAN,DEVIATION, lognormal:MEAN,DEVIATION (of the logarithm), triangular:MODE,
+    /// histogram:EDGE,WEIGHT,EDGE,.. (up to the last edge), or for a choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform].
     #[arg(long, value_name = "NAME=DISTRIBUTION", help_heading = ESTIMATED)]
     distribution: Vec<String>,
     /// monte-carlo, qmc or subset

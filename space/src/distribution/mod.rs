@@ -5,139 +5,55 @@
 //! numbers, random or quasi-random, therefore serves all distributions.
 
 mod beta;
+mod error;
+mod histogram;
 mod normal;
 
 pub use beta::{beta_cdf, beta_quantile};
+pub use error::DistributionError;
 pub use normal::{normal_cdf, normal_quantile};
 
-use crate::names::{did_you_mean, nearest};
-use crate::plural;
+use crate::names::nearest;
 use crate::{Domain, Record, Value};
+use histogram::Bins;
+use normal::Truncated;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
-use thiserror::Error;
 
 /// The names of all distributions, with the numbers that they take, in words.
-const NAMES: [(&str, &str); 5] = [
+const NAMES: [(&str, &str); 7] = [
     ("uniform", "no numbers"),
     ("beta", "two numbers above 0 (its shapes)"),
     ("normal", "two numbers (its mean and its standard deviation)"),
+    ("lognormal", "two numbers (the mean and the standard deviation of the logarithm)"),
     ("triangular", "one number (its mode)"),
-    ("weights", "a number for each value of a choice"),
+    ("histogram", "an odd number of numbers, at least three (edges, with a weight between each two edges)"),
+    (WEIGHTS, "a number for each value of a choice"),
 ];
+
+/// The name of the distribution of a choice.
+const WEIGHTS: &str = "weights";
 
 /// The range of the shapes of a beta distribution. Shapes outside this range are a mistake.
 const SHAPES: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 
-/// The least share of a normal distribution that has to lie in the interval. With less, the distribution says nothing
-/// about the interval.
+/// The least share of a distribution that has to lie in the interval. With less, the distribution says nothing about the
+/// interval.
 const LEAST_MASS: f64 = 1e-9;
 
 /// The greatest standard deviation of a normal distribution, in widths of the interval. A wider distribution is
 /// uniform up to rounding.
 const WIDEST: f64 = 100.0;
 
-/// The reason why a text is not a distribution, or why a distribution does not fit a domain.
-#[derive(Debug, Clone, Error, PartialEq)]
-pub enum DistributionError {
-    /// No distribution has the given name.
-    #[error("no distribution is called `{name}`{}; the distributions are {}", did_you_mean(.nearest), NAMES.map(|(name, _)| name).join(", "))]
-    Unknown {
-        /// The given name, which is not the name of a distribution.
-        name: String,
-        /// The most similar name of a distribution, if a name is similar enough.
-        nearest: Option<&'static str>,
-    },
-    /// A distribution is given too many or too few numbers.
-    #[error("the distribution {name} takes {takes}, found {found}")]
-    Numbers {
-        /// The name of the distribution.
-        name: &'static str,
-        /// The numbers that the distribution takes, in words.
-        takes: &'static str,
-        /// The count of the numbers that are given to the distribution.
-        found: usize,
-    },
-    /// A word stands in the place of a number.
-    #[error("found `{found}` in {within}, expected a number")]
-    NoNumber {
-        /// The word that stands in the place of a number.
-        found: String,
-        /// The text or the entry that contains the word.
-        within: String,
-    },
-    /// An entry of a file names no distribution, or several distributions.
-    #[error("found no distribution or several, expected exactly one, such as {{ beta = [2.0, 5.0] }}")]
-    NotOne,
-    /// A distribution has a number that is not finite.
-    #[error("distribution {distribution}: found {number}, expected finite numbers")]
-    Infinite {
-        /// The distribution that is refused.
-        distribution: Distribution,
-        /// The number that is not finite.
-        number: f64,
-    },
-    /// The number of weights differs from the number of values of a choice.
-    #[error("found {}, expected {expected}: a weight for each value", plural(*found, "weight"))]
-    WeightCount {
-        /// The number of weights that are given.
-        found: usize,
-        /// The number of values of the choice.
-        expected: usize,
-    },
-    /// A weight is below 0, or no weight is above 0, or the sum of the weights is not finite.
-    #[error("distribution {0}: expected weights of at least 0, with a finite sum above 0")]
-    Weights(Distribution),
-    /// A choice has a distribution that is only for intervals.
-    #[error("found the distribution {0}, expected uniform or weights for the values of a choice")]
-    ForInterval(Distribution),
-    /// An interval has weights, which are only for choices.
-    #[error("found weights for an interval, expected uniform, beta, normal or triangular; weights are for a choice")]
-    ForChoice,
-    /// A shape of a beta distribution is out of range.
-    #[error("distribution {distribution}: expected shapes from {} to {}", SHAPES.start(), SHAPES.end())]
-    Shapes {
-        /// The distribution that is refused.
-        distribution: Distribution,
-    },
-    /// The standard deviation of a normal distribution is out of range.
-    #[error("distribution {distribution}: expected a standard deviation above 0 and at most {most}")]
-    Deviation {
-        /// The distribution that is refused.
-        distribution: Distribution,
-        /// The greatest standard deviation that the interval allows.
-        most: f64,
-    },
-    /// Nearly all of a normal distribution lies outside of the interval.
-    #[error(
-        "distribution {distribution}: almost nothing of it lies in [{lo}, {hi}]; move the mean closer to the interval"
-    )]
-    Outside {
-        /// The distribution that is refused.
-        distribution: Distribution,
-        /// The lower end of the interval.
-        lo: f64,
-        /// The upper end of the interval.
-        hi: f64,
-    },
-    /// The mode of a triangular distribution lies outside of the interval.
-    #[error("distribution {distribution}: expected a mode in [{lo}, {hi}]")]
-    Mode {
-        /// The distribution that is refused.
-        distribution: Distribution,
-        /// The lower end of the interval.
-        lo: f64,
-        /// The upper end of the interval.
-        hi: f64,
-    },
-}
+/// The greatest standard deviation of the logarithm of a lognormal number.
+const WIDEST_LOGARITHM: f64 = 100.0;
 
 /// The probability distribution of a parameter's values over the parameter's domain. Each coordinate of a signal has
 /// this distribution on its own.
 ///
-/// As a text, a distribution is written `uniform`, `beta:2,5`, `normal:1.4,0.3`, `triangular:1.4` or
-/// `weights:0.7,0.2,0.1`. In files it is written like `{ beta = [2.0, 5.0] }`.
+/// As a text, a distribution is written `uniform`, `beta:2,5`, `normal:1.4,0.3`, `lognormal:0.3,0.2`, `triangular:1.4`,
+/// `histogram:0,1,5,3,10` or `weights:0.7,0.2,0.1`. In files it is written like `{ beta = [2.0, 5.0] }`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Entry", into = "Entry")]
 pub enum Distribution {
@@ -151,9 +67,16 @@ pub enum Distribution {
     /// Both numbers are in the parameter's unit. The distribution is that of a normal number under the condition that
     /// it lies in the interval.
     Normal(f64, f64),
+    /// The distribution of a number whose natural logarithm has the normal distribution with the given mean and standard
+    /// deviation, restricted to the interval of the parameter.
+    LogNormal(f64, f64),
     /// The triangular distribution with the given mode, in the parameter's unit. The density rises from the lower end
     /// of the interval to the mode and falls to the upper end.
     Triangular(f64),
+    /// The distribution with a constant density in each bin of a histogram, restricted to the interval of the parameter.
+    /// The numbers are an edge, a weight, an edge, a weight and so on, up to the last edge. The edges are in the
+    /// parameter's unit and ascend. The probability of a bin is proportional to its weight.
+    Histogram(Vec<f64>),
     /// The distribution of a choice with the given weight for each value. The probability of a value is proportional to
     /// its weight.
     Weights(Vec<f64>),
@@ -187,16 +110,25 @@ impl Distribution {
                 }
                 DistributionError::Shapes { distribution: distribution() }
             }
-            (Self::Normal(mean, sd), &Domain::Interval { lo, hi }) => {
-                let most = WIDEST * (hi - lo);
+            (Self::Normal(mean, sd) | Self::LogNormal(mean, sd), &Domain::Interval { lo, hi }) => {
+                let [from, to] = [lo, hi].map(|end| self.scaled(end));
+                let most = if matches!(self, Self::Normal(..)) { WIDEST * (hi - lo) } else { WIDEST_LOGARITHM };
                 if !(*sd > 0.0 && *sd <= most) {
                     DistributionError::Deviation { distribution: distribution(), most }
-                } else if normal::Truncated::new(*mean, *sd, lo, hi).mass() < LEAST_MASS {
+                } else if Truncated::new(*mean, *sd, from, to).mass() < LEAST_MASS {
                     DistributionError::Outside { distribution: distribution(), lo, hi }
                 } else {
                     return Ok(());
                 }
             }
+            (Self::Histogram(numbers), &Domain::Interval { lo, hi }) => match Bins::new(numbers) {
+                None => DistributionError::Edges(distribution()),
+                Some(bins) if !bins.has_weights() => DistributionError::Weights(distribution()),
+                Some(bins) if bins.share(lo, hi) < LEAST_MASS => {
+                    DistributionError::Outside { distribution: distribution(), lo, hi }
+                }
+                Some(_) => return Ok(()),
+            },
             (Self::Triangular(mode), &Domain::Interval { lo, hi }) => {
                 if (lo..=hi).contains(mode) {
                     return Ok(());
@@ -213,14 +145,24 @@ impl Distribution {
     /// # Panics
     /// The distribution is only for choices.
     pub(crate) fn quantile(&self, lo: f64, hi: f64, u: f64) -> f64 {
-        // Rounding must not keep tests away from the ends of the interval.
-        if u <= 0.0 || u >= 1.0 {
+        // Rounding must not keep tests away from the ends of the interval. A histogram may begin or end with empty bins.
+        let is_positive = !matches!(self, Self::Histogram(_));
+        if is_positive && !(0.0 < u && u < 1.0) {
             return u.clamp(0.0, 1.0);
         }
         match self {
             Self::Uniform => u,
             Self::Beta(a, b) => beta_quantile(*a, *b, u),
-            Self::Normal(mean, sd) => normal::Truncated::new(*mean, *sd, lo, hi).quantile(u),
+            Self::Normal(mean, sd) => Truncated::new(*mean, *sd, lo, hi).quantile(u),
+            Self::LogNormal(mean, sd) => {
+                let [from, to] = [lo, hi].map(|end| self.scaled(end));
+                let number = libm::exp(mean + sd * Truncated::new(*mean, *sd, from, to).deviations(u));
+                ((number - lo) / (hi - lo)).clamp(0.0, 1.0)
+            }
+            Self::Histogram(numbers) => {
+                let bins = Bins::new(numbers).expect("spaces check their distributions");
+                ((bins.quantile(lo, hi, u) - lo) / (hi - lo)).clamp(0.0, 1.0)
+            }
             Self::Triangular(mode) => {
                 let mode = (mode - lo) / (hi - lo);
                 if u < mode { (u * mode).sqrt() } else { 1.0 - ((1.0 - u) * (1.0 - mode)).sqrt() }
@@ -253,22 +195,29 @@ impl Distribution {
         }
     }
 
+    /// Returns a number on the scale on which a normal or lognormal distribution is normal.
+    fn scaled(&self, number: f64) -> f64 {
+        if matches!(self, Self::LogNormal(..)) { libm::log(number.max(0.0)) } else { number }
+    }
+
     fn name(&self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
             Self::Beta(..) => "beta",
             Self::Normal(..) => "normal",
+            Self::LogNormal(..) => "lognormal",
             Self::Triangular(_) => "triangular",
-            Self::Weights(_) => "weights",
+            Self::Histogram(_) => "histogram",
+            Self::Weights(_) => WEIGHTS,
         }
     }
 
     fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Uniform => Vec::new(),
-            Self::Beta(a, b) | Self::Normal(a, b) => vec![*a, *b],
+            Self::Beta(a, b) | Self::Normal(a, b) | Self::LogNormal(a, b) => vec![*a, *b],
             Self::Triangular(mode) => vec![*mode],
-            Self::Weights(weights) => weights.clone(),
+            Self::Histogram(numbers) | Self::Weights(numbers) => numbers.clone(),
         }
     }
 
@@ -278,8 +227,10 @@ impl Distribution {
             ("uniform", []) => Ok(Self::Uniform),
             ("beta", &[a, b]) => Ok(Self::Beta(a, b)),
             ("normal", &[mean, sd]) => Ok(Self::Normal(mean, sd)),
+            ("lognormal", &[mean, sd]) => Ok(Self::LogNormal(mean, sd)),
             ("triangular", &[mode]) => Ok(Self::Triangular(mode)),
-            ("weights", [_, ..]) => Ok(Self::Weights(numbers.to_vec())),
+            ("histogram", [_, _, _, ..]) if numbers.len() % 2 == 1 => Ok(Self::Histogram(numbers.to_vec())),
+            (WEIGHTS, [_, ..]) => Ok(Self::Weights(numbers.to_vec())),
             _ => Err(match NAMES.iter().find(|(known, _)| *known == name) {
                 Some(&(name, takes)) => DistributionError::Numbers { name, takes, found: numbers.len() },
                 None => {

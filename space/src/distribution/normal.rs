@@ -127,14 +127,25 @@ impl Truncated {
         normal_cdf(self.ends[1]) - normal_cdf(self.ends[0])
     }
 
+    /// Returns the number below which a share `u` of the distribution lies, in standard deviations from the mean.
+    pub fn deviations(&self, u: f64) -> f64 {
+        let z = self.on_the_side(u);
+        if self.mirrored { -z } else { z }
+    }
+
     /// Returns the coordinate in `[0,1]` of the interval below which a share `u` of the distribution lies.
     pub fn quantile(&self, u: f64) -> f64 {
+        let [from, to] = self.ends;
+        let coordinate = ((self.on_the_side(u) - from) / (to - from)).clamp(0.0, 1.0);
+        if self.mirrored { 1.0 - coordinate } else { coordinate }
+    }
+
+    /// Returns the number of [`Truncated::deviations`], mirrored if the interval is.
+    fn on_the_side(&self, u: f64) -> f64 {
         let [from, to] = self.ends;
         let (u, rest) = if self.mirrored { (1.0 - u, u) } else { (u, 1.0 - u) };
         let (below, above) = (normal_cdf(from) + u * self.mass(), normal_cdf(-to) + rest * self.mass());
         // Start from the side with the smaller share: a small share has all its digits.
-        let z = if below < above { normal_quantile(below) } else { -normal_quantile(above) };
-        let coordinate = ((z - from) / (to - from)).clamp(0.0, 1.0);
-        if self.mirrored { 1.0 - coordinate } else { coordinate }
+        if below < above { normal_quantile(below) } else { -normal_quantile(above) }
     }
 }

@@ -76,6 +76,47 @@ proptest! {
     }
 
     #[test]
+    fn lognormal_numbers_in_an_interval_agree_with_the_integral(
+        mean in -1.0..2.0, sd in 0.2..3.0_f64, lo in 0.2..2.0_f64, u in 0.0..1.0,
+    ) {
+        // On the interval [lo, lo + 4]; the density falls with the number itself.
+        let density = |x: f64| {
+            let number = lo + 4.0 * x;
+            let z = (libm::log(number) - mean) / sd;
+            libm::exp(-0.5 * z * z) / number
+        };
+        let distribution = Distribution::LogNormal(mean, sd);
+        prop_assume!(distribution.check(&Domain::Interval { lo, hi: lo + 4.0 }).is_ok());
+        let x = distribution.quantile(lo, lo + 4.0, u);
+        prop_assert!((share(density, x) - u).abs() < 1e-9, "{} {u}", share(density, x));
+    }
+
+    #[test]
+    fn numbers_of_a_histogram_agree_with_counted_bins(
+        bins in prop::collection::vec((1_u8..9, 0_u8..9), 1..6), cut in 0.0..0.5, u in 0.0..1.0,
+    ) {
+        prop_assume!(bins.iter().any(|(_, weight)| *weight > 0));
+        let mut numbers = vec![3.0];
+        for (width, weight) in &bins {
+            numbers.extend([f64::from(*weight), numbers[numbers.len() - 1] + f64::from(*width)]);
+        }
+        let (lo, hi) = (3.0 + cut, numbers[numbers.len() - 1] + cut);
+        let distribution = Distribution::Histogram(numbers.clone());
+        prop_assume!(distribution.check(&Domain::Interval { lo, hi }).is_ok());
+        // The share below a number, counted on slices that no edge divides but for the cut ones.
+        let below = |number: f64| -> f64 {
+            numbers.windows(3).step_by(2)
+                .map(|bin| bin[1] * ((number.min(bin[2]) - lo.max(bin[0])) / (bin[2] - bin[0])).max(0.0))
+                .sum()
+        };
+        let x = lo + (hi - lo) * distribution.quantile(lo, hi, u);
+        prop_assert!((below(x) / below(hi) - u).abs() < 1e-12, "{} {u}", below(x) / below(hi));
+        // No number lies within an empty bin.
+        let is_within_empty = |bin: &[f64]| bin[1] == 0.0 && bin[0] + 1e-9 < x && x < bin[2] - 1e-9;
+        prop_assert!(!numbers.windows(3).step_by(2).any(is_within_empty), "{numbers:?} {x}");
+    }
+
+    #[test]
     fn triangular_numbers_agree_with_the_integral(mode in 2.0..=4.0_f64, u in 0.0..1.0) {
         let m: f64 = (mode - 2.0) / 2.0;
         let x = Distribution::Triangular(mode).quantile(2.0, 4.0, u);
@@ -123,6 +164,9 @@ fn ends_are_ends_whatever_the_distribution() {
         Distribution::Beta(2.0, 5.0),
         Distribution::Normal(3.0, 0.4),
         Distribution::Normal(-1.0, 100.0),
+        Distribution::LogNormal(0.3, 0.1),
+        Distribution::LogNormal(-3.0, 20.0),
+        Distribution::Histogram(vec![0.0, 1.0, 1.5, 2.0, 3.0]),
         Distribution::Triangular(1.0),
         Distribution::Triangular(2.0),
     ];
@@ -133,8 +177,32 @@ fn ends_are_ends_whatever_the_distribution() {
 }
 
 #[test]
+fn a_lognormal_number_in_an_interval_from_0_has_its_median() {
+    // The interval begins where the logarithm has no value.
+    let median = Distribution::LogNormal(0.5, 0.8).quantile(0.0, 1e6, 0.5) * 1e6;
+    assert!((median - libm::exp(0.5)).abs() < 1e-9, "{median}");
+    let refused = Distribution::LogNormal(0.0, 1.0).check(&Domain::Interval { lo: -2.0, hi: -1.0 });
+    assert!(matches!(refused, Err(DistributionError::Outside { .. })));
+}
+
+#[test]
+fn a_histogram_with_empty_bins_at_its_ends_gives_no_test_in_them() {
+    let histogram = Distribution::Histogram(vec![0.0, 0.0, 2.0, 1.0, 3.0, 0.0, 10.0]);
+    assert_eq!([0.0, 0.5, 1.0].map(|u| histogram.quantile(0.0, 10.0, u)), [0.2, 0.25, 0.3]);
+}
+
+#[test]
 fn text_and_files_say_the_same() {
-    for text in ["uniform", "beta:2,5", "normal:1.4,0.3", "triangular:1.4", "weights:0.7,0.2,0.1", "weights:1"] {
+    for text in [
+        "uniform",
+        "beta:2,5",
+        "normal:1.4,0.3",
+        "lognormal:0.3,0.2",
+        "triangular:1.4",
+        "histogram:0,1,5,3,10",
+        "weights:0.7,0.2,0.1",
+        "weights:1",
+    ] {
         let distribution: Distribution = text.parse().unwrap();
         let file = serde_json::to_string(&distribution).unwrap();
         assert_eq!(serde_json::from_str::<Distribution>(&file).unwrap(), distribution, "{file}");
@@ -157,6 +225,16 @@ fn what_cannot_be_is_refused_in_words() {
         ("normal:0.5,0", &interval, "above 0"),
         ("normal:0.5,1000", &interval, "at most 100"),
         ("normal:50,1", &interval, "almost nothing"),
+        ("lognormal:0.5", &interval, "the logarithm"),
+        ("lognormal:0.5,0", &interval, "above 0"),
+        ("lognormal:50,1", &interval, "almost nothing"),
+        ("histogram:0,1", &interval, "a weight between each two edges"),
+        ("histogram:0,1,1,2", &interval, "found 4"),
+        ("histogram:0,1,0", &interval, "ascending"),
+        ("histogram:0,-1,1", &interval, "at least 0"),
+        ("histogram:0,0,1", &interval, "a finite sum above 0"),
+        ("histogram:2,1,3", &interval, "almost nothing"),
+        ("weights:1,1", &interval, "triangular, histogram"),
         ("triangular:2", &interval, "[0, 1]"),
         ("weights:1,1", &interval, "choice"),
         ("beta:2,5", &choice, "weights"),

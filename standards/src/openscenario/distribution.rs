@@ -1,5 +1,6 @@
 //! Distributions of parameters: which parameters a file opens, with which values.
 
+use super::chances::chances;
 use super::kind::Kind;
 use super::scope::Node;
 use crate::xml::{Flaw, ReadError};
@@ -11,9 +12,6 @@ use std::collections::BTreeSet;
 const MOST_LEVELS: f64 = 10_000.0;
 /// The share of a step by which a range may exceed its upper limit, because steps are sums of rounded numbers.
 const TOLERANCE: f64 = 1e-9;
-/// The standard deviations on either side of the mean to which a normal distribution without a range reaches. Less than one number in
-/// ten billion lies outside.
-const WIDTH: f64 = 6.5;
 /// The sign between the names and between the values of parameters that change together.
 const JOINT: &str = "|";
 
@@ -101,27 +99,10 @@ impl Distribution {
 
 impl Opened {
     fn chance(name: String, of: Kind, node: Node<'_>) -> Result<Self, ReadError> {
-        let kind = node.choice("a kind of distribution such as UniformDistribution")?;
-        let (domain, chances) = match kind.name() {
-            "UniformDistribution" | "NormalDistribution" if of != Kind::Double => {
-                return Err(node.unexpected("parameterName", &name, "a parameter of the type double; a ProbabilityDistributionSet gives chances to values of other types"));
-            }
-            "UniformDistribution" => (interval(kind)?, space::Distribution::Uniform),
-            "NormalDistribution" => {
-                let (mean, deviation) = (kind.number("expectedValue")?, libm::sqrt(kind.length("variance")?));
-                let whole = Domain::Interval { lo: mean - WIDTH * deviation, hi: mean + WIDTH * deviation };
-                let domain = if kind.first("Range").is_some() { interval(kind)? } else { whole };
-                (domain, space::Distribution::Normal(mean, deviation))
-            }
-            _ => {
-                let value = |element: Node<'_>| Ok(of.value(&element.of_kind("value", of)?));
-                let levels = some(kind, "Element")?.map(value).collect::<Result<_, ReadError>>()?;
-                let weights = kind.all("Element").map(|element| element.length("weight")).collect::<Result<_, _>>()?;
-                (Domain::Choice(levels), space::Distribution::Weights(weights))
-            }
-        };
+        let (domain, chances) = chances(node, &name, of)?;
         let opened = Self { names: vec![name], kinds: vec![of], values: Choices::Chance(domain, chances) };
         let parameter = opened.declared(|_| None).parameter;
+        let kind = node.elements().next().unwrap_or(node);
         Space::new(vec![parameter]).map_err(|flaw| kind.error(Flaw::Parameter(flaw)))?;
         Ok(opened)
     }
@@ -245,11 +226,6 @@ fn some<'a>(node: Node<'a>, child: &'static str) -> Result<impl Iterator<Item = 
 /// Makes the error that a parameter has a second distribution.
 fn twice_distributed(node: Node<'_>, name: &str) -> ReadError {
     node.unexpected("parameterName", name, "one distribution of each parameter")
-}
-
-fn interval(node: Node<'_>) -> Result<Domain, ReadError> {
-    let limits = node.child("Range")?;
-    Ok(Domain::Interval { lo: limits.number("lowerLimit")?, hi: limits.number("upperLimit")? })
 }
 
 fn range(node: Node<'_>, name: &str, of: Kind) -> Result<Choices, ReadError> {

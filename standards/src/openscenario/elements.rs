@@ -18,7 +18,6 @@ const ROUTES: &str = "use an AssignRouteAction";
 const COMMANDS: &str = "no file runs a command";
 const NAMED: &str = "name the entities one by one";
 const CONTROL: &str = "use an ActivateControllerAction";
-const CHANCE: &str = "use a UniformDistribution, a NormalDistribution or a ProbabilityDistributionSet";
 const PLACES: &str = "use a WorldPosition";
 const FLAT: &str = "the world is flat, and bodies stand on the ground";
 const FLAT_ANGLES: &str = "the world is flat, so pitch and roll are 0";
@@ -303,10 +302,18 @@ pub(super) const ROWS: &[Row] = &[
     read("Stochastic!", "StochasticDistribution", "parameterName!").several(),
     read("StochasticDistribution", "UniformDistribution", ""),
     read("StochasticDistribution", "NormalDistribution", "expectedValue! variance!"),
-    read("UniformDistribution!|NormalDistribution", "Range", "lowerLimit! upperLimit!"),
+    read("StochasticDistribution", "LogNormalDistribution", "expectedValue! variance!"),
+    read("StochasticDistribution", "PoissonDistribution", "expectedValue!"),
+    read(
+        "UniformDistribution!|NormalDistribution|LogNormalDistribution|PoissonDistribution",
+        "Range",
+        "lowerLimit! upperLimit!",
+    ),
+    read("StochasticDistribution", "Histogram", ""),
+    read("Histogram!", "Bin", "weight!").several(),
+    read("Bin!", "Range", "lowerLimit! upperLimit!"),
     read("StochasticDistribution", "ProbabilityDistributionSet", ""),
     read("ProbabilityDistributionSet!", "Element", "value! weight!").several(),
-    refused("StochasticDistribution", "LogNormalDistribution|PoissonDistribution|Histogram", CHANCE),
     refused("StochasticDistribution", "UserDefinedDistribution", COMMANDS),
     read("OpenSCENARIO", "VariableDeclarations", ""),
     read("VariableDeclarations", "VariableDeclaration", "name! variableType! value!").several(),

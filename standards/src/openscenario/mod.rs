@@ -2,6 +2,7 @@
 
 mod action;
 mod catalogs;
+mod chances;
 mod clock;
 mod clothoid;
 mod concrete;

@@ -356,24 +356,3 @@ fn the_values_of_a_range_have_the_decimals_of_the_file() {
         assert_eq!(gap.opened().domain, Domain::Choice(levels), "{lower} {step} {upper}");
     }
 }
-
-#[test]
-fn a_normal_distribution_without_a_range_has_all_its_numbers() {
-    let path = file("slow-leader-chances.xosc");
-    let text = fs::read_to_string(path).unwrap();
-    let from = text.find("<NormalDistribution").unwrap();
-    let range = from + text[from..].find("<Range").unwrap();
-    let end = range + text[range..].find("/>").unwrap() + 2;
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["slow-leader.xosc", "straight.xodr"] {
-        fs::copy(file(name), folder.path().join(name)).unwrap();
-    }
-    fs::create_dir(folder.path().join("catalogs")).unwrap();
-    fs::copy(file("catalogs/entities.xosc"), folder.path().join("catalogs/entities.xosc")).unwrap();
-    let path = folder.path().join("chances.xosc");
-    fs::write(&path, format!("{}{}", &text[..range], &text[end..])).unwrap();
-    let program = Xosc::read(&path).unwrap_or_else(|error| panic!("{error}")).program();
-    let declared = program.declare().unwrap().parameters;
-    let speed = declared.into_iter().find(|declared| declared.parameter.name == "speed").unwrap();
-    assert_eq!(speed.parameter.domain, Domain::Interval { lo: 35.0 - 6.5 * 5.0, hi: 35.0 + 6.5 * 5.0 });
-}

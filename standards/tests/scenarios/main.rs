@@ -1,6 +1,7 @@
 //! Scenarios of files: our own small files, and scenarios of others with the trajectories that esmini computed for them.
 
 mod bad;
+mod chances;
 mod complete;
 mod concrete;
 mod declarations;

@@ -5,7 +5,7 @@ use paracosm_engine::driver::find;
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{Control, Declared, Ending, Outcome, Program, ProgramError, Run, Setup, Step, simulate};
 use paracosm_oracles::Trace;
-use paracosm_space::{Distribution, Domain, Value, Values};
+use paracosm_space::{Domain, Value, Values};
 use paracosm_standards::openscenario::Xosc;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ pub fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenarios/files").join(name)
 }
 
-fn program(name: &str) -> Program {
+pub fn program(name: &str) -> Program {
     Xosc::read(&file(name)).unwrap_or_else(|error| panic!("{error}")).program()
 }
 
@@ -126,26 +126,6 @@ fn a_distribution_opens_its_parameters() {
     assert_eq!(nominal.get("speed"), Some(&Value::Number(30.0)));
     assert_eq!(nominal.get("gap"), Some(&Value::Number(50.0)));
     assert_eq!(nominal.get("start"), None, "it follows from the gap");
-}
-
-#[test]
-fn stochastic_distributions_give_parameters_their_chances() {
-    let declaration = program("slow-leader-chances.xosc").declare().unwrap();
-    let parameter =
-        |name: &str| &declaration.parameters.iter().find(|one| one.parameter.name == name).unwrap().parameter;
-    let (speed, gap, start) = (parameter("speed"), parameter("gap"), parameter("start"));
-    assert_eq!(
-        (&speed.domain, &speed.distribution),
-        (&Domain::Interval { lo: 20.0, hi: 60.0 }, &Distribution::Normal(35.0, 5.0))
-    );
-    assert_eq!((gap.levels().unwrap().len(), &gap.distribution), (2, &Distribution::Weights(vec![1.0, 3.0])));
-    assert_eq!(
-        (&start.domain, &start.distribution),
-        (&Domain::Interval { lo: 30.0, hi: 60.0 }, &Distribution::Uniform)
-    );
-    // The values of the declarations are the nominal values.
-    assert_eq!(declaration.nominal().get("speed"), Some(&Value::Number(30.0)));
-    assert_eq!(declaration.nominal().get("gap"), Some(&Value::Number(50.0)));
 }
 
 #[test]
