@@ -116,19 +116,7 @@ impl FailureEstimate {
     /// A trial does not fit into the study's space, or its constraints cannot be satisfied.
     pub fn of(log: &Log, axes: Axes) -> Result<Option<Self>, Error> {
         let (study, trials) = (log.study(), log.trials());
-        let is_judged = |t: &&Trial| matches!(t.verdict, Verdict::Fail | Verdict::Unpreventable | Verdict::Pass);
-        let judged: Vec<&Trial> = trials.iter().filter(is_judged).collect();
-        let failures = judged.iter().filter(|trial| trial.is_failure()).count();
-        if failures == 0 || failures == judged.len() {
-            return Ok(None);
-        }
-        // The verdict determines the sign, even if rounding gave the robustness another sign.
-        let robustness = judged.iter().map(|trial| {
-            let size = log.scales().objective(trial).map_or(1.0, f64::abs);
-            if trial.is_failure() { -size } else { size }
-        });
-        let robustness: Vec<f64> = robustness.collect();
-        let Some(model) = FailureModel::fit(study.space(), &points(study, &judged)?, &robustness) else {
+        let Some(model) = failure_model(log)? else {
             return Ok(None);
         };
         let (others, samples) = others(study)?;
@@ -225,6 +213,26 @@ pub fn decided(share: &FailingShare) -> Option<bool> {
     [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)]
         .into_iter()
         .find_map(|(is, what)| is.then_some(what))
+}
+
+/// Returns a model of the failures of a campaign; `None` if no test failed, no test passed, or no model can be fitted.
+///
+/// # Errors
+/// A trial does not fit into the study's space.
+pub(crate) fn failure_model(log: &Log) -> Result<Option<FailureModel>, Error> {
+    let is_judged = |t: &&Trial| matches!(t.verdict, Verdict::Fail | Verdict::Unpreventable | Verdict::Pass);
+    let judged: Vec<&Trial> = log.trials().iter().filter(is_judged).collect();
+    let failures = judged.iter().filter(|trial| trial.is_failure()).count();
+    if failures == 0 || failures == judged.len() {
+        return Ok(None);
+    }
+    // The verdict determines the sign, even if rounding gave the robustness another sign.
+    let robustness = judged.iter().map(|trial| {
+        let size = log.scales().objective(trial).map_or(1.0, f64::abs);
+        if trial.is_failure() { -size } else { size }
+    });
+    let robustness: Vec<f64> = robustness.collect();
+    Ok(FailureModel::fit(log.study().space(), &points(log.study(), &judged)?, &robustness))
 }
 
 /// Returns the tests of trials as points of the study's space.

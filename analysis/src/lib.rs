@@ -34,6 +34,7 @@ pub mod modes;
 pub mod perceived;
 pub mod plan;
 pub mod promise;
+pub mod sensitivity;
 pub mod shrink;
 pub mod statistics;
 pub mod summary;

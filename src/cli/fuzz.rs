@@ -2,7 +2,7 @@
 
 use super::{
     Failure, Status, Verbosity, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map, monitor,
-    perceive, record, replay, roads, run, shrink, trace,
+    perceive, record, replay, roads, run, sensitivity, shrink, trace,
 };
 use clap::{Parser, Subcommand};
 
@@ -27,6 +27,8 @@ Examples:
       the simplest test near test 17 that still fails
   paracosm-fuzz blame paracosm-out
       which failures other drivers could have avoided
+  paracosm-fuzz sensitivity paracosm-out
+      how much each open parameter matters
   paracosm-fuzz diff before after
       new failures, mended ones and changed margins under another driver or version
   paracosm-fuzz trace paracosm-out
@@ -143,6 +145,11 @@ enum Verb {
     /// Each failing test is run again with reference drivers.
     #[command(after_long_help = blame::EXAMPLES)]
     Blame(blame::Options),
+    /// Show how much each open parameter matters
+    ///
+    /// The shares of the variance of the failure and of the robustness are Sobol indices.
+    #[command(after_long_help = sensitivity::EXAMPLES)]
+    Sensitivity(sensitivity::Options),
     /// Compare two campaigns with the same tests: new failures, mended ones
     ///
     /// The campaigns have two drivers, or were run by two versions of the software.
@@ -189,6 +196,7 @@ impl Command {
             Some(Verb::Export(options)) => options.execute(self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(self.verbosity),
             Some(Verb::Blame(options)) => options.execute(self.verbosity),
+            Some(Verb::Sensitivity(options)) => options.execute(self.verbosity),
             Some(Verb::Diff(options)) => options.execute(self.verbosity),
             Some(Verb::Trace(options)) => options.execute(),
             Some(Verb::Monitor(options)) => options.execute(self.verbosity),

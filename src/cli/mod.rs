@@ -32,6 +32,7 @@ mod report;
 mod roads;
 mod run;
 mod sampling;
+mod sensitivity;
 mod shrink;
 mod subject;
 mod suspects;

@@ -49,6 +49,7 @@ mod reference_drivers;
 mod requirements;
 mod roads;
 mod scenario_files;
+mod sensitivity;
 mod signals;
 mod spec;
 mod strength;

@@ -9,6 +9,7 @@ mod qmc;
 mod study;
 mod subset;
 
+pub(crate) use study::always_hold;
 pub use study::of_study;
 
 use paracosm_campaign::{Error, Problem, Reason};

@@ -41,7 +41,7 @@ impl Draws<'_> {
 }
 
 /// Returns `true` if it is certain that every test of a space keeps the constraints.
-fn always_hold(space: &Space) -> bool {
+pub(crate) fn always_hold(space: &Space) -> bool {
     let levels = space.levels();
     let rows = levels.iter().try_fold(1_usize, |rows, levels| rows.checked_mul(*levels));
     if rows.is_none_or(|rows| rows > MOST_ROWS) {

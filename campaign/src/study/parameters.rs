@@ -116,10 +116,15 @@ pub(super) fn is_of_world(name: &str) -> bool {
     !is_of_camera(name)
 }
 
-/// Returns the domain over which a parameter is opened: the list of the whole numbers in an interval if the parameter takes no
-/// others.
+/// Returns the domain over which a parameter is opened. If the parameter takes whole numbers only, an interval stands for the
+/// whole numbers in it that the parameter takes.
 fn listed(declared: &Declared, domain: &Domain) -> Result<Domain, ParameterMisuse> {
+    let all = declared.parameter.levels().into_iter().flatten();
     match *domain {
+        Domain::Interval { lo, hi } if declared.whole && declared.parameter.levels().is_some() => {
+            let is_within = |level: &&Value| level.number().is_some_and(|number| (lo..=hi).contains(&number));
+            Ok(Domain::Choice(all.filter(is_within).cloned().collect()))
+        }
         Domain::Interval { lo, hi } if declared.whole => {
             let count = hi.floor() - lo.ceil() + 1.0;
             if count > MOST_WHOLE {
@@ -168,6 +173,7 @@ impl Study {
         if matches!((&parameter.domain, &domain), (Domain::Choice(_), Domain::Interval { .. })) {
             return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
         }
+        parameter.distribution = parameter.distribution.within(&parameter.domain, &domain);
         parameter.domain = domain;
         parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
         Ok(parameter)

@@ -8,6 +8,7 @@ mod beta;
 mod error;
 mod histogram;
 mod normal;
+mod part;
 
 pub use beta::{beta_cdf, beta_quantile};
 pub use error::DistributionError;

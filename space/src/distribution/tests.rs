@@ -192,6 +192,26 @@ fn a_histogram_with_empty_bins_at_its_ends_gives_no_test_in_them() {
 }
 
 #[test]
+fn a_part_of_a_domain_keeps_the_distribution_as_far_as_it_reaches() {
+    let interval = |lo, hi| Domain::Interval { lo, hi };
+    let choice = |levels: &[i32]| Domain::Choice(levels.iter().map(|level| f64::from(*level).into()).collect());
+    let weights = Distribution::Weights(vec![1.0, 3.0, 0.0]);
+    let (normal, histogram) = (Distribution::Normal(35.0, 5.0), Distribution::Histogram(vec![0.0, 1.0, 2.0, 0.0, 9.0]));
+    for (distribution, domain, part, expected) in [
+        (&weights, choice(&[20, 50, 70]), choice(&[50, 20]), Distribution::Weights(vec![3.0, 1.0])),
+        (&weights, choice(&[20, 50, 70]), choice(&[50]), Distribution::Weights(vec![3.0])),
+        (&weights, choice(&[20, 50, 70]), choice(&[70]), Distribution::Uniform),
+        (&normal, interval(20.0, 60.0), interval(30.0, 40.0), normal.clone()),
+        (&normal, interval(20.0, 60.0), interval(30.1, 30.11), Distribution::Uniform),
+        (&normal, interval(20.0, 60.0), choice(&[30, 40]), Distribution::Uniform),
+        (&histogram, interval(0.0, 9.0), interval(1.0, 5.0), histogram.clone()),
+        (&histogram, interval(0.0, 9.0), interval(3.0, 5.0), Distribution::Uniform),
+    ] {
+        assert_eq!(distribution.within(&domain, &part), expected, "{distribution} {part}");
+    }
+}
+
+#[test]
 fn text_and_files_say_the_same() {
     for text in [
         "uniform",

@@ -4,6 +4,7 @@ use super::kind::Kind;
 use super::scope::Node;
 use crate::xml::ReadError;
 use paracosm_space::{Distribution, Domain, Value};
+use std::collections::BTreeSet;
 
 /// The standard deviations on either side of the mean to which a normal distribution without a range reaches. Less than one number in
 /// ten billion lies outside.
@@ -42,7 +43,7 @@ fn uniform(kind: Node<'_>) -> Result<(Domain, Distribution), ReadError> {
 }
 
 fn normal(kind: Node<'_>) -> Result<(Domain, Distribution), ReadError> {
-    let (mean, deviation) = (kind.number("expectedValue")?, libm::sqrt(kind.length("variance")?));
+    let (mean, deviation) = (kind.number("expectedValue")?, libm::sqrt(kind.positive("variance")?));
     let whole = Domain::Interval { lo: mean - WIDTH * deviation, hi: mean + WIDTH * deviation };
     let domain = kind.first("Range").map(interval).transpose()?.unwrap_or(whole);
     Ok((domain, Distribution::Normal(mean, deviation)))
@@ -51,7 +52,7 @@ fn normal(kind: Node<'_>) -> Result<(Domain, Distribution), ReadError> {
 /// The file has the expected value m and the variance v of the number. Its logarithm has the variance ln(1 + v/m²) and the mean
 /// ln m less half of that variance.
 fn lognormal(kind: Node<'_>) -> Result<(Domain, Distribution), ReadError> {
-    let (expected, variance) = (kind.positive("expectedValue")?, kind.length("variance")?);
+    let (expected, variance) = (kind.positive("expectedValue")?, kind.positive("variance")?);
     let of_logarithm = libm::log1p(variance / expected / expected);
     let (mean, deviation) = (libm::log(expected) - of_logarithm / 2.0, libm::sqrt(of_logarithm));
     let [lo, hi] = [-WIDTH, WIDTH].map(|deviations| libm::exp(mean + deviations * deviation));
@@ -126,11 +127,28 @@ fn poisson(kind: Node<'_>, of: Kind) -> Result<(Domain, Distribution), ReadError
 }
 
 fn set(kind: Node<'_>, of: Kind) -> Result<(Domain, Distribution), ReadError> {
-    kind.child("Element")?;
-    let value = |element: Node<'_>| Ok(of.value(&element.of_kind("value", of)?));
-    let levels = kind.all("Element").map(value).collect::<Result<_, ReadError>>()?;
+    let levels = levels(kind, of)?.into_iter().map(|text| of.value(&text)).collect();
     let weights = kind.all("Element").map(|element| element.length("weight")).collect::<Result<_, _>>()?;
     Ok((Domain::Choice(levels), Distribution::Weights(weights)))
+}
+
+/// Returns the texts of the values of a set, which are different.
+pub(super) fn levels(set: Node<'_>, of: Kind) -> Result<Vec<String>, ReadError> {
+    let (mut levels, mut known) = (Vec::new(), BTreeSet::new());
+    set.child("Element")?;
+    for element in set.all("Element") {
+        let text = element.of_kind("value", of)?;
+        // A zero with a sign is a zero.
+        let written = match of.value(&text) {
+            Value::Number(number) => (number + 0.0).to_string(),
+            other => other.to_string(),
+        };
+        if !known.insert(written) {
+            return Err(element.unexpected("value", &text, "a value that the set does not have yet"));
+        }
+        levels.push(text.into_owned());
+    }
+    Ok(levels)
 }
 
 /// Returns the interval of an element `Range`.

@@ -39,15 +39,21 @@ impl Demand {
     /// Reads an element `ParameterDeclaration`.
     pub fn read(node: Node<'_>) -> Result<Self, ReadError> {
         let place = |node: Node<'_>| (node.element.file().to_owned(), node.element.line());
+        let (name, kind) = (node.element.required("name")?.to_owned(), node.kind("parameterType")?);
         let limit = |node: Node<'_>| {
-            Ok(Limit { rule: Rule::read(node)?, text: node.element.required("value")?.to_owned(), place: place(node) })
+            let text = node.element.required("value")?;
+            // A number limits whole numbers, too. The value of an expression is unknown here.
+            let takes = if kind.is_whole() { Kind::Double } else { kind };
+            if !text.starts_with('$') && !takes.takes(text) {
+                return Err(node.unexpected("value", text, takes.expected()));
+            }
+            Ok(Limit { rule: Rule::read(node)?, text: text.to_owned(), place: place(node) })
         };
         let group = |group: Node<'_>| {
             let limits = group.all("ValueConstraint").map(limit).collect::<Result<Vec<_>, ReadError>>()?;
             if limits.is_empty() { Err(group.element.lacks("ValueConstraint")) } else { Ok(limits) }
         };
         let groups = node.all("ConstraintGroup").map(group);
-        let (name, kind) = (node.element.required("name")?.to_owned(), node.kind("parameterType")?);
         let groups = groups.collect::<Result<_, ReadError>>()?;
         Ok(Self { name, kind, groups, place: place(node) })
     }

@@ -1,12 +1,11 @@
 //! Distributions of parameters: which parameters a file opens, with which values.
 
-use super::chances::chances;
+use super::chances::{chances, levels};
 use super::kind::Kind;
 use super::scope::Node;
 use crate::xml::{Flaw, ReadError};
 use paracosm_engine::Declared;
 use paracosm_space::{self as space, Domain, Parameter, Space, Value};
-use std::collections::BTreeSet;
 
 /// The greatest number of values that a range with a step may list.
 const MOST_LEVELS: f64 = 10_000.0;
@@ -59,19 +58,7 @@ impl Distribution {
             let (names, kinds, values) = match kind.name() {
                 "DistributionSet" => {
                     let (name, of) = name(node)?;
-                    let (mut levels, mut known): (Vec<Vec<String>>, _) = (Vec::new(), BTreeSet::new());
-                    for element in some(kind, "Element")? {
-                        let text = element.of_kind("value", of)?;
-                        // A zero with a sign is a zero.
-                        let written = match of.value(&text) {
-                            Value::Number(number) => (number + 0.0).to_string(),
-                            other => other.to_string(),
-                        };
-                        if !known.insert(written) {
-                            return Err(element.unexpected("value", &text, "a value that the set does not have yet"));
-                        }
-                        levels.push(vec![text.into_owned()]);
-                    }
+                    let levels = levels(kind, of)?.into_iter().map(|text| vec![text]).collect();
                     (vec![name], vec![of], Choices::Tuples(levels))
                 }
                 "DistributionRange" => {
@@ -103,7 +90,8 @@ impl Opened {
         let opened = Self { names: vec![name], kinds: vec![of], values: Choices::Chance(domain, chances) };
         let parameter = opened.declared(|_| None).parameter;
         let kind = node.elements().next().unwrap_or(node);
-        Space::new(vec![parameter]).map_err(|flaw| kind.error(Flaw::Parameter(flaw)))?;
+        let misfit = |flaw| Flaw::Parameter { element: kind.name().to_owned(), flaw };
+        Space::new(vec![parameter]).map_err(|flaw| kind.error(misfit(flaw)))?;
         Ok(opened)
     }
 

@@ -5,9 +5,10 @@ use super::distribution::{Distribution, Opened};
 use super::kind::Kind;
 use super::local::declarations;
 use super::scope::{Node, Scope, references};
-use crate::xml::ReadError;
+use crate::xml::{Element, ReadError};
 use paracosm_engine::{Declared, Scenario};
 use paracosm_space::{Domain, Parameter, Value, Values};
+use std::collections::BTreeSet;
 
 /// The name of the parameter that chooses the entity which the system under test drives.
 pub const EGO: &str = "ego";
@@ -50,8 +51,13 @@ impl Declaration {
 impl Parameters {
     /// Reads the declarations of a scenario.
     pub fn read(root: Node<'_>, distribution: Distribution) -> Result<Self, ReadError> {
-        let declaration = |element| {
+        let mut names = BTreeSet::new();
+        let declaration = |element: Element<'_, '_>| {
             let node = Node { element, ..root };
+            let name = element.required("name")?;
+            if !names.insert(name.to_owned()) {
+                return Err(node.unexpected("name", name, "a name that no other parameter has"));
+            }
             if let Some((name, what)) = RESERVED.iter().find(|(name, _)| element.text("name") == Some(name)) {
                 return Err(node.unexpected("name", name, format!("another name, because this one {what}")));
             }

@@ -210,8 +210,14 @@ pub enum Flaw {
         error: io::Error,
     },
     /// The values and the chances of a parameter do not fit.
-    #[error("the parameter cannot have these values and chances: {0}")]
-    Parameter(#[source] SpaceError),
+    #[error("<{element}> gives the parameter values or chances that it cannot have: {flaw}")]
+    Parameter {
+        /// The name of the element.
+        element: String,
+        /// The reason why the values or the chances do not fit.
+        #[source]
+        flaw: SpaceError,
+    },
     /// The roads of a map form no network.
     #[error("the map has no roads to drive on: {0}")]
     Roads(#[source] RoadError),

@@ -40,6 +40,8 @@ pub(crate) struct Row {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
     Any,
+    /// A whole number that is not negative.
+    Count,
     Number,
     Truth,
     /// One of several names, with `|` between them.
@@ -149,6 +151,11 @@ impl Form {
         }
         match self {
             Self::Any => Ok(text != usual),
+            Self::Count => {
+                let count: Option<u32> = text.parse().ok();
+                count.ok_or_else(|| element.unexpected(attribute, "a whole number that is not negative"))?;
+                Ok(text != usual)
+            }
             Self::Number => {
                 let number = text.parse().ok().filter(|number: &f64| number.is_finite());
                 let number = number.ok_or_else(|| element.unexpected(attribute, "a finite number"))?;

@@ -1,6 +1,6 @@
 //! Stochastic distributions: parameters get values and chances, and mistakes are refused.
 
-use super::bad::changed_in;
+use super::bad::{changed_in, messages_of};
 use super::worlds::{file, program};
 use paracosm_engine::Declaration;
 use paracosm_space::{Distribution, Domain, Parameter, Value};
@@ -124,9 +124,19 @@ fn chances_that_cannot_be_are_refused_in_words() {
             "`lowerLimit=\"5\"` of <Range> is not allowed, expected a number of at least 6, where another bin ends",
         ),
         ("double", histogram(&[bin(-1.0, 5.0, 9.0)]), "`weight=\"-1\"` of <Bin> is not allowed"),
-        ("double", histogram(&[bin(0.0, 5.0, 9.0)]), "a finite sum above 0"),
+        ("double", histogram(&[bin(0.0, 5.0, 9.0)]), "<Histogram> gives the parameter values or chances that it cannot have"),
         ("int", histogram(&[bin(1.0, 5.0, 9.0)]), "expected a parameter of the type double"),
         ("double", lognormal("-2"), "expected a number above 0"),
+        (
+            "double",
+            "<NormalDistribution expectedValue=\"2\" variance=\"0\"/>".to_owned(),
+            "`variance=\"0\"` of <NormalDistribution> is not allowed, expected a number above 0",
+        ),
+        (
+            "double",
+            "<ProbabilityDistributionSet><Element value=\"0\" weight=\"1\"/><Element value=\"-0\" weight=\"1\"/></ProbabilityDistributionSet>".to_owned(),
+            "`value=\"-0\"` of <Element> is not allowed, expected a value that the set does not have yet",
+        ),
         ("int", lognormal("2"), "expected a parameter of the type double"),
         ("string", poisson("2", ""), "expected a parameter whose type is a number"),
         ("double", poisson("0", ""), "expected a number above 0"),
@@ -139,5 +149,24 @@ fn chances_that_cannot_be_are_refused_in_words() {
     ] {
         let message = of_gap(kind, &distribution).unwrap_err();
         assert!(message.contains(says), "{distribution}: {message}");
+    }
+}
+
+#[test]
+fn the_number_of_test_runs_is_there_and_a_whole_number() {
+    let count = "numberOfTestRuns=\"100\"";
+    for (by, says) in [
+        ("", "<Stochastic> has no attribute `numberOfTestRuns`, which the standard requires"),
+        (
+            "numberOfTestRuns=\"1.5\"",
+            "`numberOfTestRuns=\"1.5\"` of <Stochastic> is not allowed, expected a whole number",
+        ),
+        (
+            "numberOfTestRuns=\"1\" randomSeed=\"x\"",
+            "`randomSeed=\"x\"` of <Stochastic> is not allowed, expected a finite number",
+        ),
+    ] {
+        let message = messages_of("slow-leader-chances.xosc", &format!("{count} randomSeed=\"1\""), by);
+        assert!(message.contains(says), "{by}: {message}");
     }
 }

@@ -338,6 +338,24 @@ fn constraints_on_parameters_that_name_each_other_very_often_are_refused() {
 }
 
 #[test]
+fn a_limit_of_another_type_and_a_name_that_is_taken_are_refused_with_their_lines() {
+    for (found, by, says) in [
+        (
+            "rule=\"lessOrEqual\" value=\"50\"",
+            "rule=\"lessOrEqual\" value=\"x\"",
+            "bad.xosc:8: `value=\"x\"` of <ValueConstraint> is not allowed, expected a finite number",
+        ),
+        (
+            "<ParameterDeclaration name=\"gap\"",
+            "<ParameterDeclaration name=\"speed\"",
+            "bad.xosc:11: `name=\"speed\"` of <ParameterDeclaration> is not allowed, expected a name that no other parameter has",
+        ),
+    ] {
+        refuses(&[(found, by)], &[], &[], says);
+    }
+}
+
+#[test]
 fn the_values_of_a_range_have_the_decimals_of_the_file() {
     let set = "<DistributionSet><Element value=\"20\"/><Element value=\"50\"/></DistributionSet>";
     for (lower, step, upper, expected) in [

@@ -1,0 +1,97 @@
+//! The sensitivity of a campaign's study: from tests of its own, or from the model of its failures.
+
+use super::design::{Design, Factor, evaluated, explain, tests_within};
+use super::{Sensitivity, SensitivityFlaw, Source};
+use crate::failure_estimate::failure_model;
+use crate::likelihood::always_hold;
+use paracosm_campaign::{Campaign, Error, Log, Problem, Trial};
+use paracosm_oracles::Verdict;
+use paracosm_space::{Parameter, Point, Space, Values, plural};
+
+/// The number of pairs of tests for which a model is evaluated. A model answers at once.
+const PAIRS_OF_MODEL: usize = 4096;
+/// The robustness of a test that decided no requirement: the greatest one.
+const UNDECIDED: f64 = 10.0;
+
+/// Returns the parameters of a space, if they are independent.
+fn factors(space: &Space) -> Result<Vec<Factor>, SensitivityFlaw> {
+    if !always_hold(space) {
+        return Err(SensitivityFlaw::Constraints);
+    }
+    let factor = |parameter: &Parameter| Factor { name: parameter.name.clone(), coordinates: parameter.coordinates() };
+    Ok(space.parameters().iter().map(factor).collect())
+}
+
+/// Estimates the sensitivity of the study of a log from tests of its own, of which there are at most `budget`. The tests
+/// have the distributions of the space. `watch` receives every trial in order; its first error ends the work. The campaign must
+/// be one of the log's study.
+///
+/// # Errors
+/// No parameter is open, constraints leave a part of the space, the budget is too small, more than 5 % of the tests could not be
+/// judged, or `watch` returned an error.
+pub fn of_tests(
+    log: &Log,
+    campaign: &Campaign,
+    budget: usize,
+    seed: u64,
+    mut watch: impl FnMut(&Trial) -> Result<(), Error>,
+) -> Result<Sensitivity, Error> {
+    let (space, scales) = (log.study().space(), log.scales());
+    let factors = factors(space)?;
+    let pairs = tests_within(budget, factors.len())? / (factors.len() + 2);
+    let (mut done, mut undecided, mut problem): (usize, usize, Option<Problem>) = (0, 0, None);
+    let evaluated = evaluated(&factors, pairs, seed, &mut |points| {
+        let tests: Vec<Values> = points.iter().map(|point| space.decode(&space.at_quantiles(point))).collect();
+        let mut results = Vec::with_capacity(tests.len());
+        campaign.run_tests(&tests, done, |trial| {
+            let is_judged = !matches!(trial.verdict, Verdict::Error | Verdict::Invalid);
+            let robustness = scales.objective(trial);
+            undecided += usize::from(is_judged && robustness.is_none());
+            let quantities = vec![f64::from(u8::from(trial.is_failure())), robustness.unwrap_or(UNDECIDED)];
+            results.push(is_judged.then_some(quantities));
+            if problem.is_none() {
+                problem.clone_from(&trial.problem);
+            }
+            watch(trial)
+        })?;
+        done += tests.len();
+        Ok(results)
+    })?;
+    let Design { explained, evaluations, pairs, left_out } = evaluated.explained(&factors, problem)?;
+    let mut notes = Vec::new();
+    if undecided > 0 {
+        let tests = plural(undecided, "test");
+        notes.push(format!("{tests} decided no requirement: their robustness counts as the greatest one, {UNDECIDED}"));
+    }
+    if left_out > 0 {
+        let left_out = plural(left_out, "pair");
+        notes.push(format!("{left_out} of tests are left out, because a test could not be judged"));
+    }
+    let [failure, robustness] = <[_; 2]>::try_from(explained).expect("every test gives both quantities");
+    Ok(Sensitivity { source: Source::Tests, evaluations, pairs, failure, robustness: Some(robustness), notes })
+}
+
+/// Estimates the sensitivity of the study of a log from the model of its failures, without a test. The quantity is the
+/// probability that a test fails.
+///
+/// # Errors
+/// No parameter is open, constraints leave a part of the space, or there is no model, because no test failed or no test passed.
+pub fn of_model(log: &Log, seed: u64) -> Result<Sensitivity, Error> {
+    let space = log.study().space();
+    let factors = factors(space)?;
+    let Some(model) = failure_model(log)? else {
+        let why = if log.trials().iter().any(Trial::is_failure) { "no test passed" } else { "no test failed" };
+        return Err(SensitivityFlaw::NoModel { why }.into());
+    };
+    let Design { explained, evaluations, pairs, .. } = explain(&factors, PAIRS_OF_MODEL, seed, &mut |points| {
+        let points: Vec<Point> = points.iter().map(|point| space.at_quantiles(point)).collect();
+        Ok(model.probabilities(&points).into_iter().map(|probability| Some(vec![probability])).collect())
+    })?;
+    let notes = vec![
+        "the intervals count the error of the sample, and not the error of the model; tests of its own have no error of a model"
+            .to_owned(),
+    ];
+    let [failure] = <[_; 1]>::try_from(explained).expect("a model gives one quantity");
+    let source = Source::FailureModel { tests: log.trials().len() };
+    Ok(Sensitivity { source, evaluations, pairs, failure, robustness: None, notes })
+}
