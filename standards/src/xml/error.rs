@@ -201,7 +201,7 @@ pub enum Flaw {
         flaw: ExpressionFlaw,
     },
     /// A folder that an element names cannot be read.
-    #[error("the folder {} cannot be read: {error}", folder.display())]
+    #[error("the folder {} of <Directory> cannot be read, expected a folder of catalogs: {error}", folder.display())]
     Folder {
         /// The path of the folder.
         folder: PathBuf,
