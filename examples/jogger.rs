@@ -24,7 +24,8 @@ fn jogger(s: &mut Scenario) {
 fn main() -> Result<(), Error> {
     let study = Study::of(Program::new("jogger", "a jogger crosses the road", jogger)).budget(100).build()?;
     for failure in Campaign::new(&study)?.into_log()?.trials().iter().filter(|trial| trial.is_failure()) {
-        println!("{}", serde_json::to_string(&failure.test).expect("a test is always JSON"));
+        let values: Vec<String> = failure.test.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        println!("{}", values.join(", "));
     }
     Ok(())
 }

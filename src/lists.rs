@@ -1,6 +1,7 @@
 //! Lists of the named scenarios, strategies, drivers, measures, sensors and camera settings, read from their
 //! descriptors. `paracosm-fuzz list` and the tables of documents show these lists.
 
+use crate::Catalogue;
 use crate::campaign::study::ListedDriver;
 use crate::coverage::Measure;
 use crate::engine::{Program, sensor};
@@ -9,7 +10,7 @@ use crate::generators::Strategy;
 /// Lists of the named scenarios, strategies, drivers, measures, sensors and camera settings.
 #[derive(Debug, Clone)]
 pub struct Lists {
-    /// The scenarios that come with the software.
+    /// The scenarios of the catalogue.
     pub scenarios: Vec<Program>,
     /// The strategies, which choose tests.
     pub strategies: Vec<Strategy>,
@@ -25,10 +26,10 @@ pub struct Lists {
 }
 
 impl Lists {
-    /// Returns the lists of all scenarios, strategies and other named parts that come with the software.
-    pub fn of_this_software() -> Self {
+    /// Returns the lists of the scenarios of a catalogue, and of all strategies and other named parts.
+    pub fn of(catalogue: &Catalogue) -> Self {
         Self {
-            scenarios: crate::catalogue().programs().to_vec(),
+            scenarios: catalogue.programs().to_vec(),
             strategies: Strategy::all().collect(),
             drivers: ListedDriver::all().collect(),
             measures: Measure::all().collect(),

@@ -172,6 +172,22 @@ fn declared(s: &mut Scenario) {
 }
 
 #[test]
+fn a_parameter_has_the_operators_and_the_methods_of_streams() {
+    let seen = run(
+        |s| {
+            rolling(s);
+            let speed = s.interval("speed", 1.0..=6.0).default(2.0);
+            let sum: Stream<f64> = &speed + 1.0 - (-&speed) * 2.0 / &speed + 3.0 * &speed;
+            // A method of streams, and a parameter where a reference to a stream is expected.
+            let fast = sum.when(&speed.at_least(3.0));
+            record(s, &fast.merge(&sum.when(&speed)));
+        },
+        &[("speed", Value::Number(2.0))].into_iter().collect::<Values>(),
+    );
+    assert_eq!(seen.unwrap().first(), Some(&11.0));
+}
+
+#[test]
 fn a_program_declares_signals_and_reads_them_as_any_parameter() {
     let program = Program::new("streams", "streams", declared);
     let declaration = program.declare().unwrap();

@@ -1,5 +1,5 @@
 //! Says how well a set of tests covers its space.
 
 fn main() -> std::process::ExitCode {
-    paracosm::cli::cover()
+    paracosm::cli::cover(&paracosm::catalogue())
 }

@@ -16,7 +16,7 @@ use paracosm_analysis::audit::{
     SuiteFlaw, Witness,
 };
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Error, Study, Worker, tests_as_csv};
+use paracosm_campaign::{Artefact, Catalogue, Error, Study, Worker, tests_as_csv};
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_space::{Record, Values};
 use std::num::NonZeroUsize;
@@ -101,12 +101,12 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let sources = self.tests.iter().map(|text| text.parse()).collect::<Result<Vec<Source>, SuiteFlaw>>();
         let sources = sources.map_err(Error::from)?;
         let limit = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
         AuditFolder::check(&self.out, self.resume).map_err(Error::from)?;
-        let (study, mut suites) = self.suites(&sources, verbosity)?;
+        let (study, mut suites) = self.suites(&sources, catalogue, verbosity)?;
         if self.compare {
             let (others, refusals) = suites[0].rivals(&study);
             refusals.iter().for_each(|refusal| verbosity.note(format_args!("not compared: {refusal}")));
@@ -170,13 +170,17 @@ impl Options {
 
     /// Returns the study and its suites. Without a named suite, the suite is that of the scenario's listed values, and the study has
     /// their intervals open.
-    fn suites(&self, sources: &[Source], verbosity: Verbosity) -> Result<(Study, Vec<Suite>), Error> {
-        let builder = self.subject.study(verbosity)?;
+    fn suites(
+        &self,
+        sources: &[Source],
+        catalogue: &Catalogue,
+        verbosity: Verbosity,
+    ) -> Result<(Study, Vec<Suite>), Error> {
+        let builder = self.subject.study(catalogue, verbosity)?;
         if !sources.is_empty() {
             let study = builder.build()?;
-            let catalogue = crate::catalogue();
             let suites =
-                sources.iter().map(|source| Suite::of(source, &study, &catalogue)).collect::<Result<_, Error>>()?;
+                sources.iter().map(|source| Suite::of(source, &study, catalogue)).collect::<Result<_, Error>>()?;
             return Ok((study, suites));
         }
         let (study, suite) = Suite::of_listed(&builder)?;

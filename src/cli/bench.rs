@@ -12,7 +12,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::bench::{Bench, ReferenceMap, Row, Rows, Target, USUAL};
 use paracosm_campaign::files::create_folder;
-use paracosm_campaign::{Error, Study};
+use paracosm_campaign::{Catalogue, Error, Study};
 use paracosm_report::shell_word;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -112,8 +112,8 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let bench = self.bench(verbosity)?;
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let bench = self.bench(catalogue, verbosity)?;
         bench.check()?;
         let kept = json!({"folder": self.reference, "tests": self.reference_tests});
         let (mut rows, known) = if self.resume {
@@ -153,15 +153,15 @@ impl Options {
         Ok(Status::Nothing)
     }
 
-    fn bench(&self, verbosity: Verbosity) -> Result<Bench, Error> {
+    fn bench(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Bench, Error> {
         let strategy = |name: &String| Ok(name.parse::<Strategy>()?);
         let strategies: Vec<Strategy> = match self.strategies.as_slice() {
             [] => USUAL.to_vec(),
             names => names.iter().map(strategy).collect::<Result<_, Error>>()?,
         };
         let targets = match self.scenarios.as_slice() {
-            [] => vec![Target::study(self.subject.name(), self.study(&self.subject, verbosity)?)],
-            names => names.iter().map(|name| self.target(name, verbosity)).collect::<Result<_, _>>()?,
+            [] => vec![Target::study(self.subject.name(), self.study(&self.subject, catalogue, verbosity)?)],
+            names => names.iter().map(|name| self.target(name, catalogue, verbosity)).collect::<Result<_, _>>()?,
         };
         let usual = Bench::of(&strategies, targets)?;
         let baseline = self.baseline.as_ref().map(strategy).transpose()?.unwrap_or(usual.baseline);
@@ -169,20 +169,19 @@ impl Options {
         Ok(Bench { budget, seeds, first_seed, batch, baseline, ..usual })
     }
 
-    fn study(&self, subject: &Subject, verbosity: Verbosity) -> Result<Study, Error> {
-        let study = subject.study(verbosity)?.build()?;
+    fn study(&self, subject: &Subject, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Study, Error> {
+        let study = subject.study(catalogue, verbosity)?.build()?;
         subject.note_before(&study, verbosity)?;
         Ok(study)
     }
 
     /// Returns the scenario, with its parameters to open, or the function of this name.
-    fn target(&self, text: &str, verbosity: Verbosity) -> Result<Target, Error> {
+    fn target(&self, text: &str, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Target, Error> {
         if let Some(function) = Function::ALL.into_iter().find(|function| function.name == text) {
             return Ok(Target::function(function));
         }
         let mut parts = text.split('+').map(str::to_owned);
         let scenario = parts.next().unwrap_or_default();
-        let catalogue = crate::catalogue();
         let programs = catalogue.programs();
         if programs.iter().all(|program| program.name() != scenario) {
             let functions = Function::ALL.map(|function| function.name);
@@ -191,7 +190,7 @@ impl Options {
             let message = format!("no scenario or function is called `{scenario}`{hint}");
             return Err(usage(format!("{message}; `paracosm-fuzz list` and `bench --help` show them all")));
         }
-        Ok(Target::study(text, self.study(&self.subject.on(&scenario, parts), verbosity)?))
+        Ok(Target::study(text, self.study(&self.subject.on(&scenario, parts), catalogue, verbosity)?))
     }
 
     /// Returns the maps of all scenarios. A map that does not exist is made and kept.

@@ -8,7 +8,7 @@ use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
 use clap::Args;
 use paracosm_analysis::blame::{Blame, Blamed, Inquiry, Preventability, REFERENCES};
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Log, Study, Trial};
+use paracosm_campaign::{Artefact, Catalogue, Log, Study, Trial};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{BlameTable, FailureMap};
 use std::num::NonZeroUsize;
@@ -57,8 +57,8 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let log = Log::read(&self.dir, catalogue)?.trusting(&self.trust.trust());
         let study = log.study();
         let references: Vec<&str> = self.driver.iter().map(String::as_str).collect();
         let mut inquiry = Inquiry::new(study, &references)?;

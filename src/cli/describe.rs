@@ -9,7 +9,7 @@ use crate::oracles::signal;
 use crate::space::Value;
 use crate::standards::opendrive;
 use clap::Args;
-use paracosm_campaign::{Error, Study};
+use paracosm_campaign::{Catalogue, Error, Study};
 use paracosm_report::{birds_eye, plot};
 use serde_json::json;
 use std::path::PathBuf;
@@ -33,8 +33,8 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let study = self.subject.study(verbosity)?.maybe_one_test().build()?;
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let study = self.subject.study(catalogue, verbosity)?.maybe_one_test().build()?;
         self.subject.note_unjudged(&study, verbosity);
         let program = study.program()?;
         let declaration = program.declare()?;

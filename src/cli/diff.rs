@@ -6,7 +6,7 @@ use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use paracosm_analysis::Difference;
 use paracosm_analysis::difference::{Changed, Loss, MarginChange, ModeCount};
-use paracosm_campaign::Log;
+use paracosm_campaign::{Catalogue, Log};
 use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
@@ -41,9 +41,8 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let catalogue = crate::catalogue();
-        let [before, after] = [&self.before, &self.after].map(|folder| Log::read(folder, &catalogue));
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let [before, after] = [&self.before, &self.after].map(|folder| Log::read(folder, catalogue));
         let difference = Difference::of(&before?, &after?)?;
         let [only_before, only_after] = difference.unpaired;
         if only_before + only_after > 0 {

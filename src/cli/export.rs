@@ -8,7 +8,7 @@ use crate::standards::opendrive;
 use crate::standards::openscenario::{Concrete, DATE, EgoAs, Export, Xosc};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::files::{create_folder, is_new, write_whole_here};
-use paracosm_campaign::{Error, Log, Reason, Study, Trial, Worker};
+use paracosm_campaign::{Catalogue, Error, Log, Reason, Study, Trial, Worker};
 use std::path::{Path, PathBuf};
 
 pub(super) const EXAMPLES: &str = "\
@@ -65,8 +65,8 @@ enum ExportFlaw {
 impl Reason for ExportFlaw {}
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let log = Log::read(&self.dir, catalogue)?.trusting(&self.trust.trust());
         let (study, logged) = (log.study(), logged(&self.dir, &log, self.index)?);
         let stem = self.out.file_name().and_then(|name| name.to_str()).unwrap_or(SCENARIO);
         let files = [self.out.join(format!("{stem}.{XOSC}")), self.out.join(ROADS)];

@@ -5,6 +5,7 @@ use super::{
     perceive, record, replay, roads, run, sensitivity, shrink, trace,
 };
 use clap::{Parser, Subcommand};
+use paracosm_campaign::Catalogue;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -182,26 +183,26 @@ enum Verb {
 }
 
 impl Command {
-    pub fn execute(self) -> Result<Status, Failure> {
+    pub fn execute(self, catalogue: &Catalogue) -> Result<Status, Failure> {
         match self.verb {
-            None => self.run.execute(self.verbosity),
-            Some(Verb::Run(options)) => options.execute(self.verbosity),
-            Some(Verb::Likelihood(options)) => options.execute(self.verbosity),
-            Some(Verb::Audit(options)) => options.execute(self.verbosity),
-            Some(Verb::Bench(options)) => options.execute(self.verbosity),
-            Some(Verb::List(options)) => options.execute(),
-            Some(Verb::Describe(options)) => options.execute(self.verbosity),
-            Some(Verb::Map(options)) => options.execute(self.verbosity),
-            Some(Verb::Replay(options)) => options.execute(self.verbosity),
-            Some(Verb::Export(options)) => options.execute(self.verbosity),
-            Some(Verb::Shrink(options)) => options.execute(self.verbosity),
-            Some(Verb::Blame(options)) => options.execute(self.verbosity),
-            Some(Verb::Sensitivity(options)) => options.execute(self.verbosity),
-            Some(Verb::Diff(options)) => options.execute(self.verbosity),
-            Some(Verb::Trace(options)) => options.execute(),
+            None => self.run.execute(catalogue, self.verbosity),
+            Some(Verb::Run(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Likelihood(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Audit(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Bench(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::List(options)) => options.execute(catalogue),
+            Some(Verb::Describe(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Map(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Replay(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Export(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Shrink(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Blame(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Sensitivity(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Diff(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Trace(options)) => options.execute(catalogue),
             Some(Verb::Monitor(options)) => options.execute(self.verbosity),
-            Some(Verb::Record(options)) => options.execute(self.verbosity),
-            Some(Verb::Perceive(options)) => options.execute(self.verbosity),
+            Some(Verb::Record(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Perceive(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Roads(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
         }

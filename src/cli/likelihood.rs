@@ -9,7 +9,7 @@ use super::{Failure, Status, Verbosity, on_interrupt, perceiver, print};
 use crate::space::{Distribution, Domain, Parameter, Record};
 use clap::Args;
 use paracosm_analysis::likelihood::{Likelihood, Method, Question, of_study};
-use paracosm_campaign::{Campaign, Error, Study};
+use paracosm_campaign::{Campaign, Catalogue, Error, Study};
 use serde::Serialize;
 use std::num::NonZeroUsize;
 
@@ -77,8 +77,8 @@ struct Report<'a> {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let study = self.study(verbosity)?;
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let study = self.study(catalogue, verbosity)?;
         let method: Method = self.method.parse()?;
         let question = Question { method, budget: self.budget, confidence: self.confidence, seed: self.seed };
         let mut campaign = Campaign::new(&study)?;
@@ -109,9 +109,9 @@ impl Options {
         Ok(Status::Nothing)
     }
 
-    fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
+    fn study(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Study, Error> {
         self.perceiver.check(&self.subject)?;
-        let mut study = self.perceiver.seen(self.subject.study(verbosity)?)?;
+        let mut study = self.perceiver.seen(self.subject.study(catalogue, verbosity)?)?;
         for text in &self.distribution {
             let (name, distribution) = text.split_once('=').ok_or_else(|| {
                 usage(format!("--distribution {text}: expected NAME=DISTRIBUTION, such as speed=beta:2,5"))

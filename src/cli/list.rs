@@ -5,13 +5,13 @@ mod standards;
 
 use super::output::{digits, domain_words, json, value_words};
 use super::{Failure, Status, print};
-use crate::Lists;
 use crate::campaign::study::ListedDriver;
 use crate::engine::driver::Setting;
 use crate::engine::sensor::CameraSetting;
 use crate::engine::{Declaration, Declared, Program};
 use crate::space::Parameter;
 use crate::standards::{opendrive, openscenario};
+use crate::{Catalogue, Lists};
 use clap::{Args, ValueEnum};
 use markdown::{markdown, named};
 use serde_json::json;
@@ -69,8 +69,8 @@ impl ListKind {
 }
 
 impl Options {
-    pub fn execute(&self) -> Result<Status, Failure> {
-        let lists = Lists::of_this_software();
+    pub fn execute(&self, catalogue: &Catalogue) -> Result<Status, Failure> {
+        let lists = Lists::of(catalogue);
         let kinds = self.kind.map_or_else(|| ListKind::NAMED.to_vec(), |kind| vec![kind]);
         let text = match self.format {
             form if self.kind == Some(ListKind::Opendrive) => standard(opendrive::elements(), &standards::ROADS, form),

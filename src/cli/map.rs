@@ -7,7 +7,7 @@ use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use paracosm_analysis::{Effects, explanation, failure_estimate};
 use paracosm_campaign::files::write_whole_here;
-use paracosm_campaign::{Artefact, Error, JsonArtefact, Log};
+use paracosm_campaign::{Artefact, Catalogue, Error, JsonArtefact, Log};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{FailureMap, Picture};
 use serde_json::json;
@@ -43,10 +43,10 @@ pub(super) struct Axes {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Csv];
         let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds, &[])).transpose()?;
-        let log = Log::read(&self.dir, &crate::catalogue())?;
+        let log = Log::read(&self.dir, catalogue)?;
         let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
         let [x, y] = self.axes.find(&log)?.ok_or_else(|| usage(nowhere.into()))?;
         let effects = Effects::read(&self.dir)?;

@@ -43,7 +43,7 @@ mod trust;
 use clap::Args;
 use interrupt::on_interrupt;
 use paracosm_campaign::executor::WORKER;
-use paracosm_campaign::{Error, Log, Reason, SpaceFile, Study};
+use paracosm_campaign::{Catalogue, Error, Log, Reason, SpaceFile, Study};
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -107,10 +107,9 @@ impl Strict {
     ///
     /// # Errors
     /// The file cannot be read or is not valid; or the file has notes and `--strict` is given.
-    fn read(self, path: &Path, verbosity: Verbosity) -> Result<SpaceFile, Error> {
-        let catalogue = crate::catalogue();
+    fn read(self, path: &Path, catalogue: &Catalogue, verbosity: Verbosity) -> Result<SpaceFile, Error> {
         let file = if path.is_dir() {
-            SpaceFile::from(Log::read(path, &catalogue)?.study().space().clone())
+            SpaceFile::from(Log::read(path, catalogue)?.study().space().clone())
         } else if let Some(name) = path.to_str().filter(|name| path.exists() && catalogue.knows(name)) {
             SpaceFile::from(Study::of(catalogue.find(name)?).build()?.space().clone())
         } else {
@@ -155,17 +154,26 @@ fn usage(message: String) -> Error {
     Usage(message).into()
 }
 
-/// Runs the program `paracosm-fuzz`.
-pub fn fuzz() -> ExitCode {
+/// Runs the program `paracosm-fuzz` with the scenarios of a catalogue. A program of one's own has all commands of `paracosm-fuzz`
+/// for its own scenarios if its `main` calls this function:
+///
+/// ```no_run
+/// # use paracosm::engine::{Program, Scenario};
+/// # fn jogger(_: &mut Scenario) {}
+/// fn main() -> std::process::ExitCode {
+///     paracosm::cli::fuzz(&paracosm::catalogue().with(Program::new("jogger", "a jogger crosses", jogger)))
+/// }
+/// ```
+pub fn fuzz(catalogue: &Catalogue) -> ExitCode {
     quiet_workers();
     interrupt::listen();
-    exit(arguments::parse::<fuzz::Command>().execute())
+    exit(arguments::parse::<fuzz::Command>().execute(catalogue))
 }
 
-/// Runs the program `paracosm-cover`.
-pub fn cover() -> ExitCode {
+/// Runs the program `paracosm-cover` with the scenarios of a catalogue, whose spaces it can measure.
+pub fn cover(catalogue: &Catalogue) -> ExitCode {
     interrupt::listen();
-    exit(arguments::parse::<cover::Command>().execute().map(|()| Status::Nothing))
+    exit(arguments::parse::<cover::Command>().execute(catalogue).map(|()| Status::Nothing))
 }
 
 fn exit(result: Result<Status, Failure>) -> ExitCode {

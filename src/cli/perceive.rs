@@ -3,6 +3,7 @@
 use super::usage;
 use super::{Failure, Status, Verbosity, perceiver, run};
 use clap::Args;
+use paracosm_campaign::Catalogue;
 use paracosm_perception::{Detector, Segmenter, Task};
 
 const EXAMPLES: &str = "\
@@ -39,13 +40,13 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         self.perceiver.check(&self.run.subject)?;
         if !self.perceiver.are_given() {
             let message = "expected a perceiver: --perceiver MODEL.onnx or --perceiver-command COMMAND";
             return Err(usage(message.into()).into());
         }
-        let conducted = self.run.conduct(verbosity, |study| self.perceiver.seen(study))?;
+        let conducted = self.run.conduct(catalogue, verbosity, |study| self.perceiver.seen(study))?;
         Ok(conducted.found)
     }
 }

@@ -8,7 +8,7 @@ use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras, standard_cameras_file};
-use paracosm_campaign::{Error, Trial, Worker};
+use paracosm_campaign::{Catalogue, Error, Trial, Worker};
 use paracosm_report::record::{Dataset, Kept, Projector};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -63,7 +63,7 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         if self.print_cameras {
             return print(&standard_cameras_file()).map(|()| Status::Nothing);
         }
@@ -80,7 +80,7 @@ impl Options {
         let kept: Kept = self.outputs.parse()?;
         // A missing adapter is reported before a long campaign, not after it.
         let mut projector = Projector::new(cameras.nominal(), kept.outputs())?;
-        let conducted = self.run.conduct(verbosity, |study| Ok(study.open_cameras(&cameras)))?;
+        let conducted = self.run.conduct(catalogue, verbosity, |study| Ok(study.open_cameras(&cameras)))?;
         let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
         self.record(&conducted, &dataset, &mut projector, verbosity)?;
         Ok(conducted.found)

@@ -6,7 +6,7 @@ use super::usage;
 use super::{Failure, Status, print};
 use crate::oracles::Verdict;
 use paracosm_campaign::files::write_whole;
-use paracosm_campaign::{Error, Expectation, Regression, Replayed, Study, Trial, Trust};
+use paracosm_campaign::{Catalogue, Error, Expectation, Regression, Replayed, Study, Trial, Trust};
 use paracosm_report::junit::{Case, End};
 use paracosm_report::{Junit, command_option, shell_word};
 use serde_json::json;
@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 /// becomes the error of the command.
 pub(super) fn replay(
     files: &[PathBuf],
+    catalogue: &Catalogue,
     trust: &Trust,
     expect: Option<Expectation>,
     junit: Option<&Path>,
@@ -28,7 +29,7 @@ pub(super) fn replay(
     junit.map_or(Ok(()), |path| is_report(path, files))?;
     let mut regressions = Vec::new();
     for file in files {
-        let mut regression = Regression::read(file, &crate::catalogue())?.trusting(trust);
+        let mut regression = Regression::read(file, catalogue)?.trusting(trust);
         regression.expect = expect.unwrap_or(regression.expect);
         regressions.push((file, regression));
     }

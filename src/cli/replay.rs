@@ -10,7 +10,9 @@ use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
 use paracosm_campaign::cameras::{VariedCameras, cameras_for_people, read_cameras};
 use paracosm_campaign::files::is_no_link;
-use paracosm_campaign::{Error, Expectation, Log, Metric, Replayed, Study, Subject, Trial, Worker, write_trace};
+use paracosm_campaign::{
+    Catalogue, Error, Expectation, Log, Metric, Replayed, Study, Subject, Trial, Worker, write_trace,
+};
 use paracosm_render::Look;
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::plot;
@@ -77,9 +79,9 @@ enum Ending {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let found = match self.what.as_slice() {
-            [dir, index] if !dir.is_file() => self.replay(dir, parse_index(index)?, verbosity)?,
+            [dir, index] if !dir.is_file() => self.replay(dir, parse_index(index)?, catalogue, verbosity)?,
             [dir] if dir.is_dir() => {
                 let message = format!("{} is a folder: expected the index of a test after it", dir.display());
                 return Err(usage(message).into());
@@ -96,6 +98,7 @@ impl Options {
                 };
                 regressions::replay(
                     files,
+                    catalogue,
                     &self.trust.trust(),
                     expect,
                     self.junit.as_deref(),
@@ -108,7 +111,7 @@ impl Options {
     }
 
     /// Runs a logged test again.
-    fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Status, Failure> {
+    fn replay(&self, dir: &Path, index: usize, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let only_files = [
             ("--expect", self.expect.is_some()),
             ("--junit", self.junit.is_some()),
@@ -118,7 +121,7 @@ impl Options {
             let message = format!("{option} is for regression files; for a test of a campaign the log has the verdict");
             return Err(usage(message).into());
         }
-        let log = Log::read(dir, &crate::catalogue())?.trusting(&self.trust.trust());
+        let log = Log::read(dir, catalogue)?.trusting(&self.trust.trust());
         let (study, logged) = (log.study(), logged(dir, &log, index)?);
         let inputs: Vec<&Path> = self.cameras.as_deref().into_iter().collect();
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Gif];

@@ -12,7 +12,7 @@ use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
-use paracosm_campaign::{Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder};
+use paracosm_campaign::{Catalogue, Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -97,20 +97,21 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        self.conduct(verbosity, Ok).map(|conducted| conducted.found)
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        self.conduct(catalogue, verbosity, Ok).map(|conducted| conducted.found)
     }
 
     /// Runs the campaign and prints its summary. `prepare` may open more parameters.
     pub fn conduct(
         &self,
+        catalogue: &Catalogue,
         verbosity: Verbosity,
         prepare: impl FnOnce(StudyBuilder) -> Result<StudyBuilder, Error>,
     ) -> Result<Conducted, Failure> {
         if self.resume {
-            self.is_no_folder()?;
+            self.is_no_folder(catalogue)?;
         }
-        let study = prepare(self.subject.study(verbosity)?)?.sampling(self.sampling()?);
+        let study = prepare(self.subject.study(catalogue, verbosity)?)?.sampling(self.sampling()?);
         let study = self.reference.iter().fold(study, |study, name| study.reference(name)).maybe_one_test().build()?;
         note_one_test(&study, verbosity);
         self.subject.note_before(&study, verbosity)?;
@@ -227,9 +228,9 @@ impl Options {
     }
 
     /// Checks that the scenario to resume is not the name of a folder.
-    fn is_no_folder(&self) -> Result<(), Error> {
+    fn is_no_folder(&self, catalogue: &Catalogue) -> Result<(), Error> {
         let name = self.subject.name();
-        if self.subject.is_system() || crate::catalogue().knows(name) {
+        if self.subject.is_system() || catalogue.knows(name) {
             return Ok(());
         }
         let folder = Path::new(name);
@@ -245,7 +246,6 @@ impl Options {
         there.sort();
         let names: Vec<String> = there.iter().map(|folder| folder.display().to_string()).collect();
         let meant = nearest(name, names.iter().map(String::as_str)).map(|folder| format!("--out {folder} --resume"));
-        let catalogue = crate::catalogue();
         let scenario =
             nearest(name, catalogue.programs().iter().map(paracosm_engine::Program::name)).map(str::to_owned);
         let meant = did_you_mean(&meant.or(scenario));

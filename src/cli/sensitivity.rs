@@ -8,7 +8,7 @@ use clap::Args;
 use paracosm_analysis::sensitivity::{
     Explained, Index, Indices, Sensitivity, Source, of_model, of_tests, tests_within,
 };
-use paracosm_campaign::{Campaign, Log};
+use paracosm_campaign::{Campaign, Catalogue, Log};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -52,8 +52,8 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = Log::read(&self.dir, &crate::catalogue())?.trusting(&self.trust.trust());
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let log = Log::read(&self.dir, catalogue)?.trusting(&self.trust.trust());
         let sensitivity = match self.budget {
             Some(budget) => self.of_tests(&log, budget, verbosity)?,
             None => of_model(&log, self.seed)?,

@@ -12,7 +12,7 @@ use crate::standards::openscenario::{DURATION, EGO};
 use clap::Args;
 use paracosm_analysis::effects::foreseen;
 use paracosm_campaign::study::Variation;
-use paracosm_campaign::{Error, StatedRequirement, Study, StudyBuilder};
+use paracosm_campaign::{Catalogue, Error, StatedRequirement, Study, StudyBuilder};
 use std::path::Path;
 use std::path::PathBuf;
 
@@ -117,10 +117,10 @@ impl Subject {
     }
 
     /// Begins a study of the subject with these options.
-    pub fn study(&self, verbosity: Verbosity) -> Result<StudyBuilder, Error> {
-        let mut study = match self.system.study(verbosity)? {
+    pub fn study(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<StudyBuilder, Error> {
+        let mut study = match self.system.study(catalogue, verbosity)? {
             Some(study) => study,
-            None => self.driven(Study::of(crate::catalogue().find(&self.scenario)?)),
+            None => self.driven(Study::of(catalogue.find(&self.scenario)?)),
         };
         if self.continuous {
             study = study.continuous();

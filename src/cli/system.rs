@@ -5,7 +5,7 @@ use super::usage;
 use super::{Strict, Verbosity};
 use crate::space::demand::Demand;
 use clap::Args;
-use paracosm_campaign::{BlackBox, Error, SpaceFile, Study, StudyBuilder, is_model};
+use paracosm_campaign::{BlackBox, Catalogue, Error, SpaceFile, Study, StudyBuilder, is_model};
 use std::path::PathBuf;
 
 /// A system in its own process, and the space of its tests.
@@ -49,10 +49,10 @@ impl System {
     }
 
     /// Begins a study of the system under test, if the user gave a system.
-    pub fn study(&self, verbosity: Verbosity) -> Result<Option<StudyBuilder>, Error> {
+    pub fn study(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Option<StudyBuilder>, Error> {
         let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };
         let system = BlackBox::new(command, self.timeout)?;
-        let SpaceFile { space, demand, .. } = self.strict.read(path, verbosity)?;
+        let SpaceFile { space, demand, .. } = self.strict.read(path, catalogue, verbosity)?;
         if demand != Demand::default() {
             let message = "the model has sub-models or negative values (`~`), which campaigns do not support; \
                            `paracosm-cover generate` makes such tests";

@@ -8,6 +8,7 @@ mod constraint;
 mod draft;
 mod ego;
 mod environment;
+mod operators;
 mod param;
 mod reach;
 mod requirement;

@@ -10,9 +10,9 @@ use crate::flaw::{Flaws, WorldFlaw};
 use crate::stream::{Datum, DatumSample, NodeKind, Stream, samples};
 use crate::test::{Declared, entry};
 use paracosm_space::{Domain, Shape, Value};
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::fmt;
-use std::ops::RangeInclusive;
+use std::ops::{Deref, RangeInclusive};
 use std::rc::Rc;
 
 /// A parameter with the value that the test gives the parameter. `T` is the type of its values: a number, a word, or
@@ -27,6 +27,8 @@ pub struct Param<T> {
     atmospheric: bool,
     given: Given,
     read: Read<T>,
+    /// The parameter as a stream, once a method or an operator of streams was used on it.
+    as_stream: OnceCell<Stream<T>>,
 }
 
 /// Hashes of the test, as far as the program asks for its parameters: [`Test::key`](crate::Test::key). 0 without a test.
@@ -93,7 +95,8 @@ impl<T: Clone> Param<T> {
         let Scenario { parameters, uses, flaws, keys, .. } = scenario;
         let (declared, uses, flaws, keys) = (parameters.clone(), uses.clone(), flaws.clone(), keys.clone());
         let index = declared.borrow().len() - 1;
-        let parameter = Self { declared, uses, index, flaws, keys, atmospheric: false, given, read };
+        let parameter =
+            Self { declared, uses, index, flaws, keys, atmospheric: false, given, read, as_stream: OnceCell::new() };
         for value in parameter.given.value.iter().flat_map(Value::scalars) {
             if (parameter.read.with)(value).is_none() {
                 parameter.flaw(WorldFlaw::OtherType { parameter: parameter.name(), value: value.clone() });
@@ -229,6 +232,15 @@ impl<T: Datum> Param<T> {
 impl<T> fmt::Debug for Param<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?}: {:?}", self.declared.borrow()[self.index].parameter.name, self.given)
+    }
+}
+
+/// A parameter has the methods of its stream, and stands where a reference to a stream is expected.
+impl<T: Datum> Deref for Param<T> {
+    type Target = Stream<T>;
+
+    fn deref(&self) -> &Stream<T> {
+        self.as_stream.get_or_init(|| self.stream())
     }
 }
 

@@ -11,7 +11,7 @@ use crate::space::{Parameter, Space};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::Coverage;
-use paracosm_campaign::{Error, TestSet, read_tests};
+use paracosm_campaign::{Catalogue, Error, TestSet, read_tests};
 use paracosm_coverage::Measure;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -88,13 +88,13 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<(), Failure> {
         let limit = time_limit("--time-limit", self.time_limit)?;
         let inputs: Vec<&Path> = [&self.tests, &self.space].into_iter().flatten().map(PathBuf::as_path).collect();
         self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file, &inputs))?;
         let (mut tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
-            None => self.read(verbosity)?,
+            None => self.read(catalogue, verbosity)?,
         };
         if tests.space.dims() > 0 {
             broken(&tests.space, &tests.points, &source).into_iter().for_each(|note| verbosity.note(note));
@@ -137,9 +137,9 @@ impl Options {
         })
     }
 
-    fn read(&self, verbosity: Verbosity) -> Result<(TestSet, String), Error> {
+    fn read(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<(TestSet, String), Error> {
         let path = self.tests.clone().unwrap_or_else(|| "paracosm-out".into());
-        let space = self.space.as_deref().map(|path| self.strict.read(path, verbosity)).transpose()?;
+        let space = self.space.as_deref().map(|path| self.strict.read(path, catalogue, verbosity)).transpose()?;
         Ok((read_tests(&path, space)?, path.display().to_string()))
     }
 

@@ -15,7 +15,7 @@ use crate::space::{Point, Space};
 use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::Promise;
-use paracosm_campaign::{Error, SpaceFile, TestSet};
+use paracosm_campaign::{Catalogue, Error, SpaceFile, TestSet};
 use std::collections::HashSet;
 use std::io;
 use std::path::PathBuf;
@@ -82,9 +82,9 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<(), Failure> {
         let file = match (&self.space, self.dims) {
-            (Some(path), _) => Some(self.strict.read(path, verbosity)?),
+            (Some(path), _) => Some(self.strict.read(path, catalogue, verbosity)?),
             (None, Some(dims)) => {
                 TestSet::check_size(1, dims)?;
                 Some(SpaceFile::from(Space::unit_cube(dims)))

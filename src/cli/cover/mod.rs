@@ -13,7 +13,7 @@ use super::{Failure, Verbosity};
 use crate::cli::usage;
 use crate::generators::Strategy;
 use clap::{Parser, Subcommand};
-use paracosm_campaign::Error;
+use paracosm_campaign::{Catalogue, Error};
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -63,12 +63,12 @@ enum Verb {
 }
 
 impl Command {
-    pub fn execute(self) -> Result<(), Failure> {
+    pub fn execute(self, catalogue: &Catalogue) -> Result<(), Failure> {
         match self.verb {
-            Verb::Estimate(estimate) => estimate.execute(self.verbosity),
-            Verb::Generate(generate) => generate.execute(self.verbosity),
+            Verb::Estimate(estimate) => estimate.execute(catalogue, self.verbosity),
+            Verb::Generate(generate) => generate.execute(catalogue, self.verbosity),
             Verb::Compare(compare) => compare.execute(self.verbosity),
-            Verb::Plan(plan) => plan.execute(self.verbosity),
+            Verb::Plan(plan) => plan.execute(catalogue, self.verbosity),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::generators::Request;
 use crate::space::Space;
 use clap::{ArgGroup, Args};
 use paracosm_analysis::{Guarantee, Need, Plan};
-use paracosm_campaign::{Error, SpaceFile, TestSet};
+use paracosm_campaign::{Catalogue, Error, SpaceFile, TestSet};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -63,9 +63,9 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<(), Failure> {
         let SpaceFile { space, mut demand, .. } = match (&self.space, self.dims.unwrap_or(0)) {
-            (Some(path), _) => self.strict.read(path, verbosity)?,
+            (Some(path), _) => self.strict.read(path, catalogue, verbosity)?,
             (None, dims) => {
                 TestSet::check_size(1, dims)?;
                 SpaceFile::from(Space::unit_cube(dims))

@@ -69,7 +69,7 @@ const SCENARIO: Program = Program::new("scratch-scenario", "a scenario of this t
 });
 
 fn with_scratch() -> Lists {
-    let mut lists = Lists::of_this_software();
+    let mut lists = Lists::of(&crate::catalogue());
     lists.scenarios.push(SCENARIO);
     lists.strategies.push(Strategy::of(&STRATEGY));
     lists.drivers.push(ListedDriver::of(&DRIVER));
@@ -117,7 +117,7 @@ fn whatever_has_a_descriptor_is_in_the_tables_of_the_documents() {
 #[test]
 fn the_page_of_names_is_what_the_command_prints() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");
-    let lists = Lists::of_this_software();
+    let lists = Lists::of(&crate::catalogue());
     let Ok(text) = markdown(&lists, ListKind::value_variants()) else { panic!("every scenario can be declared") };
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(page, &text).unwrap();
@@ -127,7 +127,7 @@ fn the_page_of_names_is_what_the_command_prints() {
 
 #[test]
 fn no_two_of_a_kind_have_the_same_name() {
-    let lists = Lists::of_this_software();
+    let lists = Lists::of(&crate::catalogue());
     let names: [Vec<&str>; 6] = [
         lists.scenarios.iter().map(Program::name).collect(),
         lists.strategies.iter().map(|it| it.name()).collect(),
