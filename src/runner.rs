@@ -1,7 +1,8 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
 use crate::analysis::{
-    Coverage, Effects, Explanation, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport, explanation,
+    Coverage, Effects, Explanation, Limit, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport,
+    explanation,
 };
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
@@ -13,11 +14,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 use thiserror::Error;
-
-/// The time limit for computing `coverage.json`.
-const COVERAGE_LIMIT: Duration = Duration::from_secs(5);
 
 /// Runs the tests of a study and writes the results into a folder. The folder gets the study, the log, the table of
 /// trials, the coverage, the failure map, the failure modes and the explanation. `paracosm-fuzz run` writes the same
@@ -118,7 +115,7 @@ impl Report {
     }
 
     fn of(log: Log, finish: Finish, summary: Summary) -> Result<Self, Error> {
-        let coverage = Coverage::of(&log.test_set()?, &Measure::all().collect::<Vec<_>>(), None, Some(COVERAGE_LIMIT))?;
+        let coverage = Coverage::of(&log.test_set()?, &Measure::all().collect::<Vec<_>>(), None, Limit::USUAL)?;
         let map = explanation::axes(&log, [None, None])?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
         let has_levels = !log.study().space().levels().is_empty();
         Ok(Self {

@@ -2,7 +2,7 @@
 //! and blame. The crate also shrinks failing tests, plans numbers of tests and compares strategies.
 //!
 //! ```
-//! use paracosm_analysis::Coverage;
+//! use paracosm_analysis::{Coverage, Limit};
 //! use paracosm_campaign::TestSet;
 //! use paracosm_coverage::Measure;
 //! use paracosm_generators::{Request, Strategy};
@@ -10,7 +10,7 @@
 //!
 //! let space = Space::unit_cube(2);
 //! let points = Strategy::HALTON.build(&Request::new(&space, 100))?.ask(100);
-//! let coverage = Coverage::of(&TestSet::new(space, points), &[Measure::DISPERSION], None, None)?;
+//! let coverage = Coverage::of(&TestSet::new(space, points), &[Measure::DISPERSION], None, Limit::None)?;
 //! let dispersion = coverage.continuous.and_then(|continuous| continuous.bracket(Measure::DISPERSION));
 //! assert!(dispersion.is_some_and(|volume| volume.upper < 0.2));
 //! # Ok::<(), paracosm_campaign::Error>(())
@@ -29,6 +29,7 @@ pub mod estimate;
 pub mod explanation;
 pub mod failure_estimate;
 pub mod likelihood;
+mod limit;
 pub mod live;
 pub mod modes;
 pub mod perceived;
@@ -48,6 +49,7 @@ pub use estimate::{
 };
 pub use explanation::{Accuracy, Explanation, Rule};
 pub use failure_estimate::FailureEstimate;
+pub use limit::Limit;
 pub use live::LiveCoverage;
 pub use modes::{CriticalFigure, Mode, Modes, Touch, ValueRange};
 pub use perceived::{Detected, Perceived, RangeRecall, Risk, Segmented};

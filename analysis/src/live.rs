@@ -98,7 +98,7 @@ mod tests {
             points.iter().for_each(|point| live.add(point).unwrap());
             let said = live.dispersion().unwrap();
             let tests = TestSet::new(space, points);
-            let measured = Coverage::of(&tests, &[Measure::DISPERSION], None, None).unwrap();
+            let measured = Coverage::of(&tests, &[Measure::DISPERSION], None, crate::Limit::None).unwrap();
             let exact = measured.continuous.unwrap().bracket(Measure::DISPERSION).unwrap().lower;
             assert!(said.lower <= exact && exact <= said.upper, "{dims}: {exact} is not in {said:?}");
             assert!(dims > 2 || said.is_exact());

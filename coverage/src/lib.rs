@@ -23,6 +23,7 @@
 //! short comes back as a certified [`Bracket`].
 
 mod bracket;
+mod deadline;
 pub mod dispersion;
 pub mod empty_boxes;
 pub mod extreme;
@@ -43,7 +44,8 @@ pub mod theory;
 pub mod valid;
 mod witness;
 
-pub use bracket::{Bracket, Deadline};
+pub use bracket::Bracket;
+pub use deadline::Deadline;
 pub use measure::{Measure, UnknownMeasure};
 pub use points::{PointSet, PointSetError};
 pub use projection::Projection;

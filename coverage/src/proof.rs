@@ -24,7 +24,7 @@
 //! share of the box. It never grows when a box shrinks, so the same tree of boxes proves a bound on shares. The margin is larger by
 //! what rounding adds to a sum over cells.
 
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::dispersion::trail;
 use crate::kwise::KwiseError;
 use crate::kwise_dispersion::projections;

@@ -7,8 +7,8 @@
 use crate::recovery::{Mark, Recalls, Recovery, failing, nearest_neighbour, recovery, straight_line};
 use crate::{Done, logged, print, write};
 use indicatif::ProgressBar;
-use paracosm::analysis::Coverage;
 use paracosm::analysis::statistics::quantile;
+use paracosm::analysis::{Coverage, Limit};
 use paracosm::campaign::Learned;
 use paracosm::coverage::Measure;
 use paracosm::generators::Strategy;
@@ -184,7 +184,7 @@ pub fn marks(study: &Study, trials: &[Trial]) -> Result<Vec<Mark>, Error> {
 }
 
 fn panel(log: Log, strategy: Strategy, seed: Option<u64>, map: &[Mark]) -> Result<Panel, Error> {
-    let coverage = Coverage::of(&log.test_set()?, &[Measure::DISPERSION, Measure::STAR], None, None)?;
+    let coverage = Coverage::of(&log.test_set()?, &[Measure::DISPERSION, Measure::STAR], None, Limit::None)?;
     let measured = coverage.continuous.expect("the study has two continuous parameters");
     Ok(Panel {
         strategy,

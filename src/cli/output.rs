@@ -188,7 +188,7 @@ fn side((name, [lo, hi]): (&str, &[f64; 2])) -> String {
 }
 
 /// The reason why a measure is not exact, with the option that gives the search more time.
-const CUT_SHORT: &str = "the time limit ended the search; `paracosm-cover estimate --time-limit` sets the limit";
+const CUT_SHORT: &str = "the limit ended the search; `paracosm-cover estimate --time-limit` sets the limit";
 
 /// Prints an exact value as one number, and a bracket as two numbers.
 pub(super) fn bracket(bracket: &Bracket) -> String {
@@ -201,7 +201,7 @@ pub(super) fn bracket(bracket: &Bracket) -> String {
 
 /// Prints the bracket of a measure that counts the valid part of a space.
 fn bracket_of_part(found: &Bracket) -> String {
-    let reason = if found.is_exact() { "" } else { " (open: edges of the valid part, or the time limit)" };
+    let reason = if found.is_exact() { "" } else { " (open: edges of the valid part, or the limit)" };
     format!("{}{reason}", short_bracket(found))
 }
 

@@ -165,7 +165,7 @@ fn values_that_the_time_limit_cut_short_say_so() {
     let arguments = ["compare", "--strategies", "random,halton", "--dims", "8", "--budgets", "300", "--seeds", "2"];
     let limited = ["--measures", "dispersion,star", "--time-limit", "0.02", "--out", "out", "--format", "table"];
     let output = succeeds(cover(dir.path(), &[arguments.as_slice(), &limited].concat()));
-    assert!(stdout(&output).contains("* cut short by the time limit"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("* cut short by the limit"), "{}", stdout(&output));
     assert!(stderr(&output).contains("cut 5 sets short"), "{}", stderr(&output));
     for set in rows(&dir.path().join("out/sets.csv")) {
         assert_eq!(set["exact"], "false");

@@ -229,7 +229,7 @@ impl<'a> Audit<'a> {
     /// Measures a suite, and finds its witness.
     fn measured(&self, suite: &Suite) -> Result<Audited, Error> {
         let tests = TestSet::new(self.study.space().clone(), suite.points.clone());
-        let mut coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, self.part())?;
+        let mut coverage = Coverage::of(&tests, &[Measure::K_WISE, Measure::DISPERSION], None, self.part().into())?;
         let holes = Holes::of(suite, self.study, self.deadline())?;
         let certificate = certified::certificate(&tests, &holes, self.deadline());
         let search = witness::Search { study: self.study, suite, holes: &holes, runs: &self.runs };

@@ -12,7 +12,7 @@ mod draft;
 pub(crate) use draft::{Draft, Measured};
 
 use crate::estimate::{KwiseWorst, keeping, measure_holes};
-use crate::{Coverage, Watch};
+use crate::{Coverage, Limit, Watch};
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{Error, Reason, TestSet};
 use paracosm_coverage::proof::{Budget, Proof};
@@ -21,13 +21,12 @@ use paracosm_coverage::{Deadline, Measure};
 use paracosm_space::Value;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// The greatest number of pivots in the proofs of one claim, which take some 30 MB.
 pub(crate) const MOST_PIVOTS: usize = 5_000_000;
 
-/// The share of the time limit for the measures. The search for proofs has the rest.
+/// The share of the limit for the measures. The search for proofs has the rest.
 const MEASURING: f64 = 0.5;
 
 /// A proof of the volumes of the largest holes (boxes without a test) in a set of tests.
@@ -157,7 +156,7 @@ impl Certificate {
 }
 
 /// Measures coverage as [`Coverage::of`] does, and makes a certificate of the measured dispersion and k-wise
-/// dispersion. Both steps together keep the time limit.
+/// dispersion. Both steps together keep the limit.
 ///
 /// # Errors
 /// Returns an error if there are not `k` parameters or too many combinations of them to count, if neither of the two
@@ -166,7 +165,17 @@ pub fn certify(
     tests: &TestSet,
     measures: &[Measure],
     k: Option<usize>,
-    limit: Option<Duration>,
+    limit: Limit,
+    watch: &mut Watch,
+) -> Result<(Coverage, Certificate), Error> {
+    limit.within(|deadline| certify_until(tests, measures, k, deadline, watch))?
+}
+
+fn certify_until(
+    tests: &TestSet,
+    measures: &[Measure],
+    k: Option<usize>,
+    end: Deadline,
     watch: &mut Watch,
 ) -> Result<(Coverage, Certificate), Error> {
     if !tests.demand.negatives.is_empty() {
@@ -175,23 +184,19 @@ pub fn certify(
     let rules = tests.space.rules()?;
     let kept = keeping(tests, &tests.demand.kinds(&tests.space)?);
     if kept.points.len() < tests.points.len() {
-        let (coverage, certificate) = certify(&kept, measures, k, limit, watch)?;
+        let (coverage, certificate) = certify_until(&kept, measures, k, end, watch)?;
         let violating = tests.points.len() - kept.points.len();
         return Ok((Coverage { tests: tests.points.len(), violating, ..coverage }, certificate));
     }
-    let end = limit.and_then(|limit| Instant::now().checked_add(limit));
-    let (coverage, holes) = measure_holes(tests, measures, k, limit.map(|limit| limit.mul_f64(MEASURING)), watch)?;
+    let (coverage, holes) = measure_holes(tests, measures, k, end.part(MEASURING), watch)?;
     let mut draft = Draft::new(tests);
-    let left = end.map(|end| end.saturating_duration_since(Instant::now()));
-    let measured = draft.measured(&rules, holes, left.map_or_else(Deadline::never, Deadline::after))?;
+    let measured = draft.measured(&rules, holes, end)?;
     if measured.is_empty() {
         return Err(CertificateFlaw::NoMeasure.into());
     }
     let waiting = measured.len() as u32;
     for (measured, waiting) in measured.into_iter().zip((1..=waiting).rev()) {
-        let left = end.map(|end| end.saturating_duration_since(Instant::now()));
-        let deadline = left.map_or_else(Deadline::never, |left| Deadline::after(left / waiting));
-        draft.prove(measured, Budget { pivots: MOST_PIVOTS, deadline });
+        draft.prove(measured, Budget { pivots: MOST_PIVOTS, deadline: end.part(1.0 / f64::from(waiting)) });
     }
     Ok((coverage, draft.finish(None)))
 }

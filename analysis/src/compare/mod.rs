@@ -6,7 +6,7 @@
 //! [`crate::statistics`]).
 //!
 //! Each set is made and measured on one core and a single thread. So results depend neither on the number of parallel
-//! sets nor on other work of the core, except values that a time limit cut short, which are marked.
+//! sets nor on other work of the core, except values that a limit of time cut short. Values that a limit cut short are marked.
 
 mod set;
 mod summary;
@@ -16,6 +16,7 @@ pub use summary::{ComparisonCell, Slope};
 
 pub use crate::statistics::Versus;
 
+use crate::Limit;
 use crate::asked::{ENOUGH_SEEDS, check_seeds, each_once, few_seeds};
 use paracosm_campaign::executor::{alone, in_order, pool};
 use paracosm_campaign::{Error, Failure, Reason};
@@ -25,7 +26,6 @@ use paracosm_generators::Strategy;
 use paracosm_space::plural;
 use set::Case;
 use std::num::NonZeroUsize;
-use std::time::Duration;
 use thiserror::Error;
 
 /// The greatest number of sets: a comparison with more sets is a mistake rather than a plan.
@@ -50,8 +50,8 @@ pub struct SamplerComparison {
     pub k: usize,
     /// The strategy with which the other strategies are compared.
     pub baseline: Strategy,
-    /// The time limit for taking one measure of one set of points.
-    pub limit: Duration,
+    /// The limit for taking one measure of one set of points.
+    pub limit: Limit,
 }
 
 /// A flaw in the description of a comparison.
@@ -119,7 +119,7 @@ impl SamplerComparison {
             measures: None,
             k: 2,
             baseline,
-            limit: Duration::from_secs(60),
+            limit: Limit::LONG,
         })
     }
 
@@ -305,7 +305,7 @@ impl Schedule {
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {
             notes.push(format!(
-                "the time limit cut {} short: the lower bounds of their brackets stand for the values; --time-limit sets the \
+                "the limit cut {} short: the lower bounds of their brackets stand for the values; --time-limit sets the \
                  limit",
                 plural(cut_short, "set")
             ));

@@ -1,6 +1,7 @@
 //! Makes one set of points and measures how evenly it covers its cube.
 
-use crate::estimate::Coverage;
+use crate::Limit;
+use crate::estimate::{Coverage, measure_holes};
 use paracosm_campaign::Error;
 use paracosm_campaign::TestSet;
 use paracosm_coverage::Bracket;
@@ -8,7 +9,6 @@ use paracosm_coverage::Measure;
 use paracosm_coverage::measure::Computation;
 use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
-use std::time::Duration;
 
 /// A set of points that is to be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,13 +31,13 @@ pub struct MeasuredSet {
     pub budget: usize,
     /// The seed with which the set was made; `None` for a plain set, which uses no randomness.
     pub seed: Option<u64>,
-    /// The measures with their values; a value is `None` if the time limit left no result.
+    /// The measures with their values; a value is `None` if the limit left no result.
     pub values: Vec<(Measure, Option<Bracket>)>,
 }
 
 impl Case {
-    /// Makes the set of points and takes each measure of the set within a time limit.
-    pub fn measure(&self, measures: &[Measure], k: usize, limit: Duration) -> Result<MeasuredSet, Error> {
+    /// Makes the set of points and takes each measure of the set within a limit.
+    pub fn measure(&self, measures: &[Measure], k: usize, limit: Limit) -> Result<MeasuredSet, Error> {
         let Self { strategy, dims, budget, seed } = *self;
         let space = Space::unit_cube(dims);
         let points = strategy.build(&Request { seed, ..Request::new(&space, budget) })?.ask(budget);
@@ -45,7 +45,8 @@ impl Case {
         let value = |&measure: &Measure| {
             // A measure that does not use k must not fail because of a k that is too large.
             let k = k.min(dims);
-            let coverage = Coverage::of(&tests, &[measure], Some(k), Some(limit))?;
+            // The set is measured on this thread alone.
+            let (coverage, _) = measure_holes(&tests, &[measure], Some(k), limit.here(), &mut |_, _| ())?;
             Ok((measure, value(&coverage, measure)))
         };
         let values = measures.iter().map(value).collect::<Result<_, Error>>()?;
@@ -59,7 +60,7 @@ impl MeasuredSet {
         self.values.iter().find(|(of, _)| *of == measure).and_then(|(_, value)| *value)
     }
 
-    /// Returns `true` if the time limit made the value of a measure inexact.
+    /// Returns `true` if the limit made the value of a measure inexact.
     pub fn is_cut_short(&self) -> bool {
         self.values.iter().any(|(_, value)| value.is_none_or(|bracket| !bracket.is_exact()))
     }

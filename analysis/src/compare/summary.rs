@@ -25,7 +25,7 @@ pub struct ComparisonCell {
     pub strategy: Strategy,
     /// The number of seeds over which the values are summarised.
     pub seeds: usize,
-    /// `true` if every value is exact, that is, if no time limit cut a measure short.
+    /// `true` if every value is exact, that is, if no limit cut a measure short.
     pub exact: bool,
     /// The value of the strategy's plain set, which uses no randomness; `None` if the strategy has no plain set.
     pub plain: Option<f64>,

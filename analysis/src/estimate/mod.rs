@@ -4,6 +4,7 @@ mod report;
 
 pub use report::{Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measured, Strength};
 
+use crate::Limit;
 use paracosm_campaign::{Error, Reason, TestSet};
 use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox};
 use paracosm_coverage::kwise::{KwiseCoverage, coverage_of_kinds};
@@ -13,12 +14,11 @@ use paracosm_coverage::valid::Validity;
 use paracosm_coverage::{Bracket, Deadline, Measure, PointSet};
 use paracosm_space::demand::TestKind;
 use paracosm_space::{Coordinate, Point, Record, Value};
-use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// A function that observes the progress of measurements. It receives the measure that is at work and its bracket so
 /// far, if any.
-pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + 'a;
+pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + Send + 'a;
 
 /// The error that `k` is not between 1 and the number of parameters of the space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -44,11 +44,12 @@ pub struct Holes {
 impl Coverage {
     /// Measures the coverage of a space by tests. The measures that use `k` consider `k` parameters together; the
     /// default is the strength for which the tests were made, or else 2, or the number of parameters if that is
-    /// smaller. `limit` is a time limit for all slow measures together.
+    /// smaller. `limit` is the limit of all slow measures together.
     ///
     /// # Errors
-    /// `k` is 0 or above the number of parameters, or there are too many combinations of parameters to count.
-    pub fn of(tests: &TestSet, measures: &[Measure], k: Option<usize>, limit: Option<Duration>) -> Result<Self, Error> {
+    /// `k` is 0 or above the number of parameters, or there are too many combinations of parameters to count, or the system
+    /// cannot start a thread.
+    pub fn of(tests: &TestSet, measures: &[Measure], k: Option<usize>, limit: Limit) -> Result<Self, Error> {
         Self::watched(tests, measures, k, limit, &mut |_, _| ())
     }
 
@@ -61,19 +62,20 @@ impl Coverage {
         tests: &TestSet,
         measures: &[Measure],
         k: Option<usize>,
-        limit: Option<Duration>,
+        limit: Limit,
         watch: &mut Watch,
     ) -> Result<Self, Error> {
-        Ok(measure_holes(tests, measures, k, limit, watch)?.0)
+        Ok(limit.within(|deadline| measure_holes(tests, measures, k, deadline, watch))??.0)
     }
 }
 
 /// Measures the coverage of a space by tests, as [`Coverage::watched`] does, and returns also the holes in coordinates.
+/// The measures share the time or the work until the deadline.
 pub fn measure_holes(
     tests: &TestSet,
     measures: &[Measure],
     k: Option<usize>,
-    limit: Option<Duration>,
+    deadline: Deadline,
     watch: &mut Watch,
 ) -> Result<(Coverage, Holes), Error> {
     let parameters = tests.space.coordinates().count();
@@ -90,14 +92,14 @@ pub fn measure_holes(
     let keeping = keeping(tests, &kinds);
     let violating = tests.points.len() - keeping.points.len();
     if violating > 0 {
-        let (coverage, holes) = measure_holes(&keeping, measures, Some(k), limit, watch)?;
+        let (coverage, holes) = measure_holes(&keeping, measures, Some(k), deadline, watch)?;
         return Ok((Coverage { tests: tests.points.len(), violating, ..coverage }, holes));
     }
     let levels = tests.space.levels();
     let is_mixed = !levels.is_empty() && tests.space.dims() > 0;
     // In a mixed space, k-wise coverage also computes (k, epsilon)-covering, which takes time.
     let takes_time = |measure: &&Measure| **measure != Measure::K_WISE || is_mixed;
-    let mut clock = Clock::new(limit, measures.iter().filter(takes_time).count());
+    let mut clock = Clock::new(deadline, measures.iter().filter(takes_time).count());
     let mut holes = Holes::default();
     let continuous = match tests.space.dims() {
         0 => None,
@@ -270,24 +272,23 @@ fn sides<'a>(coordinates: impl Iterator<Item = Coordinate<'a>>, witness: &Larges
     coordinates.zip(ends).map(|(c, (&lo, &hi))| (c.name(), [lo, hi].map(|u| c.parameter.value_at(u)))).collect()
 }
 
-/// A time limit for several measures. Time that a measure does not use is left to the measures after it.
+/// A limit for several measures. The time or the work that a measure does not use is left to the measures after it.
 struct Clock {
-    end: Option<Instant>,
+    end: Deadline,
     /// The number of measures that are still to come.
     waiting: u32,
 }
 
 impl Clock {
-    fn new(limit: Option<Duration>, waiting: usize) -> Self {
-        Self { end: limit.and_then(|limit| Instant::now().checked_add(limit)), waiting: waiting as u32 }
+    fn new(end: Deadline, waiting: usize) -> Self {
+        Self { end, waiting: waiting as u32 }
     }
 
-    /// Returns the deadline of the next measure, which has its share of the time that is left.
+    /// Returns the deadline of the next measure, which has its share of what is left.
     fn next(&mut self) -> Deadline {
         let waiting = self.waiting.max(1);
         self.waiting = waiting - 1;
-        let left = self.end.map(|end| end.saturating_duration_since(Instant::now()));
-        left.map_or_else(Deadline::never, |left| Deadline::after(left / waiting))
+        self.end.part(1.0 / f64::from(waiting))
     }
 }
 
@@ -309,7 +310,8 @@ mod tests {
         let values = points.iter().map(|point| scaled.encode(&scaled.decode(point)).unwrap()).collect();
         let measure = |space, points| {
             let coverage =
-                Coverage::of(&TestSet::new(space, points), &Measure::all().collect::<Vec<_>>(), None, None).unwrap();
+                Coverage::of(&TestSet::new(space, points), &Measure::all().collect::<Vec<_>>(), None, Limit::None)
+                    .unwrap();
             let numbers: Vec<_> = coverage.continuous.unwrap().measured.iter().map(|(_, m)| m.bracket()).collect();
             (numbers, coverage.k_wise_dispersion.unwrap().volume)
         };
@@ -334,7 +336,8 @@ mod tests {
         let space = Space::unit_cube(2);
         let points = Strategy::HALTON.build(&Request::new(&space, 20)).unwrap().ask(20);
         let tests = TestSet::new(space, points);
-        let measured = |measures: &[Measure]| measure_holes(&tests, measures, None, None, &mut |_, _| ()).unwrap().1;
+        let measured =
+            |measures: &[Measure]| measure_holes(&tests, measures, None, Deadline::never(), &mut |_, _| ()).unwrap().1;
         let alone = measured(&[Measure::DISPERSION]).dispersion;
         assert_eq!(measured(&[Measure::DISPERSION, Measure::of(&CORNER)]).dispersion, alone);
     }

@@ -1,4 +1,4 @@
-//! The search of the whole cube, on all cores and against the clock.
+//! The search of the whole cube, on all cores and against the clock or a limit of work.
 //!
 //! A small search ends on one thread. A larger search is split into parts that cores take from each other. The parts
 //! share a bar, the volume of the largest box found, but walk one and the same tree. Volume and witness of an exact
@@ -13,10 +13,9 @@
 use super::search::{Bar, BoxSearch, Found, MOST_LISTED, Open};
 use super::side::{Side, Weight, inside};
 use super::{Dispersion, LargestEmptyBox};
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::{Bracket, Deadline, PointSet};
 use rayon::prelude::*;
-use std::time::Instant;
 
 /// The number of boxes that are explored on one thread before the rest is shared out: a small search is done by then.
 const ALONE: usize = 2_000;
@@ -230,14 +229,17 @@ impl<'a, W: Weight> Hunt<'a, W> {
     /// Makes a round of such attempts. Returns `true` if it found a larger box. Each attempt has its own bar, so that
     /// its result does not depend on the others.
     fn attempt(&mut self, deadline: Deadline) -> bool {
-        let best = self.bar.get();
+        let (best, dims) = (self.bar.get(), self.points.dims());
         let attempt = |search: &mut BoxSearch<W>, seed: u64| {
             if deadline.passed() {
                 return None;
             }
-            let mut nodes = 0;
-            let few = |_| {
+            // An attempt is made to its end, but its work counts.
+            let (mut nodes, mut watch) = (0, Watch::new(deadline));
+            watch.passed_after(self.points.len() * dims);
+            let few = |work| {
                 nodes += 1;
+                watch.passed_after(work * dims);
                 nodes <= ATTEMPT
             };
             search.explore(&self.relaxed(seed), &Bar::new(best), best, few).witness
@@ -296,12 +298,11 @@ impl<'a, W: Weight> Hunt<'a, W> {
         let mut passes: Vec<(f64, f64)> = Vec::new();
         while !self.open.is_empty() && !deadline.passed() {
             let (best, upper) = (self.bar.get(), self.upper);
-            let left = deadline.left().map_or(f64::INFINITY, |left| left.as_secs_f64());
-            let next = next_goal(best, upper, &passes, left);
-            let begun = Instant::now();
+            let next = next_goal(best, upper, &passes, deadline.left().unwrap_or(f64::INFINITY));
+            let lap = deadline.lap();
             self.split(next, deadline);
             if self.explore(next, deadline) {
-                passes.push((libm::log(next), libm::log(begun.elapsed().as_secs_f64().max(1e-6))));
+                passes.push((libm::log(next), libm::log(lap.taken().max(1e-6))));
             }
             watch(self.bracket());
         }
@@ -312,7 +313,7 @@ fn sides(found: &LargestEmptyBox) -> Vec<Side> {
     found.lower.iter().zip(&found.upper).map(|(&lower, &upper)| Side::between(lower, upper)).collect()
 }
 
-/// The upper bound that the next pass should try to prove in the remaining time.
+/// The upper bound that the next pass should try to prove in the remaining time or work.
 ///
 /// The time grows as a power of the goal. The last two passes give the exponent. The next pass should take four times
 /// as long as the last, or the remaining time if no further pass would fit in.

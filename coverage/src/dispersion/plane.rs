@@ -22,7 +22,7 @@
 
 use super::search::Bar;
 use super::{Dispersion, LargestEmptyBox};
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::{Bracket, Deadline, PointSet};
 use std::ops::Range;
 

@@ -20,7 +20,7 @@
 //!   the last digits.
 
 use super::tree::{Nearest, Tree};
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 
 /// The method ends after this number of pivots per row. It ends on its own earlier, unless rounding makes it go in
 /// circles.

@@ -3,7 +3,7 @@
 use super::relaxation::{Relaxation, Side};
 use super::tree::Tree;
 use crate::Deadline;
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 
 /// The share by which a distance may be longer than another one and still counts as no longer.
 const SAME: f64 = 1e-12;

@@ -3,7 +3,7 @@
 //! Sums are taken in fixed groups and in their order: the result does not depend on the number of threads.
 
 use super::{Compensated, Kernel, Prepared};
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::{Deadline, PointSet};
 use rayon::prelude::*;
 

@@ -7,7 +7,7 @@
 //! computing the L2-discrepancy, Math. Comp. 65, 1996, has the same bound by divide and conquer).
 
 use super::{Compensated, Kernel};
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::{Deadline, PointSet};
 
 /// The sums of some numbers over ranges of ranks, as a binary tree: each node has the sum of its two children. Rounding

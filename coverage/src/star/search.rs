@@ -12,10 +12,9 @@
 use super::ascent::Ascent;
 use super::region::{Region, Relaxed};
 use super::sides::Sides;
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::{Bracket, Deadline};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 /// The number of ascents before the search; more cost more time than they save.
 const ASCENTS: usize = 64;
@@ -24,6 +23,8 @@ const TIME_FOR_ASCENTS: f64 = 0.15;
 /// The target of the next pass, as a share of the way from the best value to the bound. With the first share a pass
 /// takes some two or three times as long as the last pass. If that would take too long, the second share is used.
 const NEXT_TARGET: [f64; 2] = [0.76, 0.9];
+/// The number of times that a relaxation looks at a number of its region, about: it sorts the numbers.
+const LOOKS: usize = 16;
 /// The number of numbers that the stack of a task may hold: some 200 MiB.
 const MOST_NUMBERS: usize = 1 << 24;
 
@@ -39,15 +40,15 @@ pub(crate) fn largest_difference<R: Region>(points: &R::Points<'_>, sides: &Side
     let ascents = ASCENTS..if deadline.left().is_some() { usize::MAX } else { 16 * ASCENTS };
     let mut best = Ascent::new(sides).run(ascents, deadline.part(TIME_FOR_ASCENTS)).max(first.best);
     let mut upper = first.left;
-    let mut last = Duration::ZERO;
+    let mut last = 0.0;
     while upper > best && !deadline.passed() {
-        let begun = Instant::now();
-        let is_short = deadline.left().is_some_and(|left| left < 4 * last);
+        let lap = deadline.lap();
+        let is_short = deadline.left().is_some_and(|left| left < 4.0 * last);
         let target = best + NEXT_TARGET[usize::from(is_short)] * (upper - best);
         let pass = Pass::<R>::over(points, best, target, deadline);
         let got_no_further = pass.left >= upper;
         (best, upper) = (pass.best, pass.left.min(upper));
-        last = begun.elapsed();
+        last = lap.taken();
         if got_no_further {
             break;
         }
@@ -108,6 +109,8 @@ impl<'a, 'p, R: Region> Pass<'a, 'p, R> {
             if region.bound() <= threshold {
                 continue;
             }
+            // Most work is in the relaxations, also of regions that need no split.
+            let is_over = watch.passed_after(LOOKS * region.size());
             match region.relax(self.points, threshold, &mut scratch) {
                 Relaxed::Nothing => continue,
                 Relaxed::Solved(value) => {
@@ -116,7 +119,7 @@ impl<'a, 'p, R: Region> Pass<'a, 'p, R> {
                 }
                 Relaxed::Bounded => {}
             }
-            if watch.passed_after(region.size()) || self.stopped.load(Ordering::Relaxed) {
+            if is_over || self.stopped.load(Ordering::Relaxed) {
                 self.stopped.store(true, Ordering::Relaxed);
                 self.left.raise(region.bound());
                 stack.iter().for_each(|region| self.left.raise(region.bound()));

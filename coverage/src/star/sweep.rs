@@ -12,7 +12,7 @@
 //! differences in the same way, so both give the same number to the last bit.
 
 use super::sides::Sides;
-use crate::bracket::Watch;
+use crate::deadline::Watch;
 use crate::{Deadline, PointSet};
 use std::ops::Range;
 

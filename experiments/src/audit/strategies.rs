@@ -5,8 +5,8 @@ use super::{SCREEN, files, known_rows, name_of, statistics, study, write_rows};
 use crate::{Done, print};
 use indicatif::ProgressBar;
 use paracosm::Study;
-use paracosm::analysis::Coverage;
 use paracosm::analysis::audit::{Runs, Score, Screen, Suite};
+use paracosm::analysis::{Coverage, Limit};
 use paracosm::campaign::TestSet;
 use paracosm::coverage::{Bracket, Measure};
 use paracosm::generators::Strategy;
@@ -27,7 +27,7 @@ const SEEDS: u64 = 3;
 const TESTS: usize = 40;
 const MUTANTS: usize = 64;
 /// The time for the coverage of a suite. A measure that is not exact by then is left out, and the row says so.
-const LIMIT: Duration = Duration::from_secs(60);
+const LIMIT: Limit = Limit::Time(Duration::from_secs(60));
 
 /// Runs the study and writes `audit-strategies.csv` and `audit-statistics.csv` to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
@@ -97,7 +97,7 @@ fn of_scenario(
 fn coverage(study: &Study, suite: &Suite) -> Result<[Option<f64>; 3], paracosm::Error> {
     let tests = TestSet::new(study.space().clone(), suite.points.clone());
     let measures = [Measure::DISPERSION, Measure::K_WISE, Measure::K_WISE_DISPERSION];
-    let found = Coverage::of(&tests, &measures, None, Some(LIMIT))?;
+    let found = Coverage::of(&tests, &measures, None, LIMIT)?;
     let exact = |of: Option<Bracket>| of.filter(Bracket::is_exact).map(|of| of.upper);
     let dispersion = exact(found.continuous.as_ref().and_then(|all| all.bracket(Measure::DISPERSION)));
     let discrete = found.discrete.flatten().filter(|pairs| pairs.k == 2);

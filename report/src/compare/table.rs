@@ -51,8 +51,7 @@ fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) 
         let _ = writeln!(text, "{}", format!("{slope:>8}   {versus}").trim_end());
     }
     if cut_short {
-        let _ =
-            writeln!(text, "  * cut short by the time limit: the value is the median of the lower ends of brackets");
+        let _ = writeln!(text, "  * cut short by the limit: the value is the median of the lower ends of brackets");
     }
     text.push('\n');
 }

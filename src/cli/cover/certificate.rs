@@ -3,11 +3,10 @@
 use crate::cli::Verbosity;
 use crate::cli::output::{digits, plural};
 use paracosm_analysis::certificate::certify;
-use paracosm_analysis::{Coverage, Watch};
+use paracosm_analysis::{Coverage, Limit, Watch};
 use paracosm_campaign::{Error, TestSet};
 use paracosm_coverage::Measure;
 use std::path::Path;
-use std::time::Duration;
 
 /// Measures tests and writes a certificate. Notes say what the certificate proves, and where this is less than the
 /// measured value.
@@ -16,11 +15,11 @@ pub(super) fn write(
     tests: &TestSet,
     measures: &[Measure],
     k: Option<usize>,
-    limit: Duration,
+    limit: Limit,
     watch: &mut Watch,
     verbosity: Verbosity,
 ) -> Result<Coverage, Error> {
-    let (coverage, certificate) = certify(tests, measures, k, Some(limit), watch)?;
+    let (coverage, certificate) = certify(tests, measures, k, limit, watch)?;
     certificate.write(file)?;
     for claim in &certificate.claims {
         let k = claim.k.map_or(String::new(), |k| format!(", k = {k}"));

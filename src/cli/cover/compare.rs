@@ -6,6 +6,7 @@ use crate::cli::{Failure, Verbosity, print};
 use crate::generators::Strategy;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_analysis::Limit;
 use paracosm_analysis::compare::SamplerComparison;
 use paracosm_campaign::{Error, TestSet};
 use paracosm_coverage::Measure;
@@ -56,9 +57,10 @@ pub(super) struct Options {
     baseline: Option<String>,
     /// Limit the seconds of a measure of a set
     ///
-    /// A measure that does not finish gives a bracket.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
-    time_limit: f64,
+    /// A measure that does not finish gives a bracket [default: a limit of work, the same on every machine, of about a
+    /// minute].
+    #[arg(long, value_name = "SECONDS")]
+    time_limit: Option<f64>,
     /// The sets that are measured at a time
     ///
     /// Results do not depend on this number [default: one per core].
@@ -99,7 +101,8 @@ impl Options {
     }
 
     fn comparison(&self) -> Result<SamplerComparison, Error> {
-        let limit = time_limit("--time-limit", self.time_limit)?;
+        let seconds = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
+        let limit = seconds.map_or(Limit::LONG, Limit::Time);
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
         TestSet::check_size(budget, dims)?;

@@ -10,7 +10,7 @@ use crate::generators::Request;
 use crate::space::{Parameter, Space};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use paracosm_analysis::Coverage;
+use paracosm_analysis::{Coverage, Limit};
 use paracosm_campaign::{Catalogue, Error, TestSet, read_tests};
 use paracosm_coverage::Measure;
 use std::path::{Path, PathBuf};
@@ -58,9 +58,10 @@ pub(super) struct Options {
     measures: Vec<Measure>,
     /// Limit the seconds of all measures
     ///
-    /// A measure that does not finish gives a bracket.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
-    time_limit: f64,
+    /// A measure that does not finish gives a bracket [default: a limit of work, the same on every machine: about 6 s of
+    /// one core, and about a minute with --certificate].
+    #[arg(long, value_name = "SECONDS")]
+    time_limit: Option<f64>,
     /// Write a certificate of the dispersions
     ///
     /// The file has witnesses and proofs of the dispersion and the k-wise dispersion as JSON.
@@ -89,7 +90,9 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<(), Failure> {
-        let limit = time_limit("--time-limit", self.time_limit)?;
+        let usual = if self.certificate.is_some() { Limit::LONG } else { Limit::USUAL };
+        let seconds = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
+        let limit = seconds.map_or(usual, Limit::Time);
         let inputs: Vec<&Path> = [&self.tests, &self.space].into_iter().flatten().map(PathBuf::as_path).collect();
         self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file, &inputs))?;
         let (mut tests, source) = match &self.strategy {
@@ -120,7 +123,7 @@ impl Options {
             bar.set_message(format!("{}{}", measure.name(), between.unwrap_or_default()));
         };
         let coverage = match &self.certificate {
-            None => Coverage::watched(&tests, &measures, self.k, Some(limit), &mut watch),
+            None => Coverage::watched(&tests, &measures, self.k, limit, &mut watch),
             Some(file) => certificate::write(file, &tests, &measures, self.k, limit, &mut watch, verbosity),
         };
         bar.finish_and_clear();

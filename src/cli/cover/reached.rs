@@ -8,7 +8,7 @@ use crate::coverage::kwise_dispersion::row_dispersion;
 use crate::coverage::valid::Validity;
 use crate::coverage::{Bracket, Deadline};
 use paracosm_analysis::estimate::Discrete;
-use paracosm_analysis::{Coverage, Promise};
+use paracosm_analysis::{Coverage, Limit, Promise};
 use paracosm_campaign::{Error, TestSet};
 use paracosm_coverage::Measure;
 use std::collections::BTreeSet;
@@ -102,6 +102,6 @@ impl Reached {
     }
 
     fn discrete(&self, k: Option<usize>) -> Result<Option<Discrete>, Error> {
-        Ok(Coverage::of(&self.tests, &[Measure::K_WISE], k, Some(Duration::ZERO))?.discrete.flatten())
+        Ok(Coverage::of(&self.tests, &[Measure::K_WISE], k, Limit::Work(0))?.discrete.flatten())
     }
 }
