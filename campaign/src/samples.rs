@@ -72,7 +72,7 @@ pub enum TraceFlaw {
         time: Option<f64>,
     },
     /// The first time of the trace is not 0.
-    #[error("the trace begins at {at} s, expected 0 s")]
+    #[error("the trace begins at {at} s, expected 0 s; `paracosm-fuzz monitor --every SECONDS` samples a file again")]
     Begins {
         /// The first time of the trace, in seconds.
         at: f64,
@@ -87,8 +87,19 @@ pub enum TraceFlaw {
         /// The index of the sample, from 0.
         sample: usize,
     },
+    /// A trace that is sampled again would have too many numbers.
+    #[error("the trace would have {samples:.0} samples of {}, which is too much: choose a longer period", plural(*signals, "signal"))]
+    TooLong {
+        /// The number of samples that the trace would have.
+        samples: f64,
+        /// The number of signals.
+        signals: usize,
+    },
     /// The distance between two successive times differs from the sample period.
-    #[error("the samples are not evenly spaced: sample {sample} is at {found} s, expected {expected} s")]
+    #[error(
+        "the samples are not evenly spaced: sample {sample} is at {found} s, expected {expected} s; `paracosm-fuzz \
+         monitor --every SECONDS` samples a file again"
+    )]
     Uneven {
         /// The index of the sample, from 0.
         sample: usize,

@@ -11,6 +11,12 @@ use std::path::Path;
 /// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 0.01;
 
+/// The share of a period by which a time may lie before a new sample at the same time, because times are rounded.
+const ROUNDING: f64 = 1e-6;
+
+/// The greatest number of numbers of a trace that is sampled again.
+const MOST_NUMBERS: f64 = 1e8;
+
 /// Writes a trace to a CSV file, with a column `time` in seconds and a column for each signal.
 ///
 /// # Errors
@@ -34,18 +40,23 @@ pub fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
 /// `goes_on` gets the trace so far. If it returns `false`, the trace is returned as one that was cut short; otherwise
 /// it is complete.
 ///
+/// With `every`, a period in seconds, the samples may have any ascending times, and the trace has samples every so many seconds from
+/// the first time on, which becomes 0. Between two samples of the file, a signal is a straight line. A signal with `true`
+/// or `false` keeps its value up to the next sample.
+///
 /// # Errors
 /// `goes_on` returns an error; or the source, called `path`, is not a valid table: the error says in which line and
 /// why.
 pub fn read_trace(
     path: &Path,
     source: impl Read,
+    every: Option<f64>,
     mut goes_on: impl FnMut(&Trace) -> Result<bool, Error>,
 ) -> Result<Trace, Error> {
     let mut csv = csv::Reader::from_reader(source);
     let broken = |error: csv::Error| Error::in_csv(path, error);
     let header: Vec<String> = csv.headers().map_err(broken)?.iter().map(str::to_owned).collect();
-    let mut table = Table::new(header).map_err(|flaw| Error::in_file(path, 1, flaw))?;
+    let mut table = Table::new(header, every).map_err(|flaw| Error::in_file(path, 1, flaw))?;
     for record in csv.records() {
         let record = record.map_err(broken)?;
         let line = record.position().map(|position| position.line() as usize);
@@ -56,8 +67,9 @@ pub fn read_trace(
             return Ok(table.trace.expect("it was just seen"));
         }
     }
-    let short = TraceFlaw::TooShort { samples: usize::from(table.first.is_some()) };
-    let mut trace = table.trace.ok_or_else(|| Error::in_file(path, None, short))?;
+    let samples = table.trace.as_ref().map_or(usize::from(table.before.is_some()), Trace::len);
+    let enough = table.trace.filter(|trace| trace.len() > 1);
+    let mut trace = enough.ok_or_else(|| Error::in_file(path, None, TraceFlaw::TooShort { samples }))?;
     trace.finish();
     Ok(trace)
 }
@@ -67,14 +79,20 @@ struct Table {
     /// The index of the column of times, and the signals of the other columns.
     time: usize,
     signals: Vec<String>,
-    /// The time of the last sample, and the first sample as long as the sample period is not known.
+    /// The period of a trace that is sampled again.
+    every: Option<f64>,
+    /// `true` for the signals that have been `true` or `false`.
+    truths: Vec<bool>,
+    /// The times of the first and the last sample.
+    begun: f64,
     last: f64,
-    first: Option<Vec<f64>>,
+    /// The last sample, if it is needed for the next one.
+    before: Option<Vec<f64>>,
     trace: Option<Trace>,
 }
 
 impl Table {
-    fn new(header: Vec<String>) -> Result<Self, TraceFlaw> {
+    fn new(header: Vec<String>, every: Option<f64>) -> Result<Self, TraceFlaw> {
         let Some(time) = header.iter().position(|name| name == "time") else {
             return Err(TraceFlaw::NoTime { signals: header });
         };
@@ -84,21 +102,37 @@ impl Table {
             return Err(TraceFlaw::NoSignal);
         }
         TraceFlaw::check_names(signals.iter().map(String::as_str))?;
-        Ok(Self { time, signals, last: 0.0, first: None, trace: None })
+        let truths = vec![false; signals.len()];
+        Ok(Self { time, signals, every, truths, begun: 0.0, last: 0.0, before: None, trace: None })
     }
 
     fn take<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), TraceFlaw> {
-        let sample = self.trace.as_ref().map_or(usize::from(self.first.is_some()), Trace::len);
+        let sample = self.trace.as_ref().map_or(usize::from(self.before.is_some()), Trace::len);
         let (mut time, mut row) = (f64::NAN, Vec::with_capacity(self.signals.len()));
         for (column, cell) in cells.enumerate() {
             let name = if column == self.time { "time" } else { &self.signals[row.len()] };
             let no_number = || TraceFlaw::NoNumber { signal: name.to_owned(), found: cell.to_owned(), sample };
             let number = number(cell.trim()).ok_or_else(no_number)?;
-            if column == self.time { time = number } else { row.push(number) }
+            if column == self.time {
+                time = number;
+            } else {
+                self.truths[row.len()] |= is_truth(cell.trim());
+                row.push(number);
+            }
         }
+        match self.every {
+            Some(every) => self.sampled_again(every, time, row, sample)?,
+            None => self.as_it_is(time, row, sample)?,
+        }
+        self.last = time;
+        Ok(())
+    }
+
+    /// Adds a sample to an evenly spaced trace.
+    fn as_it_is(&mut self, time: f64, row: Vec<f64>, sample: usize) -> Result<(), TraceFlaw> {
         let step = time - self.last;
-        match (&mut self.trace, self.first.take()) {
-            (None, None) if time == 0.0 => self.first = Some(row),
+        match (&mut self.trace, self.before.take()) {
+            (None, None) if time == 0.0 => self.before = Some(row),
             (None, None) => return Err(TraceFlaw::Begins { at: time }),
             (None, Some(_)) if !(time > 0.0 && time.is_finite()) => {
                 return Err(TraceFlaw::Falls { from: 0.0, to: time, sample });
@@ -113,9 +147,48 @@ impl Table {
                 return Err(TraceFlaw::Uneven { sample, found: time, expected: self.last + trace.dt() });
             }
         }
-        self.last = time;
         Ok(())
     }
+
+    /// Adds the samples of the new period up to the time of a sample of the file.
+    fn sampled_again(&mut self, every: f64, time: f64, row: Vec<f64>, sample: usize) -> Result<(), TraceFlaw> {
+        if !time.is_finite() {
+            return Err(TraceFlaw::NoNumber { signal: "time".to_owned(), found: time.to_string(), sample });
+        }
+        let (Some(before), Some(trace)) = (&self.before, &mut self.trace) else {
+            let trace = self.trace.insert(Trace::new(every, self.signals.clone()));
+            trace.record(&row);
+            (self.begun, self.before) = (time, Some(row));
+            return Ok(());
+        };
+        if time <= self.last {
+            return Err(TraceFlaw::Falls { from: self.last, to: time, sample });
+        }
+        let samples = (time - self.begun) / every;
+        if samples * self.signals.len() as f64 > MOST_NUMBERS {
+            return Err(TraceFlaw::TooLong { samples, signals: self.signals.len() });
+        }
+        loop {
+            let next = self.begun + trace.len() as f64 * every;
+            if next > time + ROUNDING * every {
+                break;
+            }
+            let share = (next - self.last) / (time - self.last);
+            let value = |at: usize| match (before[at], row[at]) {
+                (_, after) if share >= 1.0 => after,
+                (before, after) if self.truths[at] || !(after - before).is_finite() => before,
+                (before, after) => before + share * (after - before),
+            };
+            trace.record(&(0..row.len()).map(value).collect::<Vec<f64>>());
+        }
+        self.before = Some(row);
+        Ok(())
+    }
+}
+
+/// Returns `true` if a cell is a truth in words.
+fn is_truth(cell: &str) -> bool {
+    matches!(cell, "true" | "false")
 }
 
 /// Returns the number in a cell; `None` if the cell has no number.
@@ -132,7 +205,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Trace, String> {
-        read_trace(Path::new("t.csv"), text.as_bytes(), |_| Ok(true)).map_err(|error| error.to_string())
+        read_trace(Path::new("t.csv"), text.as_bytes(), None, |_| Ok(true)).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -144,11 +217,46 @@ mod tests {
         );
         assert_eq!(trace.rows().flatten().copied().collect::<Vec<_>>(), [1.0, 1.0, 0.0, f64::NEG_INFINITY, 1.0, 30.0]);
         let mut seen = 0;
-        let two = read_trace(Path::new("t.csv"), "time,x\n0,1\n1,2\n2,3\n".as_bytes(), |trace| {
+        let two = read_trace(Path::new("t.csv"), "time,x\n0,1\n1,2\n2,3\n".as_bytes(), None, |trace| {
             seen = trace.len();
             Ok(false)
         });
         assert!(seen == 2 && !two.unwrap().is_complete());
+    }
+
+    #[test]
+    fn samples_at_any_times_are_sampled_again_on_straight_lines() {
+        let again = |text: &str, every| {
+            let trace = read_trace(Path::new("t.csv"), text.as_bytes(), Some(every), |_| Ok(true));
+            trace.map(|trace| trace.rows().map(<[f64]>::to_vec).collect::<Vec<_>>()).map_err(|error| error.to_string())
+        };
+        // From 100 s on, with a gap; a truth keeps its value, and so does a number beside an infinite one.
+        let text = "time,x,on,y\n100,0,true,1\n100.3,3,false,inf\n101,10,true,2\n";
+        let expected: Vec<[f64; 3]> = vec![
+            [0.0, 1.0, 1.0],
+            [2.5, 1.0, 1.0],
+            [5.0, 0.0, f64::INFINITY],
+            [7.5, 0.0, f64::INFINITY],
+            [10.0, 1.0, 2.0],
+        ];
+        let found = again(text, 0.25).unwrap();
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(expected) {
+            let is_near = |(a, b): (&f64, f64)| *a == b || (a - b).abs() < 1e-9;
+            assert!(found.iter().zip(expected).all(is_near), "{found:?} {expected:?}");
+        }
+        // A trace with even samples stays as it is.
+        assert_eq!(again("time,x\n0,1\n0.1,5\n0.2,2\n0.3,4\n", 0.1).unwrap(), [[1.0], [5.0], [2.0], [4.0]]);
+        for (text, every, says) in [
+            ("time,x\n1,1\n", 0.1, "found 1 sample, expected at least 2"),
+            ("time,x\n1,1\n1.5,2\n", 9.0, "found 1 sample, expected at least 2"),
+            ("time,x\n1,1\n1,2\n", 0.1, "line 3: `time` goes from 1 to 1"),
+            ("time,x\ninf,1\n", 0.1, "line 2: `time` is `inf`"),
+            ("time,x\n0,1\n1e9,2\n", 1e-3, "line 3: the trace would have"),
+        ] {
+            let message = again(text, every).unwrap_err();
+            assert!(message.contains(says), "{says}: {message}");
+        }
     }
 
     #[test]

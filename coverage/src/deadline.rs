@@ -13,7 +13,7 @@ thread_local! {
 }
 
 /// The work that one look at a deadline counts as. A search that only looks at its deadline ends, too.
-const LOOK: u64 = 64;
+const LOOK: u64 = 256;
 
 /// Adds to the work that this thread has done.
 fn count(work: u64) {

@@ -31,7 +31,7 @@ pub const PARSERS: &[Parser] = &[
     Parser { name: "formula", read: formula },
     Parser { name: "points", read: |data| in_file("points.csv", data, |path| look(read_tests(path, None), use_tests)) },
     Parser { name: "tests", read: |data| in_file("tests.csv", data, tests) },
-    Parser { name: "trace", read: |data| look(read_trace(Path::new("-"), data, |_| Ok(true)), |_| ()) },
+    Parser { name: "trace", read: |data| look(read_trace(Path::new("-"), data, None, |_| Ok(true)), |_| ()) },
     Parser { name: "trials", read: trials },
     Parser { name: "study", read: study },
     Parser { name: "cameras", read: |data| in_file("cameras.toml", data, |path| look(read_cameras(path), |_| ())) },

@@ -15,9 +15,11 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)' --spec 'eventually[0,9] (car.x > 50)'
   ./vehicle --log-csv | paracosm-fuzz monitor --spec 'always (speed < 30)' --stop-when-decided
+  paracosm-fuzz monitor drive.csv --every 0.01 --spec 'always (speed < 30)'
   paracosm-fuzz monitor trace-17.csv --dense --spec 'always[0,0.25] (car.speed > 1)'
 
 A trace is CSV with a header: a column `time` in seconds, evenly spaced from 0 on, and a column for each signal. \
+    With --every, the times only need to rise. \
     As soon as a formula is decided, whatever follows, a line on standard error says so.
 
 Exit status: 0 done; 1 a formula is violated (with --fail-on-violation); 2 wrong use or bad input.";
@@ -35,6 +37,12 @@ pub(super) struct Options {
     /// instant
     #[arg(long)]
     dense: bool,
+    /// Sample the trace again with this period
+    ///
+    /// The trace may then have any ascending times. Between two samples, a signal is a straight line; a signal with `true` or
+    /// `false` keeps its value.
+    #[arg(long, value_name = "SECONDS")]
+    every: Option<f64>,
     /// End when all formulas are decided, without reading the rest of the trace
     #[arg(long, conflicts_with = "dense")]
     stop_when_decided: bool,
@@ -66,8 +74,11 @@ impl Options {
         } else {
             Box::new(Lines::open(&self.trace)?)
         };
+        if let Some(every) = self.every.filter(|every| !(*every > 0.0 && every.is_finite())) {
+            return Err(usage(format!("--every {every}: expected a number of seconds above 0")).into());
+        }
         let mut seen = 0;
-        let trace = read_trace(&self.trace, source, |trace| {
+        let trace = read_trace(&self.trace, source, self.every, |trace| {
             if seen == 0 {
                 self.begin(&mut asked, trace)?;
             }

@@ -82,3 +82,19 @@ fn what_cannot_be_asked_is_refused() {
         refused(&fuzz(dir.path(), &[&["monitor"], arguments].concat()), says);
     }
 }
+
+#[test]
+fn a_log_with_uneven_samples_is_sampled_again() {
+    let dir = tempfile::tempdir().unwrap();
+    let log = "time,speed,brake\n1764324000.5,10,false\n1764324000.75,20,true\n1764324002.5,20,true\n";
+    std::fs::write(dir.path().join("log.csv"), log).unwrap();
+    let run = |more: &[&str]| {
+        fuzz(dir.path(), &[&["monitor", "log.csv", "--spec", "always[0,0.2] (speed < 17)"], more].concat())
+    };
+    refused(&run(&[]), &["the trace begins at 1764324000.5 s, expected 0 s", "--every SECONDS"]);
+    // 10 m/s rise to 20 m/s within a quarter of a second.
+    let found = stdout(&succeeds(run(&["--every", "0.05"])));
+    assert!(found.contains("41 samples every 0.05 s") && found.contains("violated"), "{found}");
+    refused(&run(&["--every", "0"]), &["--every 0: expected a number of seconds above 0"]);
+    refused(&run(&["--every", "1e-9"]), &["line 3: the trace would have", "choose a longer period"]);
+}

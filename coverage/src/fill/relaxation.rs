@@ -22,6 +22,8 @@
 use super::tree::{Nearest, Tree};
 use crate::deadline::Watch;
 
+/// The numbers of a matrix or of points that are looked at in the time of one other number: they lie side by side.
+const QUICK: usize = 4;
 /// The method ends after this number of pivots per row. It ends on its own earlier, unless rounding makes it go in
 /// circles.
 const MOST_PIVOTS_PER_ROW: usize = 16;
@@ -102,6 +104,7 @@ impl<'a> Relaxation<'a> {
     /// ends as soon as the bound is at most `bar`, or when the time is over.
     pub fn solve(&mut self, sides: &[Side], bar: f64, watch: &mut Watch) -> f64 {
         self.start(sides);
+        watch.passed_after(self.inverse.len() / QUICK);
         let first = self.bound(sides);
         if first <= bar {
             return first;
@@ -121,12 +124,12 @@ impl<'a> Relaxation<'a> {
                     if self.rows.contains(&Row::Point(point)) {
                         break;
                     }
-                    watch.passed_after(looked_at);
+                    watch.passed_after(looked_at * sides.len() / QUICK);
                     Row::Point(point)
                 }
             };
             // A pivot goes through a square matrix.
-            if !self.enter(entering, sides) || watch.passed_after(self.rows.len()) {
+            if !self.enter(entering, sides) || watch.passed_after(self.inverse.len() / QUICK) {
                 break;
             }
         }

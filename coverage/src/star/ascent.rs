@@ -92,7 +92,7 @@ impl<'a> Ascent<'a> {
             } else {
                 unmoved += 1;
             }
-            if unmoved >= self.sides.count() || deadline.passed_after(self.sides.points()) {
+            if unmoved >= self.sides.count() || deadline.passed_after(self.sides.points() * self.sides.count()) {
                 break;
             }
         }

@@ -23,8 +23,8 @@ const TIME_FOR_ASCENTS: f64 = 0.15;
 /// The target of the next pass, as a share of the way from the best value to the bound. With the first share a pass
 /// takes some two or three times as long as the last pass. If that would take too long, the second share is used.
 const NEXT_TARGET: [f64; 2] = [0.76, 0.9];
-/// The number of times that a relaxation looks at a number of its region, about: it sorts the numbers.
-const LOOKS: usize = 16;
+/// The number of times that a relaxation looks at a number of its region for each side, about: it sorts the numbers.
+const LOOKS: usize = 4;
 /// The number of numbers that the stack of a task may hold: some 200 MiB.
 const MOST_NUMBERS: usize = 1 << 24;
 
@@ -32,7 +32,7 @@ const MOST_NUMBERS: usize = 1 << 24;
 /// cuts regions of the type `R`, which read the points in the form `points`.
 pub(crate) fn largest_difference<R: Region>(points: &R::Points<'_>, sides: &Sides, deadline: Deadline) -> Bracket {
     let best = Ascent::new(sides).run(0..ASCENTS, deadline.part(TIME_FOR_ASCENTS));
-    let first = Pass::<R>::over(points, best, best, deadline.part(R::TIME_TO_THE_END));
+    let first = Pass::<R>::over(points, sides.count(), best, best, deadline.part(R::TIME_TO_THE_END));
     if first.left <= first.best {
         return Bracket::exact(first.best);
     }
@@ -45,7 +45,7 @@ pub(crate) fn largest_difference<R: Region>(points: &R::Points<'_>, sides: &Side
         let lap = deadline.lap();
         let is_short = deadline.left().is_some_and(|left| left < 4.0 * last);
         let target = best + NEXT_TARGET[usize::from(is_short)] * (upper - best);
-        let pass = Pass::<R>::over(points, best, target, deadline);
+        let pass = Pass::<R>::over(points, sides.count(), best, target, deadline);
         let got_no_further = pass.left >= upper;
         (best, upper) = (pass.best, pass.left.min(upper));
         last = lap.taken();
@@ -64,6 +64,8 @@ pub(crate) fn largest_difference<R: Region>(points: &R::Points<'_>, sides: &Side
 /// A pass over all boxes.
 struct Pass<'a, 'p, R: Region> {
     points: &'a R::Points<'p>,
+    /// The number of sides of a box that are not fixed.
+    sides: usize,
     /// The value above which a region must hold boxes; other regions are dropped.
     target: f64,
     deadline: Deadline,
@@ -84,9 +86,10 @@ struct Outcome {
 }
 
 impl<'a, 'p, R: Region> Pass<'a, 'p, R> {
-    fn over(points: &'a R::Points<'p>, best: f64, target: f64, deadline: Deadline) -> Outcome {
+    fn over(points: &'a R::Points<'p>, sides: usize, best: f64, target: f64, deadline: Deadline) -> Outcome {
         let pass = Self {
             points,
+            sides,
             target,
             deadline,
             stopped: AtomicBool::new(false),
@@ -110,7 +113,7 @@ impl<'a, 'p, R: Region> Pass<'a, 'p, R> {
                 continue;
             }
             // Most work is in the relaxations, also of regions that need no split.
-            let is_over = watch.passed_after(LOOKS * region.size());
+            let is_over = watch.passed_after(LOOKS * self.sides * region.size());
             match region.relax(self.points, threshold, &mut scratch) {
                 Relaxed::Nothing => continue,
                 Relaxed::Solved(value) => {
