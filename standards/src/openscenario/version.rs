@@ -9,10 +9,11 @@ pub(super) const NEWEST: u32 = 3;
 pub(super) const WRITTEN: u32 = 2;
 
 /// The elements that only the newest version has, and that are read or have no effect.
-pub(super) const OF_NEWEST: [&str; 9] = [
+pub(super) const OF_NEWEST: [&str; 10] = [
     "AngleCondition",
     "ClothoidSpline",
     "ClothoidSplineSegment",
+    "LogNormalDistribution",
     "MonitorDeclarations",
     "PositionStart",
     "RelativeAngleCondition",
