@@ -11,9 +11,6 @@
 use crate::{Study, Trial};
 use std::collections::BTreeMap;
 
-/// The greatest robustness that a search distinguishes, in multiples of its scale.
-const MOST: f64 = 10.0;
-
 /// The scales that a campaign has learned, by the ids of the requirements and in the units of the requirements.
 pub type Learned = BTreeMap<String, f64>;
 
@@ -25,6 +22,9 @@ pub struct Scales {
 }
 
 impl Scales {
+    /// The greatest robustness that a search distinguishes, in multiples of its scale.
+    pub const MOST: f64 = 10.0;
+
     /// Combines the scales that a study states with the scales that the study's campaign has learned.
     pub fn of(study: &Study, learned: Learned) -> Self {
         let stated = study.requirements().iter().filter_map(|stated| Some((stated.id.clone(), stated.scale?)));
@@ -67,7 +67,7 @@ impl Scales {
     }
 
     fn clip(&self, id: &str, robustness: f64) -> f64 {
-        self.normalised(id, robustness).clamp(-MOST, MOST)
+        self.normalised(id, robustness).clamp(-Self::MOST, Self::MOST)
     }
 
     /// Returns the smallest scaled robustness of all requirements in a trial, clipped to [-10, 10]. A single search

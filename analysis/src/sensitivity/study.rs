@@ -4,14 +4,12 @@ use super::design::{Design, Factor, evaluated, explain, tests_within};
 use super::{Sensitivity, SensitivityFlaw, Source};
 use crate::failure_estimate::failure_model;
 use crate::likelihood::always_hold;
-use paracosm_campaign::{Campaign, Error, Log, Problem, Trial};
+use paracosm_campaign::{Campaign, Error, Log, Problem, Scales, Trial};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Parameter, Point, Space, Values, plural};
 
 /// The number of pairs of tests for which a model is evaluated. A model answers at once.
 const PAIRS_OF_MODEL: usize = 4096;
-/// The robustness of a test that decided no requirement: the greatest one.
-const UNDECIDED: f64 = 10.0;
 
 /// Returns the parameters of a space, if they are independent.
 fn factors(space: &Space) -> Result<Vec<Factor>, SensitivityFlaw> {
@@ -47,7 +45,7 @@ pub fn of_tests(
             let is_judged = !matches!(trial.verdict, Verdict::Error | Verdict::Invalid);
             let robustness = scales.objective(trial);
             undecided += usize::from(is_judged && robustness.is_none());
-            let quantities = vec![f64::from(u8::from(trial.is_failure())), robustness.unwrap_or(UNDECIDED)];
+            let quantities = vec![f64::from(u8::from(trial.is_failure())), robustness.unwrap_or(Scales::MOST)];
             results.push(is_judged.then_some(quantities));
             if problem.is_none() {
                 problem.clone_from(&trial.problem);
@@ -61,7 +59,8 @@ pub fn of_tests(
     let mut notes = Vec::new();
     if undecided > 0 {
         let tests = plural(undecided, "test");
-        notes.push(format!("{tests} decided no requirement: their robustness counts as the greatest one, {UNDECIDED}"));
+        let most = Scales::MOST;
+        notes.push(format!("{tests} decided no requirement: their robustness counts as the greatest one, {most}"));
     }
     if left_out > 0 {
         let left_out = plural(left_out, "pair");
