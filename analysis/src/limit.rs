@@ -18,10 +18,10 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// The limit of work of the results that are written beside a campaign. It takes about 6 s of one core.
+    /// The limit of work of the results that are written beside a campaign. It takes some seconds of one core.
     pub const USUAL: Self = Self::Work(2_000_000_000);
 
-    /// The limit of work of one measure of one set in a comparison of strategies. It takes about a minute of one core.
+    /// The limit of work of one measure of one set in a comparison of strategies. It takes some 20 s of one core.
     pub const LONG: Self = Self::Work(20_000_000_000);
 
     /// Does some work until a deadline.

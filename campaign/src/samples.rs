@@ -72,7 +72,7 @@ pub enum TraceFlaw {
         time: Option<f64>,
     },
     /// The first time of the trace is not 0.
-    #[error("the trace begins at {at} s, expected 0 s; `paracosm-fuzz monitor --every SECONDS` samples a file again")]
+    #[error("the trace begins at {at} s, expected 0 s")]
     Begins {
         /// The first time of the trace, in seconds.
         at: f64,
@@ -96,10 +96,7 @@ pub enum TraceFlaw {
         signals: usize,
     },
     /// The distance between two successive times differs from the sample period.
-    #[error(
-        "the samples are not evenly spaced: sample {sample} is at {found} s, expected {expected} s; `paracosm-fuzz \
-         monitor --every SECONDS` samples a file again"
-    )]
+    #[error("the samples are not evenly spaced: sample {sample} is at {found} s, expected {expected} s")]
     Uneven {
         /// The index of the sample, from 0.
         sample: usize,

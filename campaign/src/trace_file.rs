@@ -1,12 +1,13 @@
 //! Traces as files: writes traces to look at and to plot, and reads traces to judge them.
 
-use crate::Error;
 use crate::files::write_whole;
 use crate::folder::{Folder, NotYours};
 use crate::samples::TraceFlaw;
+use crate::{Error, Reason};
 use paracosm_oracles::Trace;
 use std::io::Read;
 use std::path::Path;
+use thiserror::Error;
 
 /// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 0.01;
@@ -60,7 +61,7 @@ pub fn read_trace(
     for record in csv.records() {
         let record = record.map_err(broken)?;
         let line = record.position().map(|position| position.line() as usize);
-        table.take(record.iter()).map_err(|flaw| Error::in_file(path, line, flaw))?;
+        table.take(record.iter()).map_err(|flaw| Error::in_file(path, line, FlawOfFile { flaw }))?;
         if let Some(trace) = &table.trace
             && !goes_on(trace)?
         {
@@ -72,6 +73,27 @@ pub fn read_trace(
     let mut trace = enough.ok_or_else(|| Error::in_file(path, None, TraceFlaw::TooShort { samples }))?;
     trace.finish();
     Ok(trace)
+}
+
+/// A flaw in the samples of a file, with the way to read a file whose times are not even.
+#[derive(Debug, Error)]
+#[error("{flaw}{}", self.advice())]
+struct FlawOfFile {
+    #[source]
+    flaw: TraceFlaw,
+}
+
+impl Reason for FlawOfFile {}
+
+impl FlawOfFile {
+    fn advice(&self) -> &'static str {
+        match self.flaw {
+            TraceFlaw::Begins { .. } | TraceFlaw::Uneven { .. } => {
+                "; `paracosm-fuzz monitor --every SECONDS` samples the file again"
+            }
+            _ => "",
+        }
+    }
 }
 
 /// A trace that is being read.

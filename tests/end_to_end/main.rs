@@ -48,6 +48,7 @@ mod races;
 mod reference_drivers;
 mod requirements;
 mod roads;
+mod scenario_chances;
 mod scenario_files;
 mod sensitivity;
 mod signals;

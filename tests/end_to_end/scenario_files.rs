@@ -1,24 +1,26 @@
 //! Scenarios of files (ASAM OpenSCENARIO): campaigns over their parameters, replays, descriptions, and files with mistakes.
 
 use crate::common::{cover, fuzz, refused, stderr, stdout, succeeds};
-use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
+/// Scenarios of our own, with their catalogs.
+const FILES: [&str; 6] = [
+    "straight.xodr",
+    "slow-leader.xosc",
+    "slow-leader-variation.xosc",
+    "slow-leader-chances.xosc",
+    "slow-leader-shapes.xosc",
+    "catalogs/entities.xosc",
+];
+
 /// Returns a folder with the scenarios of our own and their catalogs.
-fn folder() -> TempDir {
+pub fn folder() -> TempDir {
     let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("standards/tests/scenarios/files");
     let dir = tempfile::tempdir().expect("a folder");
     fs::create_dir(dir.path().join("catalogs")).expect("it is writable");
-    for name in [
-        "straight.xodr",
-        "slow-leader.xosc",
-        "slow-leader-variation.xosc",
-        "slow-leader-chances.xosc",
-        "slow-leader-shapes.xosc",
-        "catalogs/entities.xosc",
-    ] {
+    for name in FILES {
         fs::copy(from.join(name), dir.path().join(name)).expect("it is there");
     }
     dir
@@ -124,42 +126,6 @@ fn the_space_of_a_scenario_file_or_of_a_campaign_is_planned_and_covered() {
     let tests = stdout(&succeeds(cover(dir.path(), &["generate", "--space", "c", "--budget", "12"])));
     assert_eq!(tests.lines().count(), 13, "{tests}");
     assert!(tests.starts_with("speed,"), "{tests}");
-}
-
-#[test]
-fn the_values_of_a_distribution_that_remain_keep_their_chances() {
-    let dir = folder();
-    let chances = |file: &str, open: &[&str]| {
-        let given = ["likelihood", file, "--driver", "aeb", "--budget", "3", "--format", "json", "--open"];
-        let found = stdout(&succeeds(fuzz(dir.path(), &[&given, open].concat())));
-        let found: Value = serde_json::from_str(&found).expect("it is JSON");
-        found["parameters"].clone()
-    };
-    // The file has 20 with the weight 1, and 50 with the weight 3.
-    let of = |open: &[&str], name: &str| chances("slow-leader-chances.xosc", open)[name].clone();
-    assert_eq!(of(&["gap=50,20"], "gap"), json!({"weights": [3, 1]}));
-    assert_eq!(of(&["gap=50"], "gap"), json!({"weights": [3]}));
-    assert_eq!(of(&["speed=30..40"], "speed"), json!({"normal": [35, 5]}));
-    assert_eq!(of(&["speed=30,40"], "speed"), "uniform");
-    // A distribution that is given takes the place of the distribution of the file.
-    assert_eq!(of(&["gap=50,20", "--distribution", "gap=weights:1,2"], "gap"), json!({"weights": [1, 2]}));
-    let of = |open: &str, name: &str| chances("slow-leader-shapes.xosc", &[open])[name].clone();
-    assert_eq!(of("speed=30,29", "speed")["weights"].as_array().map(Vec::len), Some(2));
-    assert_eq!(of("start=46..49", "start"), "uniform");
-}
-
-#[test]
-fn the_probability_of_failure_is_that_of_tests_that_keep_the_constraints() {
-    let dir = folder();
-    let given = ["likelihood", "slow-leader-variation.xosc", "--continuous", "--driver", "aeb", "--budget", "50"];
-    // The speed is at most 50 m/s by a constraint.
-    let narrow = [&given[..], &["--open", "speed=20..45", "--method", "qmc"]].concat();
-    let whole = stdout(&succeeds(fuzz(dir.path(), &narrow)));
-    assert!(!whole.contains("keep the constraints"), "{whole}");
-    let part = stdout(&succeeds(fuzz(dir.path(), &given)));
-    assert!(part.contains("the probability is that of tests that keep the constraints: 50 of "), "{part}");
-    let qmc = [&given[..], &["--method", "qmc"]].concat();
-    refused(&fuzz(dir.path(), &qmc), &["the method qmc needs the whole space"]);
 }
 
 #[test]
@@ -454,14 +420,7 @@ fn a_campaign_on_a_file_is_replayed_from_any_folder_and_after_a_move() {
     let moved = elsewhere.path().join("moved");
     fs::create_dir_all(moved.join("runs")).expect("it is writable");
     fs::create_dir(moved.join("catalogs")).expect("it is writable");
-    for name in [
-        "straight.xodr",
-        "slow-leader.xosc",
-        "slow-leader-variation.xosc",
-        "slow-leader-chances.xosc",
-        "slow-leader-shapes.xosc",
-        "catalogs/entities.xosc",
-    ] {
+    for name in FILES {
         fs::rename(inside(name), moved.join(name)).expect("it is there");
     }
     fs::rename(inside("runs/of today/c"), moved.join("runs/c")).expect("it is there");

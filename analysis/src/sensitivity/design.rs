@@ -7,7 +7,7 @@ use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
 
 /// The least number of pairs of tests. With fewer, the intervals say nothing.
-pub(super) const LEAST_PAIRS: usize = 16;
+const LEAST_PAIRS: usize = 16;
 /// The number of tests that are evaluated at a time, enough for many cores and few enough for the memory.
 const BATCH: usize = 4096;
 /// The greatest share of tests that may remain unjudged.
@@ -58,9 +58,9 @@ pub fn tests_within(budget: usize, parameters: usize) -> Result<usize, Sensitivi
 
 /// Estimates how much of the variance of each quantity each parameter explains, if the points are uniform in the unit cube.
 ///
-/// The design is that of Saltelli et al. (2010): for each of `pairs` pairs of independent points it evaluates both points,
-/// and for each parameter the first point with the parameter's coordinates of the second point. The pairs are
-/// Owen-scrambled Sobol points with twice the number of coordinates. A power of two is the best number of pairs.
+/// This is the design of Saltelli et al. (2010). It has `pairs` pairs of independent points. Both points of each pair are
+/// evaluated. So is, for each parameter, the first point with the parameter's coordinates of the second point. The pairs
+/// are Owen-scrambled Sobol points with twice the number of coordinates. A power of two is the best number of pairs.
 ///
 /// ```
 /// use paracosm_analysis::sensitivity::{Factor, explain};

@@ -17,10 +17,10 @@ pub(super) struct Values {
 impl Values {
     /// Estimates the indices of the parameters with these names.
     ///
-    /// The first-order index is that of Saltelli et al. (Variance based sensitivity analysis of model output, Computer Physics
-    /// Communications 181, 2010, table 2, row b). The total index is that of Jansen (Analysis of variance designs for model
-    /// output, Computer Physics Communications 117, 1999; row f of the table). The bootstrap draws pairs (Archer, Saltelli
-    /// and Sobol', Sensitivity measures, ANOVA-like techniques and the use of bootstrap, 1997).
+    /// The first-order index is estimated as by Saltelli et al. (Variance based sensitivity analysis of model output, Computer
+    /// Physics Communications 181, 2010, table 2, row b). The total index is estimated as by Jansen (Analysis of variance
+    /// designs for model output, Computer Physics Communications 117, 1999; row f of the table). The bootstrap draws pairs
+    /// (Archer, Saltelli and Sobol', Sensitivity measures, ANOVA-like techniques and the use of bootstrap, 1997).
     pub fn explain(&self, names: &[&str]) -> Explained {
         let pairs = self.first.len();
         let both = || self.first.iter().chain(&self.second);

@@ -74,12 +74,17 @@ pub fn of_tests(
 /// probability that a test fails.
 ///
 /// # Errors
-/// No parameter is open, constraints leave a part of the space, or there is no model, because no test failed or no test passed.
+/// No parameter is open, constraints leave a part of the space, or there is no model: no test failed, no test passed, or no model fits.
 pub fn of_model(log: &Log, seed: u64) -> Result<Sensitivity, Error> {
     let space = log.study().space();
     let factors = factors(space)?;
     let Some(model) = failure_model(log)? else {
-        let why = if log.trials().iter().any(Trial::is_failure) { "no test passed" } else { "no test failed" };
+        let has = |verdict| log.trials().iter().any(|trial| trial.verdict == verdict);
+        let why = match (log.trials().iter().any(Trial::is_failure), has(Verdict::Pass)) {
+            (false, _) => "no test failed",
+            (true, false) => "no test passed",
+            (true, true) => "no model fits its tests",
+        };
         return Err(SensitivityFlaw::NoModel { why }.into());
     };
     let Design { explained, evaluations, pairs, .. } = explain(&factors, PAIRS_OF_MODEL, seed, &mut |points| {

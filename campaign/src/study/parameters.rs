@@ -119,13 +119,12 @@ pub(super) fn is_of_world(name: &str) -> bool {
 /// Returns the domain over which a parameter is opened. If the parameter takes whole numbers only, an interval stands for the
 /// whole numbers in it that the parameter takes.
 fn listed(declared: &Declared, domain: &Domain) -> Result<Domain, ParameterMisuse> {
-    let all = declared.parameter.levels().into_iter().flatten();
-    match *domain {
-        Domain::Interval { lo, hi } if declared.whole && declared.parameter.levels().is_some() => {
-            let is_within = |level: &&Value| level.number().is_some_and(|number| (lo..=hi).contains(&number));
-            Ok(Domain::Choice(all.filter(is_within).cloned().collect()))
+    match (domain, declared.parameter.levels()) {
+        (Domain::Interval { lo, hi }, Some(levels)) if declared.whole => {
+            let is_within = |level: &&Value| level.number().is_some_and(|number| (lo..=hi).contains(&&number));
+            Ok(Domain::Choice(levels.iter().filter(is_within).cloned().collect()))
         }
-        Domain::Interval { lo, hi } if declared.whole => {
+        (&Domain::Interval { lo, hi }, None) if declared.whole => {
             let count = hi.floor() - lo.ceil() + 1.0;
             if count > MOST_WHOLE {
                 return Err(ParameterMisuse::TooManyWhole { name: declared.parameter.name.clone(), lo, hi, count });

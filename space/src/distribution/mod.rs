@@ -147,8 +147,8 @@ impl Distribution {
     /// The distribution is only for choices.
     pub(crate) fn quantile(&self, lo: f64, hi: f64, u: f64) -> f64 {
         // Rounding must not keep tests away from the ends of the interval. A histogram may begin or end with empty bins.
-        let is_positive = !matches!(self, Self::Histogram(_));
-        if is_positive && !(0.0 < u && u < 1.0) {
+        let reaches_the_ends = !matches!(self, Self::Histogram(_));
+        if reaches_the_ends && !(0.0 < u && u < 1.0) {
             return u.clamp(0.0, 1.0);
         }
         match self {

@@ -57,8 +57,8 @@ pub(super) struct Options {
     baseline: Option<String>,
     /// Limit the seconds of a measure of a set
     ///
-    /// A measure that does not finish gives a bracket [default: a limit of work, the same on every machine, of about a
-    /// minute].
+    /// A measure that does not finish gives a bracket [default: a limit of work, the same on every machine, of some
+    /// 20 s].
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
     /// The sets that are measured at a time

@@ -58,8 +58,8 @@ pub(super) struct Options {
     measures: Vec<Measure>,
     /// Limit the seconds of all measures
     ///
-    /// A measure that does not finish gives a bracket [default: a limit of work, the same on every machine: about 6 s of
-    /// one core, and about a minute with --certificate].
+    /// A measure that does not finish gives a bracket [default: a limit of work, the same on every machine: about 3 s of
+    /// one core, and ten times as much with --certificate].
     #[arg(long, value_name = "SECONDS")]
     time_limit: Option<f64>,
     /// Write a certificate of the dispersions
