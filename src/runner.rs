@@ -1,19 +1,17 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
 use crate::analysis::{
-    Coverage, Effects, Explanation, Limit, LocatedReport, Modes, Perceived, Promise, Summary, SuspectReport,
-    explanation,
+    Coverage, Effects, Explanation, Impacts, Limit, LocatedReport, Modes, Perceived, Plausible, Promise, Summary,
+    SuspectReport, explanation,
 };
 use crate::campaign::{
-    Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
+    Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Supervision, Trial,
 };
 use crate::coverage::Measure;
 use crate::report::{FailureMap, Junit, TrialTable, plot::MapFiles};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use thiserror::Error;
 
 /// Runs the tests of a study and writes the results into a folder. The folder gets the study, the log, the table of
@@ -50,7 +48,7 @@ pub struct Runner<'a> {
     locate: Option<usize>,
     junit: bool,
     program: String,
-    stop: Arc<AtomicBool>,
+    supervision: Supervision,
 }
 
 /// The results of a campaign that was run to its end.
@@ -64,6 +62,10 @@ pub struct Report {
     pub summary: Summary,
     /// The coverage of the space by the tests.
     pub coverage: Coverage,
+    /// The summary of the plausible tests, or `None` if the scenario calls all values of the open parameters plausible.
+    pub plausible: Option<Plausible>,
+    /// The impact speeds of the tests with a contact, or `None` if no test has one.
+    pub impacts: Option<Impacts>,
     /// The failure map, or `None` if fewer than two continuous parameters are open.
     pub map: Option<FailureMap>,
     /// The combinations of discrete values that only failing tests have, or `None` if the search was not possible. The
@@ -120,6 +122,8 @@ impl Report {
         let has_levels = !log.study().space().levels().is_empty();
         Ok(Self {
             coverage,
+            plausible: Plausible::of(&log),
+            impacts: Impacts::of(&log),
             map,
             suspects: if has_levels { SuspectReport::of(&log)? } else { None },
             located: None,
@@ -148,7 +152,7 @@ impl<'a> Runner<'a> {
             locate: None,
             junit: false,
             program: "paracosm-fuzz".to_owned(),
-            stop: Arc::default(),
+            supervision: Supervision::default(),
         }
     }
 
@@ -189,9 +193,10 @@ impl<'a> Runner<'a> {
         self
     }
 
-    /// Makes the runner end with [`Error::Interrupted`] once the flag `stop` is set.
-    pub fn until(mut self, stop: Arc<AtomicBool>) -> Self {
-        self.stop = stop;
+    /// Makes the runner end with [`Error::Interrupted`] once the flag of `supervision` is set. The output of programs goes to the place of
+    /// `supervision`, which keeps it in the folder of the campaign.
+    pub fn until(mut self, supervision: impl Into<Supervision>) -> Self {
+        self.supervision = supervision.into();
         self
     }
 
@@ -209,6 +214,7 @@ impl<'a> Runner<'a> {
         } else {
             (Folder::create(folder, self.study, self.extension)?, Vec::new())
         };
+        self.supervision.output.keep_in(folder);
         let (learned, summary) = (Learned::new(), Summary::default());
         let mut record = Record { runner: self, folder: kept, trials: Vec::new(), learned, summary };
         let mut all: Vec<&mut dyn Observer> = vec![&mut record];
@@ -241,7 +247,7 @@ impl<'a> Runner<'a> {
     }
 
     fn campaign(&self) -> Result<Campaign<'a>, Error> {
-        let mut campaign = Campaign::until(self.study, Arc::clone(&self.stop))?;
+        let mut campaign = Campaign::until(self.study, self.supervision.clone())?;
         if let Some(extension) = self.extension {
             campaign = campaign.extending(extension)?;
         }

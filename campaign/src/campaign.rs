@@ -10,7 +10,7 @@ use crate::expected::Expected;
 use crate::observer::{FirstFailure, Observer};
 use crate::scales::Learned;
 use crate::steering::Steering;
-use crate::{Error, Extension, Log, Reason, Study, Trial, Worker};
+use crate::{Error, Extension, Log, Reason, Study, Supervision, Trial, Worker};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Point, Values};
 use std::num::NonZeroUsize;
@@ -38,7 +38,7 @@ pub struct Campaign<'a> {
     /// The existing tests that the campaign counts as done, with the points of these tests in the space.
     extension: Option<(Extension, Vec<Point>)>,
     known: Vec<Trial>,
-    stop: Arc<AtomicBool>,
+    supervision: Supervision,
     /// Idle workers, which keep the processes that they started from one batch of tests to the next.
     idle: Mutex<Vec<Worker<'a>>>,
 }
@@ -71,20 +71,21 @@ impl<'a> Campaign<'a> {
     /// The scenario, the driver or the system of the study cannot do what is asked; or the driver uses cameras, and the
     /// machine has nothing to draw with. [`Campaign::check`] checks the strategy.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
-        Self::until(study, Arc::default())
+        Self::until(study, Supervision::default())
     }
 
-    /// Makes a campaign that ends with [`Error::Interrupted`] once `stop` is set, even while a test waits for an
-    /// answer.
+    /// Makes a campaign that ends with [`Error::Interrupted`] once the flag of `supervision` is set, even while a test waits for an
+    /// answer, and that gives the output of programs to the place of `supervision`.
     ///
     /// # Errors
     /// The same errors as [`Campaign::new`].
-    pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+    pub fn until(study: &'a Study, supervision: impl Into<Supervision>) -> Result<Self, Error> {
+        let supervision = supervision.into();
         let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        let mut worker = Worker::until(study, Arc::clone(&stop))?;
+        let mut worker = Worker::until(study, supervision.clone())?;
         worker.start()?;
         let (darkroom, idle) = (worker.darkroom().cloned(), Mutex::new(vec![worker]));
-        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, extension: None, known: Vec::new(), stop, idle })
+        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, extension: None, known: Vec::new(), supervision, idle })
     }
 
     /// Counts the tests of an extension as done, so that the strategy proposes tests in addition to the tests of the
@@ -118,7 +119,7 @@ impl<'a> Campaign<'a> {
 
     /// Returns the flag that ends the campaign with [`Error::Interrupted`] when the flag is set.
     pub fn stop(&self) -> Arc<AtomicBool> {
-        self.stop.clone()
+        self.supervision.stop.clone()
     }
 
     /// Checks that the strategy accepts the study's space and options and the tests that the campaign extends.
@@ -261,7 +262,7 @@ impl<'a> Campaign<'a> {
                 Ok(ControlFlow::Break(())) => None,
                 Err(error) => Some(error),
             };
-            self.stop.store(true, Ordering::Relaxed);
+            self.supervision.stop.store(true, Ordering::Relaxed);
             Err(end)
         };
         let result = if self.darkroom.is_some() && self.study.perceiver().is_none() {
@@ -274,7 +275,7 @@ impl<'a> Campaign<'a> {
         };
         match result {
             Err(end) => {
-                self.stop.store(false, Ordering::Relaxed);
+                self.supervision.stop.store(false, Ordering::Relaxed);
                 end.map_or(Ok(ControlFlow::Break(())), Err)
             }
             Ok(()) if shown < tests.len() => Err(Error::Interrupted),
@@ -291,11 +292,11 @@ impl<'a> Campaign<'a> {
     /// Returns an idle worker, or a new one.
     fn worker(&self) -> Result<Worker<'a>, Error> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        idle.map_or_else(|| Worker::beside(self.study, self.stop.clone(), self.darkroom.clone()), Ok)
+        idle.map_or_else(|| Worker::beside(self.study, self.supervision.clone(), self.darkroom.clone()), Ok)
     }
 
     fn is_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.supervision.stop.load(Ordering::Relaxed)
     }
 
     fn dismiss(&self, worker: Worker<'a>) {

@@ -4,7 +4,7 @@
 //! Whatever the process does or fails to do, it cannot delay the campaign for longer than the time-out.
 
 use crate::process::{self, ARRIVAL};
-use crate::{Problem, ProblemKind, Reason};
+use crate::{Problem, ProblemKind, Reason, Supervision};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::ExitStatus;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -68,8 +68,8 @@ pub(crate) struct Process {
 impl Process {
     /// Starts the process of a command, which is a list of words that begins with the program. The list must not be
     /// empty. Messages call the process by its role.
-    pub fn start(words: &[String], role: &'static str) -> Result<Self, NotStarted> {
-        let started = process::Process::start(words, &[]);
+    pub fn start(words: &[String], role: &'static str, supervision: &Supervision) -> Result<Self, NotStarted> {
+        let started = process::Process::start(words, &[], supervision, role);
         let mut process = started.map_err(|source| NotStarted { role, program: words[0].clone(), source })?;
         let (mut stdin, stdout) = (process.stdin().expect("it is new"), process.stdout().expect("it is new"));
         let (questions, asked) = mpsc::channel::<Vec<u8>>();
@@ -176,7 +176,7 @@ mod tests {
         let count = dir.path().join("count");
         let flood = "i=0; while [ $i -lt 5000 ]; do printf '%01000d\\n' $i; i=$((i + 1)); echo $i > \"$0\"; done";
         let words = ["sh", "-c", flood, count.to_str().unwrap()].map(str::to_owned);
-        let process = Process::start(&words, "system").unwrap();
+        let process = Process::start(&words, "system", &Supervision::default()).unwrap();
         let said = || fs::read_to_string(&count).unwrap_or_default();
         // The process waits, or has ended, once the number stands still.
         let (mut before, mut now) = (String::new(), said());

@@ -13,7 +13,7 @@ use crate::scales::Learned;
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::trial::Line;
 use crate::trials_file::{Read, TRIALS, read_trials};
-use crate::{Error, Extension, Failure, Reason, Study, Trial};
+use crate::{Error, Extension, Failure, Reason, Study, Trial, run_in};
 use same_file::Handle;
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -23,8 +23,10 @@ use thiserror::Error;
 
 /// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
+/// The names of the files about the programs that a campaign starts.
+const OF_PROGRAMS: [&str; 4] = [run_in::FILE, "driver.log", "perceiver.log", "system.log"];
 /// The names of the files that hold results derived from the trials of a campaign.
-pub const DERIVED: [&str; 15] = [
+pub const DERIVED: [&str; 17] = [
     "effects.json",
     "trials.csv",
     "coverage.json",
@@ -39,6 +41,8 @@ pub const DERIVED: [&str; 15] = [
     "blame.csv",
     "blame-map.svg",
     "blame-map.png",
+    "severity-map.svg",
+    "severity-map.png",
     "junit.xml",
 ];
 
@@ -123,6 +127,7 @@ impl Folder {
         }
         let text = write_study(path, study, &Learned::new(), extension)?;
         keep_extended(path, study, extension)?;
+        run_in::keep(path, study)?;
         Self::open(path, log, Some(hash_of_text(&text)))
     }
 
@@ -205,7 +210,7 @@ impl Folder {
 
     /// Returns `true` if the campaign reserves the given file name for its own files.
     pub fn owns(name: &OsStr) -> bool {
-        [STUDY, TRIALS, EXTENDED].into_iter().chain(DERIVED).any(|ours| ours == name)
+        [STUDY, TRIALS, EXTENDED].into_iter().chain(OF_PROGRAMS).chain(DERIVED).any(|ours| ours == name)
     }
 }
 

@@ -2,22 +2,20 @@
 
 use crate::judge::judge;
 use crate::simulator::Simulator;
-use crate::{Error, Problem, ProblemKind, Study, Trial};
+use crate::{Error, Problem, ProblemKind, Study, Supervision, Trial};
 use paracosm_engine::{Outcome, Test};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::Values;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// The simulators that run the failing tests of a worker with the reference drivers.
 pub struct Jury<'a>(Vec<(&'a Study, Simulator<'a>)>);
 
 impl<'a> Jury<'a> {
-    /// Makes the simulators for the reference drivers of a study. They stop once `stop` is set.
-    pub fn of(study: &'a Study, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+    /// Makes the simulators for the reference drivers of a study. They stop with the campaign.
+    pub fn of(study: &'a Study, supervision: &Supervision) -> Result<Self, Error> {
         let simulator = |reference: &'a Study| {
             reference.check_trust()?;
-            Ok((reference, Simulator::new(reference.subject().scenario()?, stop.clone(), None)?))
+            Ok((reference, Simulator::new(reference.subject().scenario()?, supervision.clone(), None)?))
         };
         study.references().iter().map(simulator).collect::<Result<_, Error>>().map(Self)
     }

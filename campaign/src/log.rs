@@ -6,9 +6,10 @@ use crate::scales::{Learned, Scales};
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::test_set::TestSet;
 use crate::trials_file::{TRIALS, read_trials};
-use crate::{Catalogue, Error, Extension, Reason, SpaceFile, Study, Trial, Trust};
+use crate::{Catalogue, Error, Extension, Reason, SpaceFile, Study, Trial, Trust, run_in};
 use paracosm_space::Point;
 use paracosm_space::pict::Aliases;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -19,6 +20,8 @@ pub struct Log {
     scales: Scales,
     extension: Option<Extension>,
     trials: Vec<Trial>,
+    /// The folder in which the commands of the campaign ran, if the folder of the campaign says so.
+    run_in: Option<PathBuf>,
 }
 
 /// The error that a space was given for the folder of a campaign, which has its own space.
@@ -37,7 +40,7 @@ impl Log {
     pub fn new(study: Study, learned: Learned, extension: Option<Extension>, trials: Vec<Trial>) -> Self {
         let mut scales = Scales::of(&study, learned);
         scales.learn(&trials);
-        Self { study, scales, extension, trials }
+        Self { study, scales, extension, trials, run_in: None }
     }
 
     /// Reads the log of a campaign from the campaign's folder.
@@ -54,13 +57,20 @@ impl Log {
         let log = path.join(TRIALS);
         let read = read_trials(&log, Lines::open_here(&log)?, &study, &hash)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
-        Ok(Self::new(study, learned, extension, read.trials))
+        Ok(Self { run_in: run_in::read(path), ..Self::new(study, learned, extension, read.trials) })
     }
 
     /// Returns the log with the trust of the user in the command that its study names. Without trust, no test of a log
-    /// that was read from a file can be run if it needs the command.
+    /// that was read from a file can be run if it needs the command. With trust in all commands, they run in the folder in which they ran
+    /// in the campaign. Otherwise they run in the folder of this process, because the folder of a stranger may name any other.
     pub fn trusting(self, trust: &Trust) -> Self {
-        Self { study: self.study.trusting(trust), ..self }
+        let trust = self.run_in.iter().fold(trust.clone(), |trust, folder| trust.running_in(folder));
+        Self { study: self.study.trusting(&trust), ..self }
+    }
+
+    /// Returns the folder in which the commands of the campaign ran; `None` if the study runs no commands, or if the folder is not known.
+    pub fn run_in(&self) -> Option<&Path> {
+        self.run_in.as_deref().filter(|_| !self.study.commands().is_empty())
     }
 
     /// Returns the study of the campaign.
@@ -111,17 +121,29 @@ impl Log {
     }
 }
 
-/// Reads tests from a CSV file or from the folder of a campaign.
+/// Reads tests from a file of tests or from the folder of a campaign.
 ///
 /// # Errors
 /// The file cannot be read, or does not hold tests of the space; or a space is given for a folder.
 pub fn read_tests(path: &Path, space: Option<SpaceFile>) -> Result<TestSet, Error> {
     match (path.is_dir(), space) {
-        (false, Some(SpaceFile { space, demand, aliases, .. })) => {
-            Ok(TestSet { demand, ..TestSet::read(path, Some(space), &aliases)? })
-        }
-        (false, None) => TestSet::read(path, None, &Aliases::default()),
+        (false, space) => read_tests_from(Lines::open(path)?, path, space),
         (true, Some(_)) => Err(HasSpace { path: path.to_owned() }.into()),
         (true, None) => Log::read(path, &Catalogue::default())?.test_set(),
     }
+}
+
+/// Reads tests from an input in the format of a file of tests; `path` is the name of the input in errors.
+///
+/// # Errors
+/// The input cannot be read, or does not hold tests of the space.
+pub fn read_tests_from(
+    source: Lines<impl Read + 'static>,
+    path: &Path,
+    space: Option<SpaceFile>,
+) -> Result<TestSet, Error> {
+    let Some(SpaceFile { space, demand, aliases, .. }) = space else {
+        return TestSet::read_from(source, path, None, &Aliases::default());
+    };
+    Ok(TestSet { demand, ..TestSet::read_from(source, path, Some(space), &aliases)? })
 }

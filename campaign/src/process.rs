@@ -3,9 +3,10 @@
 //! The process leads a process group of its own, which is ended as a whole, so that the children of a shell end with
 //! it. The last output of the process on its standard error is kept, for the message that says why the process ended.
 
-use crate::Reason;
+use crate::{Output, Reason, Supervision};
 use std::collections::VecDeque;
 use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -14,6 +15,9 @@ use thiserror::Error;
 
 /// The number of bytes of the process's last words that are kept.
 const LAST_WORDS: usize = 400;
+
+/// The length in bytes from which a line of output is taken in parts.
+const LONGEST_LINE: usize = 1 << 16;
 
 /// The longest time that the last output of a process may take to arrive after the process ended.
 pub const ARRIVAL: Duration = Duration::from_secs(1);
@@ -47,16 +51,26 @@ fn end_group(leader: u32) {
 pub struct Process {
     child: Child,
     complaints: Arc<Mutex<VecDeque<u8>>>,
+    output: (Output, &'static str),
     listeners: Vec<JoinHandle<()>>,
 }
 
 impl Process {
     /// Starts the process of a command, with additional environment variables. The command is a list of words, which
-    /// must not be empty and begins with the program.
-    pub fn start(words: &[String], environment: &[(&str, String)]) -> io::Result<Self> {
+    /// must not be empty and begins with the program. The standard error of the process goes to the place for output, under the role of the
+    /// process.
+    pub fn start(
+        words: &[String],
+        environment: &[(&str, String)],
+        supervision: &Supervision,
+        role: &'static str,
+    ) -> io::Result<Self> {
         let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut command = Command::new(&words[0]);
+        let mut command = Command::new(program(&words[0], supervision.folder.as_deref()));
         command.args(&words[1..]).envs(environment.iter().map(|(name, value)| (name, value)));
+        if let Some(folder) = &supervision.folder {
+            command.current_dir(folder);
+        }
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
@@ -64,7 +78,12 @@ impl Process {
         running.push(child.id());
         drop(running);
         let stderr = child.stderr.take().expect("it is piped");
-        let mut process = Self { child, complaints: Arc::default(), listeners: Vec::new() };
+        let mut process = Self {
+            child,
+            complaints: Arc::default(),
+            output: (supervision.output.clone(), role),
+            listeners: Vec::new(),
+        };
         process.keep_last_of(stderr);
         Ok(process)
     }
@@ -79,10 +98,10 @@ impl Process {
         self.child.stdout.take()
     }
 
-    /// Reads a stream of the process, and keeps the last bytes for messages about the end of the process.
+    /// Reads a stream of the process to the place of its output, and keeps the last bytes for messages about the end of the process.
     pub fn keep_last_of(&mut self, stream: impl Read + Send + 'static) {
-        let kept = self.complaints.clone();
-        self.listeners.push(thread::spawn(move || keep_last(stream, &kept)));
+        let (kept, output) = (self.complaints.clone(), self.output.clone());
+        self.listeners.push(thread::spawn(move || keep_last(stream, &kept, &output)));
     }
 
     /// Returns the exit status of the process, if it has ended.
@@ -144,13 +163,32 @@ fn wait_until(longest: Duration, mut so: impl FnMut() -> bool) -> bool {
     true
 }
 
-fn keep_last(mut stream: impl Read, kept: &Mutex<VecDeque<u8>>) {
+/// Returns the path of a program that starts in a folder. A path with several parts begins in this folder, a single name is searched for.
+fn program(word: &str, folder: Option<&Path>) -> PathBuf {
+    match folder.filter(|_| Path::new(word).components().count() > 1) {
+        Some(folder) => folder.join(word),
+        None => PathBuf::from(word),
+    }
+}
+
+fn keep_last(mut stream: impl Read, kept: &Mutex<VecDeque<u8>>, (output, role): &(Output, &'static str)) {
     let mut bytes = [0; 4096];
+    let mut line = Vec::new();
     while let Ok(count @ 1..) = stream.read(&mut bytes) {
+        for part in bytes[..count].split_inclusive(|byte| *byte == b'\n') {
+            line.extend_from_slice(part);
+            if line.ends_with(b"\n") || line.len() >= LONGEST_LINE {
+                output.take(role, &std::mem::take(&mut line));
+            }
+        }
         let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.extend(&bytes[..count]);
         let surplus = kept.len().saturating_sub(LAST_WORDS);
         kept.drain(..surplus);
+    }
+    if !line.is_empty() {
+        line.push(b'\n');
+        output.take(role, &line);
     }
 }
 

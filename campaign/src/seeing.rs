@@ -9,7 +9,7 @@
 //! first run outside of the mask. `{"error":"..."}` says why there is no answer.
 
 use crate::conversation::Process;
-use crate::{Error, Problem, ProblemKind};
+use crate::{Error, Problem, ProblemKind, Supervision};
 use paracosm_perception::{
     Detection, Detector, Extent, Group, Mask, Perceiver, PerceiverError, Percept, Picture, Rect, Segmenter, Task,
 };
@@ -29,7 +29,7 @@ const ROLE: &str = "perceiver";
 pub(crate) struct SeeingProcess {
     words: Vec<String>,
     timeout: Duration,
-    stop: Arc<AtomicBool>,
+    supervision: Supervision,
     task: Task,
     process: Option<Process>,
 }
@@ -88,14 +88,14 @@ impl SeeingProcess {
     ///
     /// # Errors
     /// The process cannot be started, does not say what its answers mean, or says what makes no sense.
-    pub fn meaning(words: &[String], timeout: Duration, stop: &AtomicBool) -> Result<Task, Error> {
-        let mut process = Process::start(words, ROLE).map_err(Error::unavailable)?;
-        Ok(introduced(&mut process, timeout, stop).map_err(Failed)?)
+    pub fn meaning(words: &[String], timeout: Duration, supervision: &Supervision) -> Result<Task, Error> {
+        let mut process = Process::start(words, ROLE, supervision).map_err(Error::unavailable)?;
+        Ok(introduced(&mut process, timeout, &supervision.stop).map_err(Failed)?)
     }
 
     /// Makes a perceiver whose answers have the given meaning.
-    pub fn new(words: Vec<String>, timeout: Duration, stop: Arc<AtomicBool>, task: Task) -> Self {
-        Self { words, timeout, stop, task, process: None }
+    pub fn new(words: Vec<String>, timeout: Duration, supervision: Supervision, task: Task) -> Self {
+        Self { words, timeout, supervision, task, process: None }
     }
 
     /// Starts the process if it does not run, and asks it.
@@ -103,16 +103,16 @@ impl SeeingProcess {
         let mut process = match self.process.take() {
             Some(process) => process,
             None => {
-                let started = Process::start(&self.words, ROLE);
+                let started = Process::start(&self.words, ROLE, &self.supervision);
                 let mut process = started.map_err(|error| Problem::new(ProblemKind::Process, error.to_string()))?;
-                if introduced(&mut process, self.timeout, &self.stop)? != self.task {
+                if introduced(&mut process, self.timeout, &self.supervision.stop)? != self.task {
                     let message = "the perceiver says another meaning of its answers than when the campaign began";
                     return Err(Problem::new(ProblemKind::Answer, message));
                 }
                 process
             }
         };
-        let heard = process.ask(question, self.timeout, &self.stop);
+        let heard = process.ask(question, self.timeout, &self.supervision.stop);
         match heard.and_then(|line| read_percepts(&line, &self.task, pictures)) {
             Ok(percepts) => {
                 self.process = Some(process);
@@ -140,7 +140,7 @@ impl Perceiver for SeeingProcess {
         pictures.iter().for_each(|picture| question.extend_from_slice(picture.rgb));
         let has_past = self.process.is_some();
         let mut answered = self.ask(&question, pictures);
-        if answered.is_err() && has_past && !self.stop.load(Ordering::Relaxed) {
+        if answered.is_err() && has_past && !self.supervision.stop.load(Ordering::Relaxed) {
             answered = self.ask(&question, pictures);
         }
         answered.map_err(|problem| PerceiverError::Failed(Arc::new(problem)))

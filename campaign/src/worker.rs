@@ -14,15 +14,15 @@ use crate::simulator::{Recording, Simulator};
 use crate::study::Subject;
 #[cfg(not(feature = "camera"))]
 use crate::study::WithoutCameras;
-use crate::{Error, Log, Problem, ProblemKind, Reason, Study, Trial};
+use crate::{Error, Log, Problem, ProblemKind, Reason, Study, Supervision, Trial};
 #[cfg(feature = "camera")]
 use paracosm_engine::sensor::Cameras;
 use paracosm_engine::sensor::Shutters;
 use paracosm_engine::{Judgement, Run, Test};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::Values;
+use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// A worker that runs tests of a study, one test at a time or many tests in lockstep.
 pub struct Worker<'a> {
@@ -48,7 +48,7 @@ impl Reason for OtherTrace {}
 /// The simulator or the external system that runs the tests.
 enum Bench<'a> {
     Simulator(Box<Simulator<'a>>),
-    System(Connection),
+    System(Box<Connection>),
 }
 
 impl<'a> Worker<'a> {
@@ -58,12 +58,13 @@ impl<'a> Worker<'a> {
     /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is invalid; or
     /// its driver cannot be started, or uses cameras and the machine has nothing to draw with.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
-        Self::until(study, Arc::default())
+        Self::until(study, Supervision::default())
     }
 
-    /// Makes a worker that stops waiting for a system or a driver once `stop` is set.
-    pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
-        let mut worker = Self::beside(study, stop, None)?;
+    /// Makes a worker that stops waiting for a system or a driver once the flag of `supervision` is set, and that gives the output of programs to
+    /// the place of `supervision`.
+    pub fn until(study: &'a Study, supervision: impl Into<Supervision>) -> Result<Self, Error> {
+        let mut worker = Self::beside(study, supervision, None)?;
         if let Bench::Simulator(simulator) = &mut worker.bench {
             simulator.start()?;
             #[cfg(feature = "camera")]
@@ -76,15 +77,21 @@ impl<'a> Worker<'a> {
 
     /// Makes a further worker, which shares the given darkroom with other workers. If no driver can be made, the first
     /// test reports the error.
-    pub fn beside(study: &'a Study, stop: Arc<AtomicBool>, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
+    pub fn beside(
+        study: &'a Study,
+        supervision: impl Into<Supervision>,
+        darkroom: Option<Arc<Darkroom>>,
+    ) -> Result<Self, Error> {
+        let folder = study.trust().folder().map(Path::to_owned);
+        let supervision = Supervision { folder, ..supervision.into() };
         study.check_trust()?;
         #[cfg(feature = "camera")]
-        let exam = study.perceiver().map(|choice| Exam::new(choice, study.space(), stop.clone())).transpose()?;
+        let exam = study.perceiver().map(|choice| Exam::new(choice, study.space(), supervision.clone())).transpose()?;
         let bench = match study.subject() {
             Subject::Scenario(simulation) => {
-                Bench::Simulator(Box::new(Simulator::new(simulation, stop.clone(), darkroom)?))
+                Bench::Simulator(Box::new(Simulator::new(simulation, supervision.clone(), darkroom)?))
             }
-            Subject::System(system) => Bench::System(Connection::new(system, stop.clone())?),
+            Subject::System(system) => Bench::System(Box::new(Connection::new(system, supervision.clone())?)),
         };
         #[cfg(not(feature = "camera"))]
         if study.perceiver().is_some() {
@@ -93,7 +100,7 @@ impl<'a> Worker<'a> {
         Ok(Self {
             study,
             bench,
-            jury: Jury::of(study, &stop)?,
+            jury: Jury::of(study, &supervision)?,
             #[cfg(feature = "camera")]
             exam,
         })

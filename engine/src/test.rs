@@ -13,6 +13,9 @@ pub struct Declared {
     /// The domain that tests vary the parameter over if a study opens it and names no range; `None` for the domain of
     /// the parameter.
     pub opens: Option<Domain>,
+    /// The least and the greatest value that occur in the world, as far as the program says; tests with other values can be run, but
+    /// do not count as plausible.
+    pub plausible: Option<[f64; 2]>,
     /// True if the parameter takes any text, such as the path of a file. Its domain then lists the texts that the program
     /// knows.
     pub takes_texts: bool,
@@ -24,7 +27,7 @@ pub struct Declared {
 impl Declared {
     /// Makes an open parameter, which a study varies over its whole domain.
     pub fn open(parameter: Parameter) -> Self {
-        Self { parameter, open: true, opens: None, takes_texts: false, whole: false }
+        Self { parameter, open: true, opens: None, plausible: None, takes_texts: false, whole: false }
     }
 
     /// Returns a value as the parameter has it: a number is a text if the parameter takes texts, or if this text is one of its
@@ -63,6 +66,15 @@ impl Declared {
             parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
         }
         parameter
+    }
+
+    /// Returns the least and the greatest value that occur in the world; without any, those of the interval that tests vary the parameter
+    /// over if a study opens it and names no range.
+    pub fn plausible(&self) -> Option<[f64; 2]> {
+        self.plausible.or(match self.opens {
+            Some(Domain::Interval { lo, hi }) => Some([lo, hi]),
+            _ => None,
+        })
     }
 
     /// Returns the nominal value of the parameter; by default the middle of an interval or the first level of a choice.

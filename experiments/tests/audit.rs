@@ -26,7 +26,10 @@ fn percent(share: Option<f64>) -> String {
 /// The volume of a hole, as a certified bracket if it is not exact; a dash if nothing is continuous.
 fn hole(lower: Option<f64>, upper: Option<f64>) -> String {
     match (lower, upper) {
-        (Some(lower), Some(upper)) if upper > 0.0 && upper - lower > 5e-4 => format!("{lower:.3} to {upper:.3}"),
+        (Some(lower), Some(upper)) if upper > 0.0 && upper - lower > 5e-4 => {
+            let digits = if format!("{lower:.3}") == format!("{upper:.3}") { 4 } else { 3 };
+            format!("{lower:.digits$} to {upper:.digits$}")
+        }
         (Some(_), Some(upper)) | (None, Some(upper)) if upper > 0.0 => format!("{upper:.3}"),
         _ => "–".to_owned(),
     }

@@ -116,7 +116,13 @@ fn study(data: &[u8]) {
     fs::write(folder.path().join("trials.jsonl"), b"").expect("there is room for a file");
     look(Log::read(folder.path(), &catalogue()), |log| {
         // Nothing that a file names is run without trust.
-        look(paracosm::campaign::Worker::until(log.trusting(&Trust::default()).study(), Default::default()), |_| ());
+        look(
+            paracosm::campaign::Worker::until(
+                log.trusting(&Trust::default()).study(),
+                paracosm::campaign::Supervision::default(),
+            ),
+            |_| (),
+        );
     });
 }
 

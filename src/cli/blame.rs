@@ -58,7 +58,7 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = Log::read(&self.dir, catalogue)?.trusting(&self.trust.trust());
+        let log = trust::read_log(&self.dir, catalogue, &self.trust.trust(), verbosity)?;
         let study = log.study();
         let references: Vec<&str> = self.driver.iter().map(String::as_str).collect();
         let mut inquiry = Inquiry::new(study, &references)?;

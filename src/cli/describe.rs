@@ -6,7 +6,7 @@ use super::subject::Subject;
 use super::{Failure, Status, Verbosity, print};
 use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup};
 use crate::oracles::signal;
-use crate::space::Value;
+use crate::space::{Domain, Value};
 use crate::standards::opendrive;
 use clap::Args;
 use paracosm_campaign::{Catalogue, Error, Study};
@@ -93,7 +93,12 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         let signal = parameter.signal.map(|shape| format!(", {shape} over time")).unwrap_or_default();
         let whole = if declared.whole && opened.is_none() { "whole numbers of " } else { "" };
         let domain = format!("{whole}{}", domain_words(&parameter.domain));
-        table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{state}{signal}"));
+        let plausible = declared.plausible().map(|[least, most]| {
+            let interval = Domain::Interval { lo: least, hi: most };
+            format!(", plausibly {}", domain_words(&interval))
+        });
+        let plausible = plausible.unwrap_or_default();
+        table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{plausible}{state}{signal}"));
     }
     table.heading("requirements");
     for requirement in study.requirements() {
@@ -146,7 +151,8 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
         .map(|declared| {
             let opened = study.space().find(&declared.parameter.name);
             let parameter = opened.unwrap_or(&declared.parameter);
-            let mut said = json!({"parameter": parameter, "open": opened.is_some(), "nominal": declared.nominal()});
+            let mut said = json!({"parameter": parameter, "open": opened.is_some(), "nominal": declared.nominal(),
+                "plausible": declared.plausible()});
             if let Some(value) = set(study, declared) {
                 said["set"] = json!(value);
             }

@@ -9,7 +9,7 @@ use crate::campaign::study::ListedDriver;
 use crate::engine::driver::Setting;
 use crate::engine::sensor::CameraSetting;
 use crate::engine::{Declaration, Declared, Program};
-use crate::space::Parameter;
+use crate::space::{Domain, Parameter};
 use crate::standards::{opendrive, openscenario};
 use crate::{Catalogue, Lists};
 use clap::{Args, ValueEnum};
@@ -160,10 +160,12 @@ fn scenario_words(declared: &Declared) -> [String; 4] {
     let Parameter { name, domain, unit, .. } = &declared.parameter;
     let nominal = if declared.open { "open".to_owned() } else { value_words(&declared.nominal()) };
     let opened = declared.opens.as_ref().map(|opened| format!(", opened {}", domain_words(opened)));
+    let plausible =
+        declared.plausible.map(|[lo, hi]| format!(", plausible {}", domain_words(&Domain::Interval { lo, hi })));
     let texts = declared.takes_texts.then(|| " or a text".to_owned());
     [
         name.clone(),
-        domain_words(domain) + &opened.or(texts).unwrap_or_default(),
+        domain_words(domain) + &opened.or(plausible).or(texts).unwrap_or_default(),
         unit.clone().unwrap_or_default(),
         nominal,
     ]
@@ -195,7 +197,7 @@ fn scenario(program: &Program) -> Result<serde_json::Value, Failure> {
         .iter()
         .map(|declared| {
             json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal(),
-                "opened": declared.opened()})
+                "opened": declared.opened(), "plausible": declared.plausible()})
         })
         .collect();
     Ok(json!({"name": program.name(), "about": program.about(), "parameters": parameters}))

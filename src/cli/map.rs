@@ -1,16 +1,17 @@
-//! `paracosm-fuzz map`: draws the failure map of a campaign again, over other parameters.
+//! `paracosm-fuzz map`: draws the failure map of a campaign again, over other parameters, or the map of its impact speeds.
 
 use super::draw::{FileKind, Target};
-use super::output::{Format, FormatOption, Table, json, percent};
+use super::output::{Format, FormatOption, Table, impacts_in_words, json, percent};
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
-use clap::Args;
-use paracosm_analysis::{Effects, explanation, failure_estimate};
+use clap::{Args, ValueEnum};
+use paracosm_analysis::{Effects, Impacts, explanation, failure_estimate};
 use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Catalogue, Error, JsonArtefact, Log};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{FailureMap, Picture};
 use serde_json::json;
+use std::fmt;
 use std::path::PathBuf;
 
 /// The options of `map`.
@@ -20,11 +21,35 @@ pub(super) struct Options {
     dir: PathBuf,
     #[command(flatten)]
     axes: Axes,
+    /// The property of each test that the map shows
+    ///
+    /// `failures` shows verdicts and the estimated probability of failure, and `severity` shows the speed of the ego vehicle at its first
+    /// contact.
+    #[arg(long, value_name = "WHAT", default_value_t = Show::Failures)]
+    show: Show,
     /// Write to this file, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR]
+    ///
+    /// With --show severity, the default is severity-map.svg and .png.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     form: FormatOption,
+}
+
+/// The property of each test that a map shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Show {
+    Failures,
+    Severity,
+}
+
+impl fmt::Display for Show {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Failures => "failures",
+            Self::Severity => "severity",
+        })
+    }
 }
 
 /// The options for the axes of a map.
@@ -50,15 +75,28 @@ impl Options {
         let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
         let [x, y] = self.axes.find(&log)?.ok_or_else(|| usage(nowhere.into()))?;
         let effects = Effects::read(&self.dir)?;
-        let map = effects.iter().fold(FailureMap::over(&log, [&x, &y])?, FailureMap::noting);
+        let impacts = Impacts::of(&log);
+        let map = match (self.show, impacts) {
+            (Show::Failures, _) => FailureMap::over(&log, [&x, &y])?,
+            (Show::Severity, Some(_)) => FailureMap::of_severity(&log, [&x, &y])?,
+            (Show::Severity, None) => {
+                let message = "no test of this campaign has a contact, so that there is no impact speed to show";
+                return Err(usage(message.into()).into());
+            }
+        };
+        let map = effects.iter().fold(map, FailureMap::noting);
         match &target {
             Some(target) => verbosity.note(target.write(|kind| contents(&map, kind))?),
             None => {
-                let files = MapFiles::Failures(&map);
+                let files = match self.show {
+                    Show::Failures => MapFiles::Failures(&map),
+                    Show::Severity => MapFiles::Severity(&map),
+                };
                 for file in files.files() {
                     write_whole_here(&self.dir.join(file), &files.contents(file)?)?;
                 }
-                verbosity.note(format_args!("written to {}", self.dir.join("failure-map.svg").display()));
+                let svg = files.files().into_iter().next().unwrap_or_default();
+                verbosity.note(format_args!("written to {}", self.dir.join(svg).display()));
             }
         }
         let without = effects.iter().flat_map(Effects::without_effect);
@@ -72,6 +110,9 @@ impl Options {
                 table.heading(&format!("{}: {}", map.title, map.note));
                 table.row("axes", &format!("{} and {}", map.x.label, map.y.label));
                 match estimate {
+                    None if self.show == Show::Severity => {
+                        impacts.iter().for_each(|impacts| table.row("impact speed", &impacts_in_words(impacts)));
+                    }
                     None => {
                         table.row("estimated failing", "unknown: an estimate needs a failing test and a passing test");
                     }
@@ -91,6 +132,8 @@ impl Options {
                 }
                 table.finish()
             }
+            Format::Json if self.show == Show::Severity => json(&json!({"tests": log.trials().len(), "x": x, "y": y,
+                "others": map.others, "impact_speed": impacts})),
             Format::Json => json(&json!({"tests": log.trials().len(), "x": x, "y": y, "others": map.others,
                 "failing": estimate.map(paracosm_analysis::FailureEstimate::mean),
                 "invalid": estimate.map(paracosm_analysis::FailureEstimate::invalid),
@@ -126,7 +169,12 @@ fn contents(map: &FailureMap, kind: FileKind) -> Result<Vec<u8>, Failure> {
     match kind {
         FileKind::Csv => {
             let estimate = map.estimate.as_ref();
-            Ok(estimate.ok_or("nothing is estimated: an estimate needs a failing test and a passing test")?.csv())
+            let nothing = if map.tints.is_some() {
+                "a severity map has no table; trials.csv has the impact speed of each test as `impact_speed`"
+            } else {
+                "nothing is estimated: an estimate needs a failing test and a passing test"
+            };
+            Ok(estimate.ok_or(nothing)?.csv())
         }
         FileKind::Png => Picture::of(map.clone()).png(),
         FileKind::Svg | FileKind::Gif | FileKind::Xodr => Ok(Picture::of(map.clone()).svg()?.into_bytes()),

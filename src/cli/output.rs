@@ -5,6 +5,7 @@ use crate::coverage::Bracket;
 pub(super) use crate::space::plural;
 use crate::space::{Domain, Point, Record, Space, Value};
 use clap::{Args, ValueEnum};
+use paracosm_analysis::Impacts;
 use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
 use std::fmt::Write;
 
@@ -232,6 +233,12 @@ pub(super) fn digits(number: f64) -> String {
     let decimals = (4 - exponent).max(0) as usize;
     let text = format!("{number:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// Says in words how severe the contacts of a campaign are.
+pub(super) fn impacts_in_words(Impacts { contacts, median, greatest, index }: &Impacts) -> String {
+    let speeds = format!("median {} m/s, at most {} m/s (test {index})", digits(*median), digits(*greatest));
+    format!("{speeds}, in {}", plural(*contacts, "contact"))
 }
 
 /// Prints the domain of a parameter as `--open` takes it.

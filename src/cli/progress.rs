@@ -51,6 +51,15 @@ impl<'a> Progress<'a> {
         Ok(Self { study, bar, summary: Summary::default(), begun: false, coverage, shown: None, quiet, verbose })
     }
 
+    /// Returns a function that shows a line of the output of a program above the bar.
+    pub fn show_output(&self) -> impl Fn(&str, &[u8]) + Send + 'static {
+        let bar = self.bar.clone();
+        move |role, line| {
+            let line = String::from_utf8_lossy(line);
+            bar.suspend(|| complain(&format!("{role}: {}", line.trim_end())));
+        }
+    }
+
     fn count(&mut self, trial: &Trial) {
         self.summary.add(trial);
         // A hidden bar needs no coverage.

@@ -121,7 +121,7 @@ impl Options {
             let message = format!("{option} is for regression files; for a test of a campaign the log has the verdict");
             return Err(usage(message).into());
         }
-        let log = Log::read(dir, catalogue)?.trusting(&self.trust.trust());
+        let log = trust::read_log(dir, catalogue, &self.trust.trust(), verbosity)?;
         let (study, logged) = (log.study(), logged(dir, &log, index)?);
         let inputs: Vec<&Path> = self.cameras.as_deref().into_iter().collect();
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Gif];

@@ -1,13 +1,13 @@
 //! The summary at the end of a campaign, as a table and as JSON.
 
 use super::odd;
-use super::output::{Table, digits, percent, plural, value_words};
+use super::output::{Table, digits, impacts_in_words, percent, plural, value_words};
 use super::suspects;
 use crate::Report;
 use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
-use paracosm_analysis::{Effects, Judged, Modes, RangeRecall, Segmented};
+use paracosm_analysis::{Effects, Judged, Modes, Plausible, RangeRecall, Segmented, Worst};
 use paracosm_campaign::{Artefact, Extension, ExtensionRecord, Finish, Number, Study, Trial};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{command_option, shell_word};
@@ -55,6 +55,9 @@ impl Printed<'_> {
             );
         }
         self.show_perceived(&mut table);
+        if let Some(impacts) = &self.report.impacts {
+            table.row("impact speed", &impacts_in_words(impacts));
+        }
         self.show_modes(&mut table);
         if let Some(explanation) = &self.report.explanation {
             let rules = explanation.rules_in_words();
@@ -91,19 +94,29 @@ impl Printed<'_> {
             }
         }
         table.row("written to", &self.out.display().to_string());
-        if let Some(worst) = summary.worst(self.report.log.scales()) {
-            let trial = &self.report.log.trials()[worst.index];
-            let robustness = trial.robustness(&worst.requirement).unwrap_or(f64::NAN);
-            let robustness = self.robustness(&worst.requirement, robustness);
-            table.row("worst test", &format!("{}: {} {robustness}", worst.index, worst.requirement));
-            table.row("  where", &in_words(study, trial));
-            if let Some(Violation { time, part, .. }) = trial.violation(&worst.requirement) {
-                table.row("  why", &format!("`{part}` at {} s", digits(*time)));
+        let worst = summary.worst(self.report.log.scales());
+        if let Some(worst) = &worst {
+            self.show_worst(&mut table, "worst test", worst);
+        }
+        if let Some(plausible) = &self.report.plausible {
+            let range = |(name, [least, most]): (&str, &[f64; 2])| {
+                let unit = study.space().find(name).and_then(|parameter| parameter.unit.as_deref()).unwrap_or_default();
+                format!("{name} {}..{} {unit}", digits(*least), digits(*most)).trim_end().to_owned()
+            };
+            let ranges = plausible.ranges.iter().map(range).collect::<Vec<_>>().join(", ");
+            let tests = plural(plausible.summary.tests(), "test");
+            let failing = plausible.summary.count(Verdict::Fail);
+            let words = format!("{ranges}; {failing} of {tests} fail");
+            match plausible.summary.worst(self.report.log.scales()) {
+                None => table.row("plausible", &format!("no test has {ranges}")),
+                Some(found) if worst.as_ref() == Some(&found) => {
+                    table.row("  plausible", &words);
+                }
+                Some(found) => {
+                    self.show_worst(&mut table, "worst plausible", &found);
+                    table.row("  plausible", &words);
+                }
             }
-            if trial.is_failure() {
-                table.row("  shrink", &self.command("shrink", worst.index));
-            }
-            table.row("  replay", &self.replay(worst.index));
         }
         table.finish()
     }
@@ -111,7 +124,7 @@ impl Printed<'_> {
     pub(super) fn json(&self) -> serde_json::Value {
         let counts = Verdict::ALL.map(|verdict| (verdict.to_string(), self.report.summary.count(verdict).into()));
         let (study, summary) = (self.study(), &self.report.summary);
-        let worst = summary.worst(self.report.log.scales()).map(|worst| {
+        let as_json = |worst: Worst| {
             let trial = &self.report.log.trials()[worst.index];
             let mut said = json!({"index": worst.index, "requirement": worst.requirement, "test": trial.test,
                 "robustness": trial.robustness(&worst.requirement), "replay": self.replay(worst.index)});
@@ -119,7 +132,8 @@ impl Printed<'_> {
                 said["cause"] = json!({"time": time, "part": part});
             }
             said
-        });
+        };
+        let worst = summary.worst(self.report.log.scales()).map(as_json);
         let requirements: Vec<_> = summary
             .requirements()
             .iter()
@@ -142,6 +156,13 @@ impl Printed<'_> {
         let mut printed = json!({"tests": summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
             "requirements": requirements,
             "coverage": self.report.coverage, "out": self.out, "worst": worst});
+        if let Some(Plausible { ranges, summary }) = &self.report.plausible {
+            printed["plausible"] = json!(ranges);
+            printed["worst_plausible"] = json!(summary.worst(self.report.log.scales()).map(as_json));
+        }
+        if let Some(impacts) = &self.report.impacts {
+            printed["impact_speed"] = json!(impacts);
+        }
         if let Some(odd) = study.odd() {
             printed["odd"] = json!(odd);
         }
@@ -244,6 +265,21 @@ impl Printed<'_> {
         if modes.len() > MODES_SHOWN {
             table.row("", &format!("and {} more in modes.json", modes.len() - MODES_SHOWN));
         }
+    }
+
+    /// Adds a test with the requirement that makes it the worst, and the commands about it.
+    fn show_worst(&self, table: &mut Table, label: &str, Worst { index, requirement }: &Worst) {
+        let trial = &self.report.log.trials()[*index];
+        let robustness = self.robustness(requirement, trial.robustness(requirement).unwrap_or(f64::NAN));
+        table.row(label, &format!("{index}: {requirement} {robustness}"));
+        table.row("  where", &in_words(self.study(), trial));
+        if let Some(Violation { time, part, .. }) = trial.violation(requirement) {
+            table.row("  why", &format!("`{part}` at {} s", digits(*time)));
+        }
+        if trial.is_failure() {
+            table.row("  shrink", &self.command("shrink", *index));
+        }
+        table.row("  replay", &self.replay(*index));
     }
 
     /// Counts the different combinations of all discrete values among the tests.

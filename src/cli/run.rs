@@ -12,7 +12,7 @@ use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
-use paracosm_campaign::{Catalogue, Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder};
+use paracosm_campaign::{Catalogue, Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder, Supervision};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -123,11 +123,14 @@ impl Options {
                 .for_each(|note| verbosity.note(note));
         }
         note_outlasting(&study, verbosity)?;
-        let stop = Arc::<AtomicBool>::default();
+        let supervision = Supervision::default();
         let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
-        let runner = self.runner(&study, extension.as_ref()).until(stop.clone()).program(&program);
+        let runner = self.runner(&study, extension.as_ref()).until(supervision.clone()).program(&program);
         let mut progress = Progress::new(&study, extension.as_ref(), verbosity)?;
-        on_interrupt(stop.clone());
+        on_interrupt(supervision.stop.clone());
+        if verbosity.verbose {
+            supervision.output.listen(progress.show_output());
+        }
         let ran = runner.run_into(&self.out, &mut [&mut progress]);
         progress.bar.finish_and_clear();
         let report = ran.map_err(|error| match progress.begun {
@@ -159,7 +162,7 @@ impl Options {
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
         let found = if violated { Status::Violation } else { Status::Nothing };
-        Ok(Conducted { report, found, stop })
+        Ok(Conducted { report, found, stop: supervision.stop })
     }
 
     fn runner<'a>(&self, study: &'a Study, extension: Option<&'a Extension>) -> Runner<'a> {

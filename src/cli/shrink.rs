@@ -5,7 +5,7 @@ use super::replay::logged;
 use super::{Failure, Status, Verbosity, print, trust};
 use clap::Args;
 use paracosm_analysis::{Change, Sameness, Shrunk};
-use paracosm_campaign::{Catalogue, Log, Regression, Study};
+use paracosm_campaign::{Catalogue, Regression, Study};
 use std::path::PathBuf;
 
 /// The options of `shrink`.
@@ -34,7 +34,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         self.save.as_deref().map_or(Ok(()), Regression::check_path)?;
-        let log = Log::read(&self.dir, catalogue)?.trusting(&self.trust.trust());
+        let log = trust::read_log(&self.dir, catalogue, &self.trust.trust(), verbosity)?;
         let study = log.study();
         let same = if self.same_mode { Sameness::Mode } else { Sameness::Requirements };
         let shrunk = Shrunk::of(&log, logged(&self.dir, &log, self.index)?, same, self.budget)?;

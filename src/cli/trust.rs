@@ -1,7 +1,9 @@
 //! `--trust` and the options that repeat a command: they let a file of somebody else run a command.
 
+use super::Verbosity;
 use clap::Args;
-use paracosm_campaign::Trust;
+use paracosm_campaign::{Catalogue, Log, Trust};
+use std::path::Path;
 
 /// The options of the commands that run tests of a folder or a file again.
 #[derive(Debug, Args)]
@@ -23,8 +25,29 @@ pub(super) struct OfDrivers {
     #[arg(long, value_name = "COMMAND")]
     driver_command: Option<String>,
     /// Run the commands that the folder or the file names
+    ///
+    /// The commands of a campaign run in the folder in which the campaign ran them.
     #[arg(long)]
     trust: bool,
+}
+
+/// Reads the log of a campaign with the trust that the options state. Notes in which folder the commands ran, if they run in another now.
+///
+/// # Errors
+/// The folder holds no campaign, or one of its files is broken.
+pub(super) fn read_log(
+    dir: &Path,
+    catalogue: &Catalogue,
+    trust: &Trust,
+    verbosity: Verbosity,
+) -> Result<Log, paracosm_campaign::Error> {
+    let log = Log::read(dir, catalogue)?.trusting(trust);
+    let here = std::env::current_dir().and_then(|here| here.canonicalize()).ok();
+    if let Some(folder) = log.run_in().filter(|folder| Some(*folder) != here.as_deref() && !trust.is_all()) {
+        let folder = folder.display();
+        verbosity.note(format_args!("the commands of this campaign ran in {folder}; --trust runs them there"));
+    }
+    Ok(log)
 }
 
 impl Options {

@@ -102,7 +102,9 @@ fn broken_files_of_tests_are_refused_with_the_line() {
         (b"a,b\n0.1,-0.2\n", &["line 2", "-0.2"]),
         (b"a,b\n0.1,NaN\n", &["line 2", "NaN"]),
         (b"a,b\n0.1,inf\n", &["line 2", "inf"]),
-        (b"0.5,0.5\n0.1,0.2\n", &["line 1", "header"]),
+        (b"0.5 0.5\n0.1 far\n", &["line 2", "`x2`", "`far`", "number"]),
+        (b"# points\n0.5 0.5\n0.1\n", &["line 3", "found 1 field, expected 2"]),
+        (b"nan 0.5\n", &["line 1", "`x1`", "`nan`", "number"]),
         (b"a;b\n0.1;0.2\n", &["line 1", "`;`"]),
         (b"a,a\n0.1,0.2\n", &["line 1", "`a`", "twice"]),
         (b"a,b\n0.1,\xff\n", &["line 2", "UTF-8"]),
@@ -112,6 +114,15 @@ fn broken_files_of_tests_are_refused_with_the_line() {
         let says = [&["tests.csv"], *says].concat();
         refused(&cover(dir.path(), &["estimate", "tests.csv"]), &says);
     }
+    let space = "[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
+                 [[parameter]]\nname = \"gap\"\ninterval = [5, 60]\n";
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    fs::write(dir.path().join("three.txt"), "0.1 0.2 0.3\n").unwrap();
+    fs::write(dir.path().join("renamed.txt"), "# pace, gap\n1 20\n").unwrap();
+    let of_space = |file: &str| cover(dir.path(), &["estimate", file, "--space", "SPACE.toml"]);
+    let says = ["three.txt", "found 3 columns without names, expected 2, in this order: speed, gap"];
+    refused(&of_space("three.txt"), &says);
+    refused(&of_space("renamed.txt"), &["renamed.txt, line 1", "no column is called `speed`"]);
     refused(&cover(dir.path(), &["estimate", "missing.csv"]), &["missing.csv"]);
     refused(&cover(dir.path(), &["estimate"]), &["paracosm-out"]);
 }

@@ -123,6 +123,37 @@ fn estimate_of_points_in_a_file_and_of_a_strategy_agree() {
     assert_eq!(strategy.lines().skip(1).collect::<Vec<_>>(), file.lines().skip(1).collect::<Vec<_>>());
 }
 
+/// The files are as `numpy.savetxt` writes them by default, with a header, with commas, and with a format that aligns.
+#[test]
+fn files_of_numbers_and_standard_input_are_measured_as_a_csv_with_the_same_tests() {
+    let dir = tempfile::tempdir().unwrap();
+    let space = "[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
+                 [[parameter]]\nname = \"gap\"\ninterval = [5.0, 60.0]\n";
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let csv = "speed,gap\n1.5,20\n9.25,40\n0.5,60\n";
+    let estimate = |text: &str, from: &str| {
+        fs::write(dir.path().join("tests"), text).unwrap();
+        let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-cover"));
+        program.args(["estimate", from, "--space", "SPACE.toml"]).current_dir(dir.path());
+        program.stdin(fs::File::open(dir.path().join("tests")).unwrap());
+        let printed = stdout(&succeeds(program.output().unwrap()));
+        assert!(from != "-" || printed.contains("standard input: 3 tests over speed, gap"), "{printed}");
+        printed.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let expected = estimate(csv, "tests");
+    let files = [
+        "1.500000000000000000e+00 2.000000000000000000e+01\n9.25e+00 4.0e+01\n5e-01 6e+01\n",
+        "# speed gap\n1.5 20\n9.25 40\n0.5 60\n",
+        "# made on Monday\n# gap,speed\n20,1.5\n40,9.25\n# the last\n60,0.5\n",
+        "   1.5     20.0\r\n   9.25    40.0\r\n\n\t0.5\t60\r\n",
+    ];
+    for text in files {
+        assert_eq!(estimate(text, "tests"), expected, "{text}");
+        assert_eq!(estimate(text, "-"), expected, "{text}");
+    }
+    assert_eq!(estimate(csv, "-"), expected);
+}
+
 #[test]
 fn estimate_counts_the_combinations_of_discrete_parameters() {
     let dir = tempfile::tempdir().unwrap();

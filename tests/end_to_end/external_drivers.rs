@@ -1,7 +1,7 @@
 //! Drivers in a process of their own: the program of these tests, started again, serves them.
 
 use crate::cameras::can_draw;
-use crate::common::{fuzz, refused, stdout, succeeds, without_study};
+use crate::common::{fuzz, refused, stderr, stdout, succeeds, without_study};
 use paracosm::engine::driver::{Driver, Fault, find};
 use paracosm::engine::{Briefing, Control, Observation};
 use paracosm::rpc::{SessionOptions, serve};
@@ -84,7 +84,7 @@ fn served_to_others() {
     serve(TcpListener::bind(address).unwrap(), "served", make).unwrap();
 }
 
-/// The command that starts a driver.
+/// The command that starts a driver. The driver prints what every program of tests prints, that it runs a test.
 fn command() -> String {
     let program = std::env::current_exe().unwrap();
     format!("'{}' external_drivers::served_to_others --exact --nocapture", program.display())
@@ -221,6 +221,43 @@ fn a_test_is_not_held_against_a_driver_that_earlier_tests_have_worn_out() {
     succeeds(fuzz(dir, &["--driver", "aeb", "--budget", "20", "--out", "near"]));
     succeeds(run(dir, "worn", &["--budget", "20", "--set", "driver.lives=3", "--jobs", "2"]));
     assert_eq!(log(dir, "worn"), log(dir, "near"));
+}
+
+#[test]
+fn the_output_of_a_driver_is_kept_beside_the_campaign_and_shown_to_those_who_ask() {
+    let dir = tempfile::tempdir().unwrap();
+    let printed = succeeds(run(dir.path(), "quiet", &["--budget", "2", "--jobs", "1"]));
+    assert!(!stderr(&printed).contains("running 1 test"), "{}", stderr(&printed));
+    let log = fs::read_to_string(dir.path().join("quiet/driver.log")).unwrap();
+    assert!(log.lines().any(|line| line == "running 1 test"), "{log}");
+    let printed = succeeds(run(dir.path(), "verbose", &["--budget", "2", "--jobs", "1", "-v"]));
+    assert!(stderr(&printed).contains("driver: running 1 test"), "{}", stderr(&printed));
+    // A driver of this process prints nothing.
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "own"]));
+    let beside = ["driver.log", "commands.json"].map(|file| dir.path().join("own").join(file).exists());
+    assert_eq!(beside, [false, false]);
+}
+
+#[test]
+fn a_replay_from_another_folder_runs_the_command_where_the_campaign_ran_it_if_it_is_trusted() {
+    let dir = tempfile::tempdir().unwrap();
+    let [home, elsewhere] = ["home", "elsewhere"].map(|name| dir.path().join(name));
+    [&home, &elsewhere].into_iter().for_each(|folder| fs::create_dir(folder).unwrap());
+    fs::write(home.join("driver.sh"), format!("exec {}\n", command())).unwrap();
+    let driver = ["--driver-command", "sh driver.sh"];
+    succeeds(fuzz(&home, &[&driver[..], &["--budget", "2", "--out", "out"]].concat()));
+    let record = fs::read_to_string(home.join("out/commands.json")).unwrap();
+    assert_eq!(record, "{\"run_in\":\"..\"}\n");
+    succeeds(fuzz(&home, &[&["replay", "out", "1"], &driver[..]].concat()));
+    succeeds(fuzz(&elsewhere, &["replay", "../home/out", "1", "--trust"]));
+    // A stranger's folder may name any folder, so a command that the user gives runs where the user is.
+    let here = fuzz(&elsewhere, &[&["replay", "../home/out", "1"], &driver[..]].concat());
+    let home = home.canonicalize().unwrap();
+    let note = format!("the commands of this campaign ran in {}; --trust runs them there", home.display());
+    refused(&here, &[&note, "driver.sh"]);
+    // The folder may have moved with everything in it.
+    fs::rename(&home, dir.path().join("moved")).unwrap();
+    succeeds(fuzz(&elsewhere, &["replay", "../moved/out", "1", "--trust"]));
 }
 
 #[test]

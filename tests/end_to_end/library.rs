@@ -41,6 +41,7 @@ fn every_file_of_a_campaign_is_its_own_and_every_name_of_its_own_is_written_by_s
     let open = ["--budget", "120", "--open", "lanes=2,4,6", "--open", "zebra", "--locate", "--junit"];
     succeeds(fuzz(dir.path(), &[&open[..], &["--out", "out", "-q"]].concat()));
     succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
+    succeeds(fuzz(dir.path(), &["map", "out", "--show", "severity", "-q"]));
     let mut written = contents(&dir.path().join("out"));
     let perceived = tempfile::tempdir().unwrap();
     if runs_blind(perceived.path()) {

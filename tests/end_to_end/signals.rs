@@ -124,7 +124,7 @@ fn a_scenario_is_described_and_drawn() {
     let changed = ["--set", "friction=0.3", "--set", "speed=2", "--open", "lanes=2,4", "--format"];
     let told = describe(&[&changed[..], &["table"]].concat());
     for line in [
-        "  speed                 0.5..10 m/s, nominally 1.4, set to 2\n",
+        "  speed                 0.5..10 m/s, nominally 1.4, plausibly 0.5..2.8, set to 2\n",
         "  friction              0.2..0.8, nominally 0.8, set to 0.3\n",
         "  lanes                 2,4, nominally 2, open\n",
         "  fog                   0..1, nominally 0, unless opened\n",

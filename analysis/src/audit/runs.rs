@@ -3,7 +3,7 @@
 use super::AuditFlaw;
 use paracosm_campaign::darkroom::Darkroom;
 use paracosm_campaign::executor::{in_order, pool};
-use paracosm_campaign::{Error, Study, Subject, Trial, Worker};
+use paracosm_campaign::{Error, Study, Subject, Supervision, Trial, Worker};
 use paracosm_mutants::Defect;
 use paracosm_space::Values;
 use std::num::NonZeroUsize;
@@ -88,7 +88,7 @@ impl Seats {
 
     /// Returns a worker for the study, or for the same study with a driver that has a defect.
     pub fn worker<'s>(&self, study: &'s Study) -> Worker<'s> {
-        Worker::beside(study, Arc::default(), self.0.clone()).expect("one like it was made before")
+        Worker::beside(study, Supervision::default(), self.0.clone()).expect("one like it was made before")
     }
 }
 

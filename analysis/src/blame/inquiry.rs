@@ -3,7 +3,7 @@
 use super::{Blame, Blamed};
 use paracosm_campaign::darkroom::Darkroom;
 use paracosm_campaign::executor::{in_order, pool};
-use paracosm_campaign::{Error, Log, Reason, Study, Subject, Trial, Worker};
+use paracosm_campaign::{Error, Log, Reason, Study, Subject, Supervision, Trial, Worker};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -68,7 +68,7 @@ impl Reference {
     }
 
     fn worker(&self) -> Worker<'_> {
-        let worker = Worker::beside(&self.study, Arc::default(), self.darkroom.clone());
+        let worker = Worker::beside(&self.study, Supervision::default(), self.darkroom.clone());
         worker.expect("one like it was made before")
     }
 }

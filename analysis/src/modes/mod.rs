@@ -84,6 +84,8 @@ pub struct Mode {
     pub parts: Record<String>,
     /// The contact of the car with an object; `None` if the car touched no object.
     pub contact: Option<Touch>,
+    /// The least and the greatest speed of the ego vehicle at the contact, in m/s; `None` if the car touched no object.
+    pub impact_speed: Option<[f64; 2]>,
     /// The least and the greatest value of each figure that all tests of the mode have.
     pub figures: BTreeMap<CriticalFigure, [f64; 2]>,
     /// The values of each parameter among the tests of the mode, as the least and the greatest value or as a list of
@@ -204,6 +206,7 @@ fn of_parts(
             violates: violates.clone(),
             parts: parts.iter().map(|(id, part)| ((*id).to_owned(), (*part).to_owned())).collect(),
             contact: contact.clone(),
+            impact_speed: contact.as_ref().map(|_| range(all.iter().filter_map(|t| Some(t.contact()?.speed)))),
             figures: ranges,
             parameters: extents(log, &all),
             trials: all.iter().map(|trial| trial.index).collect(),

@@ -16,11 +16,10 @@ pub use answer::{Answer, AnswerFlaw};
 
 use crate::conversation::Process;
 use crate::process::{self, CommandFlaw};
-use crate::{Error, Problem, ProblemKind, Reason};
+use crate::{Error, Problem, ProblemKind, Reason, Supervision};
 use paracosm_space::Values;
 use serde::Serialize;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -93,18 +92,18 @@ pub struct Connection {
     words: Vec<String>,
     timeout: Duration,
     process: Option<Process>,
-    stop: Arc<AtomicBool>,
+    supervision: Supervision,
 }
 
 impl Connection {
-    /// Makes a connection to an external system; the connection stops waiting for answers once `stop` is set.
+    /// Makes a connection to an external system; the connection stops waiting for answers once the campaign is stopped.
     ///
     /// # Errors
     /// The system was read from a file, and its command or its time-out is invalid.
-    pub fn new(system: &BlackBox, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+    pub fn new(system: &BlackBox, supervision: Supervision) -> Result<Self, Error> {
         let system = BlackBox::new(&system.command, Some(system.timeout))?;
         let timeout = Duration::from_secs_f64(system.timeout);
-        Ok(Self { words: system.words()?, timeout, process: None, stop })
+        Ok(Self { words: system.words()?, timeout, process: None, supervision })
     }
 
     /// Starts the process of the external system, if the process does not run yet.
@@ -113,7 +112,7 @@ impl Connection {
     /// The process cannot be started, for example because the program does not exist.
     pub fn start(&mut self) -> Result<(), Error> {
         if self.process.is_none() {
-            self.process = Some(Process::start(&self.words, ROLE).map_err(Error::unavailable)?);
+            self.process = Some(Process::start(&self.words, ROLE, &self.supervision).map_err(Error::unavailable)?);
         }
         Ok(())
     }
@@ -124,7 +123,7 @@ impl Connection {
         question.push(b'\n');
         let has_past = self.process.as_ref().is_some_and(Process::has_answered);
         let answer = self.ask_process(index, &question);
-        if answer.is_err() && has_past && !self.stop.load(Ordering::Relaxed) {
+        if answer.is_err() && has_past && !self.supervision.stop.load(Ordering::Relaxed) {
             return self.ask_process(index, &question);
         }
         answer
@@ -133,7 +132,7 @@ impl Connection {
     fn ask_process(&mut self, index: usize, question: &[u8]) -> Result<Answer, Problem> {
         let mut process = match self.process.take() {
             Some(process) => process,
-            None => Process::start(&self.words, ROLE)
+            None => Process::start(&self.words, ROLE, &self.supervision)
                 .map_err(|error| Problem::new(ProblemKind::Process, error.to_string()))?,
         };
         let asked = Instant::now();
@@ -145,7 +144,7 @@ impl Connection {
             }
             answer.map_err(|flaw| Problem::new(ProblemKind::Answer, flaw.to_string()))
         };
-        match process.ask(question, self.timeout, &self.stop).and_then(read) {
+        match process.ask(question, self.timeout, &self.supervision.stop).and_then(read) {
             Ok(answer) => {
                 self.process = Some(process);
                 Ok(answer)

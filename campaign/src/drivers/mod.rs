@@ -11,7 +11,7 @@ mod late;
 mod process;
 
 use crate::study::{DriverChoice, Origin};
-use crate::{Error, Problem, ProblemKind, Reason};
+use crate::{Error, Problem, ProblemKind, Reason, Supervision};
 use late::Late;
 use paracosm_engine::driver::Driver;
 use paracosm_rpc::{Address, OpenError, Session};
@@ -108,12 +108,13 @@ impl Problem {
 
 impl<'a> Drivers<'a> {
     /// Makes a source of drivers of the given choice. A first driver of this process is made at once, as a check;
-    /// external drivers are not. Once `stop` is set, nobody waits for external drivers, and runs end at the next question.
+    /// external drivers are not. Once the campaign is stopped, nobody waits for external drivers, and runs end at the next question.
     ///
     /// # Errors
     /// The choice was read from a file, and the driver or a setting of it does not exist.
-    pub fn new(choice: &'a DriverChoice, stop: Arc<AtomicBool>) -> Result<Self, Error> {
-        let (latency, ended) = (choice.latency(), stop.clone());
+    pub fn new(choice: &'a DriverChoice, supervision: Supervision) -> Result<Self, Error> {
+        let (latency, stop) = (choice.latency(), supervision.stop.clone());
+        let ended = stop.clone();
         let source = match choice.origin() {
             Origin::Here => {
                 let made = Self::made_by(move || Ok(Box::new(Late { driver: choice.build()?, latency })));
@@ -128,7 +129,7 @@ impl<'a> Drivers<'a> {
                 Ok(Box::new(Late { driver: Box::new(session), latency }))
             })),
             Origin::Process(words, terms) => {
-                Source::Process(Box::new(Launcher::new(words.clone(), terms.clone(), latency, ended)))
+                Source::Process(Box::new(Launcher::new(words.clone(), terms.clone(), latency, supervision)))
             }
         };
         Ok(Self { source, external: true, idle: Vec::new(), stop })

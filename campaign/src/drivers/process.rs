@@ -2,7 +2,7 @@
 
 use super::{DriverAway, Late, NoDriver};
 use crate::process::Process;
-use crate::{Problem, ProblemKind};
+use crate::{Problem, ProblemKind, Supervision};
 use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
 use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
@@ -25,6 +25,9 @@ const PORTS: Range<u16> = 20_000..32_000;
 /// because an interpreter loads its packages or its network, the more so on a loaded machine.
 const STARTING: u32 = 10;
 
+/// The role of the process.
+const ROLE: &str = "driver";
+
 /// The time between two checks that a process listens.
 const PATIENCE: Duration = Duration::from_millis(10);
 
@@ -33,7 +36,7 @@ pub(super) struct Launcher {
     words: Vec<String>,
     terms: Terms,
     latency: f64,
-    stop: Arc<AtomicBool>,
+    supervision: Supervision,
     running: Option<Running>,
 }
 
@@ -45,8 +48,8 @@ struct Running {
 }
 
 impl Launcher {
-    pub fn new(words: Vec<String>, terms: Terms, latency: f64, stop: Arc<AtomicBool>) -> Self {
-        Self { words, terms, latency, stop, running: None }
+    pub fn new(words: Vec<String>, terms: Terms, latency: f64, supervision: Supervision) -> Self {
+        Self { words, terms, latency, supervision, running: None }
     }
 
     /// Returns a driver in the external process, and starts the process if necessary.
@@ -57,20 +60,20 @@ impl Launcher {
         let wrong = |problem: Problem| DriverAway::Command { command: shell_words::join(&self.words), problem };
         let running = match self.running.take().filter(Running::is_alive) {
             Some(running) => running,
-            None => Running::start(&self.words).map_err(wrong)?,
+            None => Running::start(&self.words, &self.supervision).map_err(wrong)?,
         };
         // If no session can be opened, the process is ended.
-        let session = running.session(&self.terms, &self.stop).map_err(wrong)?;
+        let session = running.session(&self.terms, &self.supervision.stop).map_err(wrong)?;
         self.running = Some(running.clone());
         Ok(Box::new(Late { driver: Box::new(ProcessDriver { session, running }), latency: self.latency }))
     }
 }
 
 impl Running {
-    fn start(words: &[String]) -> Result<Self, Problem> {
+    fn start(words: &[String], supervision: &Supervision) -> Result<Self, Problem> {
         let gone = |message: String| Problem::new(ProblemKind::Process, message);
         let address = free_address().map_err(|error| gone(format!("found no free port for the driver: {error}")))?;
-        let started = Process::start(words, &[(ADDRESS, address.to_string())]);
+        let started = Process::start(words, &[(ADDRESS, address.to_string())], supervision, ROLE);
         let mut process = started.map_err(|error| gone(format!("cannot start `{}`: {error}", words[0])))?;
         if let Some(stdout) = process.stdout() {
             process.keep_last_of(stdout);

@@ -5,13 +5,11 @@ use super::marks::Marks;
 use crate::darkroom::Darkroom;
 use crate::study::PerceiverChoice;
 use crate::trial::Metric;
-use crate::{Error, Problem, ProblemKind};
+use crate::{Error, Problem, ProblemKind, Supervision};
 use paracosm_oracles::Trace;
 use paracosm_perception::{Perceiver, PerceiverError, Percept, Picture, Task};
 use paracosm_space::{Space, Values};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// A perceiver on trial, with its camera.
 pub(crate) struct Exam {
@@ -22,14 +20,14 @@ pub(crate) struct Exam {
 
 impl Exam {
     /// Makes the trial of a perceiver over a space, which may vary settings of the camera. A perceiver in a process of
-    /// its own is waited for until `stop` is set.
+    /// its own is waited for until the campaign is stopped.
     ///
     /// # Errors
     /// The perceiver cannot be made, or the study of a file has a look that does not exist.
-    pub fn new(choice: &PerceiverChoice, space: &Space, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+    pub fn new(choice: &PerceiverChoice, space: &Space, supervision: Supervision) -> Result<Self, Error> {
         let look = choice.look().parse().map_err(crate::cameras::CameraFileFlaw::Look)?;
         let cameras = crate::cameras::VariedCameras::of_space(choice.cameras().clone(), space);
-        let (perceiver, task) = (choice.build(stop)?, choice.task().clone());
+        let (perceiver, task) = (choice.build(supervision)?, choice.task().clone());
         Ok(Self { perceiver, task, film: Film::new(cameras, look) })
     }
 

@@ -197,7 +197,7 @@ fn a_perceiver_of_a_file_has_one_camera_and_a_valid_task() {
     let choice: PerceiverChoice = serde_json::from_value(written).unwrap();
     assert!(
         choice
-            .build(std::sync::Arc::default())
+            .build(crate::Supervision::default())
             .err()
             .unwrap()
             .to_string()

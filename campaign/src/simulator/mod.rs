@@ -12,7 +12,7 @@ use crate::darkroom::{Darkroom, NoImage};
 use crate::drivers::{Drivers, NoDriver};
 use crate::executor::Desk;
 use crate::study::{Appearances, Simulation};
-use crate::{Error, Problem, ProblemKind};
+use crate::{Error, Problem, ProblemKind, Supervision};
 use paracosm_engine::road::RoadNetwork;
 use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::vehicle::VehicleSetup;
@@ -21,7 +21,6 @@ use paracosm_space::{Space, Values};
 use ride::{Ride, is_broken};
 use std::slice;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// A simulator of a scenario, with drivers and with a darkroom that draws the camera images for the drivers.
 pub struct Simulator<'a> {
@@ -42,17 +41,17 @@ pub struct Recording {
 }
 
 impl<'a> Simulator<'a> {
-    /// Makes a simulator of a scenario. Its drivers get the images of `darkroom`, if there is one. Once `stop` is set,
-    /// the simulator no longer waits for drivers.
+    /// Makes a simulator of a scenario. Its drivers get the images of `darkroom`, if there is one. Once the campaign is
+    /// stopped, the simulator no longer waits for drivers.
     ///
     /// # Errors
     /// The scenario or the driver does not exist.
     pub fn new(
         simulation: &'a Simulation,
-        stop: Arc<AtomicBool>,
+        supervision: Supervision,
         darkroom: Option<Arc<Darkroom>>,
     ) -> Result<Self, Error> {
-        let drivers = Drivers::new(simulation.driver(), stop)?;
+        let drivers = Drivers::new(simulation.driver(), supervision)?;
         let simulator = Self::with(simulation.program()?.clone(), simulation.vehicle(), drivers, darkroom);
         Ok(Self { appearances: simulation.appearances().clone(), ..simulator })
     }

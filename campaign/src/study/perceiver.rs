@@ -5,7 +5,7 @@ use crate::black_box::{TimeoutFlaw, checked_timeout};
 use crate::process::{self, CommandFlaw};
 #[cfg(feature = "camera")]
 use crate::seeing::SeeingProcess;
-use crate::{Error, Reason};
+use crate::{Error, Reason, Supervision};
 use paracosm_engine::sensor::Cameras;
 use paracosm_oracles::Semantics;
 use paracosm_perception::{Perceiver, Task, TaskFlaw};
@@ -15,7 +15,6 @@ use paracosm_space::nearest;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 #[cfg(feature = "camera")]
 use std::time::Duration;
 use thiserror::Error;
@@ -244,14 +243,14 @@ impl PerceiverChoice {
         })
     }
 
-    /// Makes a new instance of the perceiver. A perceiver in a process of its own is waited for until `stop` is set.
+    /// Makes a new instance of the perceiver. A perceiver in a process of its own is waited for until the campaign is stopped.
     ///
     /// # Errors
     /// The study was read from a file, and the network does not exist or has changed, or the perceiver was a function of
     /// another program; or this program was built without networks.
-    pub fn build(&self, stop: Arc<AtomicBool>) -> Result<Box<dyn Perceiver>, Error> {
+    pub fn build(&self, supervision: Supervision) -> Result<Box<dyn Perceiver>, Error> {
         if let Some(command) = &self.command {
-            return command.build(stop, self.task.clone());
+            return command.build(supervision, self.task.clone());
         }
         let perceiver = match (&self.own, &self.network) {
             (Some(Own(make)), _) => make(),
@@ -301,17 +300,17 @@ impl SeeingCommand {
 
     #[cfg(feature = "camera")]
     fn meaning(&self) -> Result<Task, Error> {
-        SeeingProcess::meaning(&self.words()?, Duration::from_secs_f64(self.timeout), &AtomicBool::new(false))
+        SeeingProcess::meaning(&self.words()?, Duration::from_secs_f64(self.timeout), &Supervision::default())
     }
 
     #[cfg(feature = "camera")]
-    fn build(&self, stop: Arc<AtomicBool>, task: Task) -> Result<Box<dyn Perceiver>, Error> {
+    fn build(&self, supervision: Supervision, task: Task) -> Result<Box<dyn Perceiver>, Error> {
         let timeout = Duration::from_secs_f64(self.timeout);
-        Ok(Box::new(SeeingProcess::new(self.words()?, timeout, stop, task)))
+        Ok(Box::new(SeeingProcess::new(self.words()?, timeout, supervision, task)))
     }
 
     #[cfg(not(feature = "camera"))]
-    fn build(&self, _: Arc<AtomicBool>, _: Task) -> Result<Box<dyn Perceiver>, Error> {
+    fn build(&self, _: Supervision, _: Task) -> Result<Box<dyn Perceiver>, Error> {
         Err(Error::unavailable(PerceiverFlaw::WithoutImages))
     }
 }

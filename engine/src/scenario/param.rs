@@ -132,6 +132,13 @@ impl<T: Clone> Param<T> {
         self
     }
 
+    /// Sets the least and the greatest value that occur in the world, as a part of the parameter's domain. Tests with other values run as
+    /// all others, and a summary also names the worst of the plausible tests.
+    pub fn plausible(self, range: RangeInclusive<f64>) -> Self {
+        self.declared.borrow_mut()[self.index].plausible = Some([*range.start(), *range.end()]);
+        self
+    }
+
     /// Lets the parameter vary over time, with a value for each coordinate of the given shape. A study may ask for
     /// another shape, or for a constant. A choice varies in pieces.
     pub fn signal(self, shape: Shape) -> Self {

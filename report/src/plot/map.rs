@@ -103,6 +103,22 @@ impl FailureMap {
         Ok(map)
     }
 
+    /// Makes the map of the impact speeds of a campaign, over two named continuous coordinates. The colour of a test is the speed of the
+    /// ego vehicle at its first contact, and 0 m/s without a contact.
+    ///
+    /// # Errors
+    /// Returns an error if a name is not the name of a continuous coordinate, or if both names are the same.
+    pub fn of_severity(log: &Log, names: [&str; 2]) -> Result<Self, AxesFlaw> {
+        let axes = failure_estimate::axes(log.study(), names)?;
+        let mark = |trial: &Trial| Mark::Verdict(trial.verdict);
+        let map = Self::at(log, axes, mark).expect("there are coordinates of these names");
+        let speed = |trial: &Trial| trial.contact().map_or(0.0, |contact| contact.speed);
+        let values: Vec<f64> = log.trials().iter().map(speed).collect();
+        let most = values.iter().copied().fold(1.0, f64::max).ceil();
+        let tints = Tints { label: "impact speed (m/s)".to_owned(), range: (0.0, most), values };
+        Ok(Self { tints: Some(tints), ..map })
+    }
+
     /// Adds the open parameters that changed no trace to the note of the map.
     #[must_use]
     pub fn noting(mut self, effects: &Effects) -> Self {

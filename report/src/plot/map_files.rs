@@ -11,6 +11,8 @@ pub enum MapFiles<'m> {
     Failures(&'m FailureMap),
     /// The blame map, which shows the blame for each failure.
     Blame(&'m FailureMap),
+    /// The severity map, which shows the impact speed of each test.
+    Severity(&'m FailureMap),
 }
 
 impl Artefact for MapFiles<'_> {
@@ -20,12 +22,13 @@ impl Artefact for MapFiles<'_> {
                 vec!["failure-map.svg", "failure-map.png", "failure-map.csv"]
             }
             Self::Failures(_) => vec!["failure-map.svg", "failure-map.png"],
+            Self::Severity(_) => vec!["severity-map.svg", "severity-map.png"],
             Self::Blame(_) => vec!["blame-map.svg", "blame-map.png"],
         }
     }
 
     fn contents(&self, file: &str) -> Result<Vec<u8>, Error> {
-        let (Self::Failures(map) | Self::Blame(map)) = *self;
+        let (Self::Failures(map) | Self::Blame(map) | Self::Severity(map)) = *self;
         let picture = || Picture::of(map.clone());
         let drawn = match file.rsplit_once('.') {
             Some((_, "svg")) => picture().svg().map(String::into_bytes),

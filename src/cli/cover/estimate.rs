@@ -11,8 +11,10 @@ use crate::space::{Parameter, Space};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::{Coverage, Limit};
-use paracosm_campaign::{Catalogue, Error, TestSet, read_tests};
+use paracosm_campaign::files::Lines;
+use paracosm_campaign::{Catalogue, Error, TestSet, read_tests, read_tests_from};
 use paracosm_coverage::Measure;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -21,7 +23,7 @@ Examples:
   paracosm-cover estimate
       the campaign in paracosm-out/
   paracosm-cover estimate points.csv
-      columns in [0,1], a row for each test
+      columns in [0,1], a row for each test; also points.txt of numpy.savetxt
   paracosm-cover estimate tests.csv --space SPACE.toml --k 2
   paracosm-cover estimate tests.csv --space SPACE.toml --strength lanes,weather,surface=3
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
@@ -33,8 +35,11 @@ Dispersion is the largest volume of an axis-parallel box that no test has entere
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct Options {
-    /// A CSV of tests, or the folder of a campaign [default: paracosm-out]
-    #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
+    /// Tests, or the folder of a campaign [default: paracosm-out]
+    ///
+    /// TESTS is a CSV, a file of numbers such as numpy.savetxt writes, or `-` for standard input. Columns of numbers
+    /// without a header are in the order of the space.
+    #[arg(value_name = "TESTS|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
     /// The space of the tests in a CSV
     ///
@@ -143,6 +148,10 @@ impl Options {
     fn read(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<(TestSet, String), Error> {
         let path = self.tests.clone().unwrap_or_else(|| "paracosm-out".into());
         let space = self.space.as_deref().map(|path| self.strict.read(path, catalogue, verbosity)).transpose()?;
+        if path.as_os_str() == "-" {
+            let name = "standard input";
+            return Ok((read_tests_from(Lines::of(io::stdin()), Path::new(name), space)?, name.to_owned()));
+        }
         Ok((read_tests(&path, space)?, path.display().to_string()))
     }
 

@@ -1,18 +1,18 @@
-//! Reads tests from a CSV file whose header names the parameters of a space.
+//! Reads tests from a CSV file whose header names the parameters of a space, or from a file of numbers.
 
+mod flaws;
+mod layout;
+
+pub use self::flaws::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};
+use self::layout::Layout;
+use crate::Error;
 use crate::files::Lines;
-use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
 use paracosm_space::pict::Aliases;
-use paracosm_space::plural;
-use paracosm_space::{Coordinate, Parameter, ParameterError, Point, Space, SpaceError, Value, Values, nearest};
+use paracosm_space::{Coordinate, Parameter, Point, Space, Value, Values, nearest};
 use std::collections::HashMap;
-use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
-use thiserror::Error;
-
-/// The most numbers (some gigabytes of tests) that are kept in memory; larger sets are refused.
-const MOST_NUMBERS: usize = 50_000_000;
+use std::io::Read;
+use std::path::Path;
 
 /// A set of tests, with the space to which the tests belong.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,105 +29,6 @@ pub struct TestSet {
     pub demand: Demand,
 }
 
-/// The error that a set of tests does not fit in memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("{} of {} do not fit in memory: at most {MOST_NUMBERS} numbers", plural(*tests, "test"), plural(*parameters, "parameter"))]
-pub struct TooManyTests {
-    /// The number of tests in the set.
-    pub tests: usize,
-    /// The number of parameters of each test.
-    pub parameters: usize,
-}
-
-/// The error in the header of a CSV file of tests.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum HeaderFlaw {
-    /// The CSV file is empty and has no header.
-    #[error("the file is empty, expected a header with the names of the columns")]
-    Empty,
-    /// The first line of the file has numbers instead of the names of columns.
-    #[error("found numbers, expected a header with the names of the columns")]
-    Numbers,
-    /// The columns of the CSV file are separated by semicolons.
-    #[error("the columns seem to be separated by `;`, expected `,`")]
-    Semicolons,
-    /// The file has no column for a coordinate of the space.
-    #[error("no column is called `{name}`{}", nearest.as_ref().map(|column| format!(" (is it `{column}`?)")).unwrap_or_default())]
-    NoColumn {
-        /// The name of the missing column.
-        name: String,
-        /// The most similar name of a column; `None` if no name is similar.
-        nearest: Option<String>,
-    },
-}
-
-/// The reason why a test in a CSV file is invalid.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum CellFlaw {
-    /// A cell of the test is empty.
-    #[error(
-        "found an empty cell, expected a value{}",
-        if *is_mixed { "; tests to complete may have empty cells only if no parameter is continuous" } else { "" }
-    )]
-    Open {
-        /// True if the space has both continuous and discrete parameters.
-        is_mixed: bool,
-    },
-    /// A cell of the test holds a word in place of a number.
-    #[error("found `{found}`, expected a number")]
-    NoNumber {
-        /// The value that was found in place of a number.
-        found: Value,
-    },
-    /// A value of the test differs from the fixed value of the parameter.
-    #[error("found {found}, but `{name}` is fixed at {value}; --open {name} lets it vary")]
-    Fixed {
-        /// The value that was found in the file.
-        found: Value,
-        /// The name of the parameter.
-        name: String,
-        /// The fixed value of the parameter.
-        value: Value,
-    },
-    /// The parameter does not accept the value.
-    #[error(transparent)]
-    Parameter(ParameterError),
-    /// The values of the test are not a valid test of the space.
-    #[error(transparent)]
-    Space(SpaceError),
-}
-
-/// The error that a test in a CSV file is invalid, with the name of the column.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error(
-    "{}{flaw}{}",
-    column.as_ref().map(|column| format!("column `{column}`: ")).unwrap_or_default(),
-    if *is_made_up { "; name the space of the tests with --space SPACE.toml" } else { "" }
-)]
-pub struct WrongCell {
-    /// The name of the column with the error; `None` if the error is not in a single column.
-    pub column: Option<String>,
-    /// The reason why the test is invalid.
-    pub flaw: CellFlaw,
-    /// True if no space was given, so that the columns were read as coordinates.
-    pub is_made_up: bool,
-}
-
-/// The error that a path leads to a folder instead of a file of tests.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "{} is a folder, expected a CSV; a campaign has its tests in {}", path.display(), path.join("trials.csv").display()
-)]
-pub struct IsFolder {
-    /// The path of the folder.
-    pub path: PathBuf,
-}
-
-impl Reason for TooManyTests {}
-impl Reason for HeaderFlaw {}
-impl Reason for WrongCell {}
-impl Reason for IsFolder {}
-
 impl TestSet {
     /// Makes a set of tests from a space and the coordinates of the tests.
     pub fn new(space: Space, points: Vec<Point>) -> Self {
@@ -139,7 +40,7 @@ impl TestSet {
     /// # Errors
     /// The tests are more than 50 million numbers.
     pub fn check_size(tests: usize, parameters: usize) -> Result<(), TooManyTests> {
-        if parameters.saturating_mul(tests) <= MOST_NUMBERS {
+        if parameters.saturating_mul(tests) <= flaws::MOST_NUMBERS {
             return Ok(());
         }
         Err(TooManyTests { tests, parameters })
@@ -152,10 +53,27 @@ impl TestSet {
     /// that are not parameters of the space are ignored, and so are tests of a campaign with the verdict `error` or
     /// `invalid`.
     ///
+    /// A file may also consist of numbers between spaces, tabs or commas, and of comments that begin with `#`, as
+    /// `numpy.savetxt` writes. The columns are the coordinates of the space in its order, or in the order of the last comment before the
+    /// numbers if this comment names a coordinate.
+    ///
     /// # Errors
     /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.
     pub fn read(path: &Path, space: Option<Space>, aliases: &Aliases) -> Result<Self, Error> {
-        let mut file = TestsFile::open(path, space, aliases)?;
+        Self::read_from(Lines::open(path)?, path, space, aliases)
+    }
+
+    /// Reads a set of tests as [`TestSet::read`] from an input; `path` is the name of the input in errors.
+    ///
+    /// # Errors
+    /// The same errors as [`TestSet::read`].
+    pub fn read_from(
+        source: Lines<impl Read + 'static>,
+        path: &Path,
+        space: Option<Space>,
+        aliases: &Aliases,
+    ) -> Result<Self, Error> {
+        let mut file = TestsFile::of(source, path, space, aliases)?;
         let mut points = Vec::new();
         while let Some((line, record)) = file.next(points.len())? {
             points.push(file.test(line, &record)?.1);
@@ -237,11 +155,12 @@ pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Val
     Ok(tests)
 }
 
-/// A CSV file of tests whose header has been read.
+/// A file of tests whose columns are known.
 struct TestsFile<'p> {
     path: &'p Path,
     aliases: &'p Aliases,
-    reader: csv::Reader<BufReader<Lines>>,
+    reader: csv::Reader<Box<dyn Read>>,
+    /// The names of the columns.
     header: csv::StringRecord,
     space: Space,
     /// For each discrete parameter by its name, the positions of its levels by their texts.
@@ -256,24 +175,24 @@ struct TestsFile<'p> {
 
 impl<'p> TestsFile<'p> {
     fn open(path: &'p Path, space: Option<Space>, aliases: &'p Aliases) -> Result<Self, Error> {
-        let mut file = BufReader::new(Lines::open(path)?);
-        let begin = file.fill_buf().map_err(Error::io("read", path))?;
-        if begin.is_empty() {
-            return Err(Error::in_file(path, None, HeaderFlaw::Empty));
-        }
-        // PICT separates columns by tabs, and has no quotes.
-        let first = begin.split(|byte| *byte == b'\n').next().unwrap_or_default();
-        let has_tabs = first.contains(&b'\t') && !first.contains(&b',');
-        let mut builder = csv::ReaderBuilder::new();
-        builder.trim(csv::Trim::Headers);
-        if has_tabs {
-            builder.delimiter(b'\t').quoting(false);
-        }
-        let mut reader = builder.from_reader(file);
-        let header = reader.headers().map_err(|error| Error::in_csv(path, error))?.clone();
-        if header.iter().all(|name| name.parse::<f64>().is_ok()) {
-            return Err(Error::in_file(path, 1, HeaderFlaw::Numbers));
-        }
+        Self::of(Lines::open(path)?, path, space, aliases)
+    }
+
+    fn of(
+        source: Lines<impl Read + 'static>,
+        path: &'p Path,
+        space: Option<Space>,
+        aliases: &'p Aliases,
+    ) -> Result<Self, Error> {
+        let (layout, source) = Layout::of(source).map_err(Error::io("read", path))?;
+        let mut reader = layout.reader(source);
+        let header = match &layout {
+            Layout::Empty => return Err(Error::in_file(path, None, HeaderFlaw::Empty)),
+            Layout::Header { .. } => reader.headers().map_err(|error| Error::in_csv(path, error))?.clone(),
+            Layout::Numbers { columns, comment, .. } => {
+                names(*columns, comment, space.as_ref()).map_err(|flaw| Error::in_file(path, None, flaw))?
+            }
+        };
         if header.len() == 1 && header[0].contains(';') {
             return Err(Error::in_file(path, 1, HeaderFlaw::Semicolons));
         }
@@ -366,6 +285,19 @@ impl<'p> TestsFile<'p> {
     fn wrong(&self, line: Option<usize>, flaw: CellFlaw, column: Option<usize>) -> Error {
         let column = column.map(|column| self.header[column].to_owned());
         Error::in_file(self.path, line, WrongCell { column, flaw, is_made_up: self.is_made_up })
+    }
+}
+
+/// Returns the names of the columns of a file of numbers. They are the words of the comment if there are as many, and if one of the words is
+/// a coordinate of the space or there is no space. Otherwise the columns are the coordinates in their order.
+fn names(columns: usize, comment: &[String], space: Option<&Space>) -> Result<csv::StringRecord, HeaderFlaw> {
+    let space_of_all = Space::unit_cube(columns);
+    let expected: Vec<String> = space.unwrap_or(&space_of_all).coordinates().map(|of| of.name()).collect();
+    let is_header = comment.len() == columns && (space.is_none() || comment.iter().any(|word| expected.contains(word)));
+    match is_header {
+        true => Ok(csv::StringRecord::from(comment.to_vec())),
+        false if columns == expected.len() => Ok(csv::StringRecord::from(expected)),
+        false => Err(HeaderFlaw::Columns { found: columns, expected }),
     }
 }
 
