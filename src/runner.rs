@@ -1,8 +1,8 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
 use crate::analysis::{
-    Coverage, Effects, Explanation, Impacts, Limit, LocatedReport, Modes, Perceived, Plausible, Promise, Summary,
-    SuspectReport, explanation,
+    Coverage, Effects, Explanation, Impacts, Inconclusive, Limit, LocatedReport, Modes, Perceived, Plausible, Promise,
+    Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Supervision, Trial,
@@ -80,6 +80,8 @@ pub struct Report {
     pub perceived: Option<Perceived>,
     /// The explanation of the failures in words, or `None` if too few tests failed or passed.
     pub explanation: Option<Explanation>,
+    /// The explanation of the inconclusive tests, or `None` if no test is inconclusive.
+    pub inconclusive: Option<Inconclusive>,
     /// The effects of the open parameters; `None` until they are known.
     pub effects: Option<Effects>,
     /// The coverage guarantee of random rows of discrete values, or `None` if rows are not random, or if the campaign
@@ -130,6 +132,7 @@ impl Report {
             modes: Modes::of(&log),
             perceived: Perceived::of(&log),
             explanation: Explanation::of(&log)?,
+            inconclusive: Inconclusive::of(&log)?,
             effects: None,
             // Rows that were not run promise nothing.
             promise: if finish == Finish::Stopped { None } else { Promise::of_campaign(&log)? },

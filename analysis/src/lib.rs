@@ -49,7 +49,7 @@ pub use effects::{Effect, Effects, ParameterEffect};
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measured, Strength, Watch,
 };
-pub use explanation::{Accuracy, Explanation, Rule};
+pub use explanation::{Accuracy, Explanation, Inconclusive, Place, Rule};
 pub use failure_estimate::FailureEstimate;
 pub use impacts::Impacts;
 pub use limit::Limit;

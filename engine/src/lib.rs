@@ -43,6 +43,7 @@ mod program;
 mod run;
 mod scenario;
 pub mod sensor;
+pub mod signal;
 pub mod stream;
 mod test;
 pub mod traffic;

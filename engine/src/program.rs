@@ -2,6 +2,7 @@
 
 use crate::flaw::WorldFlaw;
 use crate::scenario::{Constraint, Reach, Scenario};
+use crate::signal::Quantity;
 use crate::stream::Sketch;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
@@ -31,6 +32,8 @@ pub struct Program {
     about: Cow<'static, str>,
     build: Build,
     files: Option<Files>,
+    /// The quantities that traces have in addition to those that the program asks for.
+    recorded: Vec<Quantity>,
 }
 
 /// A function that returns the hash of the files of a test.
@@ -71,6 +74,8 @@ pub struct Declaration {
     pub constraints: Vec<Constraint>,
     /// The requirements that the program states.
     pub requirements: Vec<Requirement>,
+    /// The event that a test waits for, as a formula of streams; `None` if the situation is there from the beginning.
+    pub premise: Option<String>,
     /// The duration in seconds of a run without a contact.
     pub duration: f64,
     /// The duration of a tick in seconds.
@@ -123,7 +128,13 @@ const MOST_TICKS: f64 = 1e7;
 impl Program {
     /// Makes a scenario from its name, its description in one line and the function that builds its world.
     pub const fn new(name: &'static str, about: &'static str, build: fn(&mut Scenario)) -> Self {
-        Self { name: Cow::Borrowed(name), about: Cow::Borrowed(about), build: Build::Function(build), files: None }
+        Self {
+            name: Cow::Borrowed(name),
+            about: Cow::Borrowed(about),
+            build: Build::Function(build),
+            files: None,
+            recorded: Vec::new(),
+        }
     }
 
     /// Makes a scenario from a closure, which may hold data such as the contents of a file, or an interpreter.
@@ -133,7 +144,7 @@ impl Program {
         build: impl Fn(&mut Scenario) + Send + Sync + 'static,
     ) -> Self {
         let (name, about) = (Cow::Owned(name.into()), Cow::Owned(about.into()));
-        Self { name, about, build: Build::Shared(Arc::new(build)), files: None }
+        Self { name, about, build: Build::Shared(Arc::new(build)), files: None, recorded: Vec::new() }
     }
 
     /// Says which files the worlds read, so that a campaign is not continued after a file has changed. `hash` returns the hash of the
@@ -154,6 +165,16 @@ impl Program {
     /// Returns the names of the parameters that choose among files.
     pub fn files_chosen_by(&self) -> &[String] {
         self.files.as_ref().map_or(&[], |files| &files.chosen_by)
+    }
+
+    /// Returns the program whose traces also have these signals of the ego vehicle, as far as they are signals that are measured
+    /// [on request](crate::signal::on_request). Other names change nothing.
+    pub fn recording<'s>(&self, signals: impl IntoIterator<Item = &'s str>) -> Self {
+        let mut recorded = self.recorded.clone();
+        for name in signals {
+            recorded.extend(Quantity::all().find(|one| one.name() == name).filter(|one| !recorded.contains(one)));
+        }
+        Self { recorded, ..self.clone() }
     }
 
     /// Returns the name of the scenario.
@@ -188,6 +209,7 @@ impl Program {
             parameters,
             constraints: scenario.constraints,
             requirements,
+            premise: scenario.premise.as_ref().map(|event| event.node.to_string()),
             duration: scenario.duration,
             dt: scenario.dt,
         })
@@ -234,6 +256,10 @@ impl Program {
 
     fn built_in(&self, mut scenario: Scenario, test: Option<Test>) -> Result<Scenario, ProgramError> {
         self.build(&mut scenario);
+        if let Some(car) = scenario.cars.first() {
+            let recorded: Vec<_> = self.recorded.iter().map(|quantity| car.record(*quantity)).collect();
+            scenario.signals.extend(recorded);
+        }
         // A program that refuses a test may end before it asks for all parameters.
         let is_refused =
             |scenario: &Scenario| scenario.flaws.borrow().iter().any(|flaw| matches!(flaw, WorldFlaw::Refused { .. }));

@@ -3,7 +3,7 @@
 
 use paracosm_engine::object::{BodyState, Class, VehicleKind};
 use paracosm_engine::vehicle::{Vehicle, VehicleModel};
-use paracosm_engine::{Face, Outcome, Program, Run, Setup, Step, driver, simulate, watch};
+use paracosm_engine::{Face, Outcome, Program, Run, Setup, Step, driver, signal, simulate, watch};
 use paracosm_oracles::Verdict;
 use paracosm_scenarios::{ALL, find};
 use paracosm_space::{Domain, Value, Values};
@@ -22,7 +22,7 @@ fn nominal(program: &Program, changes: &[(&str, Value)]) -> Values {
 }
 
 /// The samples of a signal.
-fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
+fn signal_of(outcome: &Outcome, name: &str) -> Vec<f64> {
     let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.ending.message()));
     trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
@@ -36,6 +36,31 @@ fn every_scenario_runs_with_every_driver() {
             let outcome = run(program, &nominal(program, &[]), VehicleModel::SingleTrack, kind.name);
             assert_eq!(outcome.ending.message(), None, "{} with {}", program.name(), kind.name);
             assert!(!matches!(outcome.verdict(), Verdict::Error | Verdict::Invalid));
+        }
+    }
+}
+
+/// The clearance is from all bodies, and the other clearances are from one class of road users each.
+#[test]
+fn the_clearance_is_the_least_of_the_clearances_by_class_and_to_record_them_changes_nothing_else() {
+    let by_class = || signal::on_request().map(|(name, _)| name).filter(|name| name.starts_with("car.clearance_to_"));
+    assert_eq!(by_class().count(), 7);
+    for program in ALL {
+        let recording = program.recording(signal::on_request().map(|(name, _)| name));
+        for test in diagonal(program, 3) {
+            let [plain, recorded] =
+                [program, &recording].map(|program| run(program, &test, VehicleModel::SingleTrack, "aeb"));
+            let Some(trace) = &plain.trace else { continue };
+            for name in trace.signals() {
+                assert_eq!(signal_of(&plain, name), signal_of(&recorded, name), "{name} of {}", program.name());
+            }
+            let classes: Vec<Vec<f64>> = by_class().map(|name| signal_of(&recorded, name)).collect();
+            for (tick, all) in signal_of(&recorded, "car.clearance").into_iter().enumerate() {
+                let least = classes.iter().map(|class| class[tick]).fold(f64::INFINITY, f64::min);
+                // In the loop, houses stand beside the road.
+                let is_least = if program.name() == "t-loop" { least >= all } else { (least - all).abs() < 1e-9 };
+                assert!(is_least, "{} at tick {tick}: {least} and {all}", program.name());
+            }
         }
     }
 }
@@ -138,7 +163,7 @@ fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_ove
         let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
         let time = outcome.trace.as_ref().unwrap().len() as f64 * 0.01;
         assert!((time - 6.0).abs() < 0.05, "{target} at {speed} km/h: {time} s");
-        let last = |name: &str| *signal(&outcome, name).last().unwrap();
+        let last = |name: &str| *signal_of(&outcome, name).last().unwrap();
         // The sides of both cars as places across the lane: the share of the ego vehicle's width that both cover.
         let [own, other] = [("car.y", Vehicle::BMW_320I.width), ("target.y", TARGET_WIDTH)]
             .map(|(name, width)| [last(name) - 0.5 * width, last(name) + 0.5 * width]);
@@ -158,13 +183,13 @@ fn the_target_of_ccrb_brakes_after_three_seconds_from_the_ego_vehicle_s_speed_to
     for (gap, deceleration) in [(12.0, 2.0), (12.0, 6.0), (40.0, 2.0), (40.0, 6.0)] {
         let changes = [("gap", Value::Number(gap)), ("deceleration", Value::Number(deceleration))];
         let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
-        let speed = signal(&outcome, "target.speed");
+        let speed = signal_of(&outcome, "target.speed");
         let (start, crawl) = (50.0 / 3.6, 2.0 / 3.6);
         for (tick, speed) in speed.iter().enumerate().skip(1) {
             let expected = (start - (0.01 * tick as f64 - 3.0).max(0.0) * deceleration).max(crawl);
             assert!((speed - expected).abs() < 0.01 * deceleration + 1e-9, "tick {tick}: {speed}, expected {expected}");
         }
-        let apart = signal(&outcome, "target.x")[0] - signal(&outcome, "car.x")[0];
+        let apart = signal_of(&outcome, "target.x")[0] - signal_of(&outcome, "car.x")[0];
         assert!((apart - 0.5 * (Vehicle::BMW_320I.length + 4.5) - gap).abs() < 1e-9, "{apart}");
         assert_eq!(outcome.verdict(), Verdict::Fail, "nobody brakes");
     }
@@ -183,8 +208,8 @@ fn every_kind_of_vehicle_cuts_in_from_either_side_at_the_gap_that_is_asked_for_a
                     ("gap", Value::Number(60.0)),
                 ];
                 let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
-                let [x, y, speed] = ["other.x", "other.y", "other.speed"].map(|name| signal(&outcome, name));
-                let apart = x[0] - signal(&outcome, "car.x")[0];
+                let [x, y, speed] = ["other.x", "other.y", "other.speed"].map(|name| signal_of(&outcome, name));
+                let apart = x[0] - signal_of(&outcome, "car.x")[0];
                 let halves = 0.5 * (Vehicle::BMW_320I.length + kind.size[0]);
                 assert!((apart - halves - 60.0).abs() < 1e-9, "{} {side}: {apart}", kind.name);
                 assert!((y[0] - begins).abs() < 1e-9 && (y[y.len() - 1] - y_of_lane_2()).abs() < 1e-9, "{side}");
@@ -215,12 +240,12 @@ fn a_cut_out_to_either_side_reveals_every_kind_of_obstacle_at_the_gap() {
         for (side, way) in [("left", 1.0), ("right", -1.0)] {
             let changes = [("obstacle", Value::Word(name.to_owned())), ("side", Value::Word(side.to_owned()))];
             let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
-            let moved = signal(&outcome, "leader.y").last().unwrap() - y_of_lane_2();
+            let moved = signal_of(&outcome, "leader.y").last().unwrap() - y_of_lane_2();
             assert!((moved - way * 3.5).abs() < 1e-9, "{name} {side}: {moved}");
             let v = 50.0 / 3.6;
             let lead = 10.0 + 2.0 * v + 0.5 * (Vehicle::BMW_320I.length + 4.5);
             let rear = lead + 3.0 * v + 0.5 * 4.5 + 30.0;
-            let front = signal(&outcome, "car.x").last().unwrap() + 0.5 * Vehicle::BMW_320I.length;
+            let front = signal_of(&outcome, "car.x").last().unwrap() + 0.5 * Vehicle::BMW_320I.length;
             assert!((front - rear).abs() < 0.2, "{name}: {front}, expected {rear}");
         }
     }
@@ -231,12 +256,12 @@ fn the_leader_of_a_cut_out_leaves_its_lane_at_the_gap_before_the_car_that_stands
     let program = find("cut-out").unwrap();
     let test = nominal(program, &[("gap", Value::Number(25.0)), ("ego_speed", Value::Number(36.0))]);
     let outcome = run(program, &test, VehicleModel::SingleTrack, "cruise");
-    let (x, y) = (signal(&outcome, "leader.x"), signal(&outcome, "leader.y"));
+    let (x, y) = (signal_of(&outcome, "leader.x"), signal_of(&outcome, "leader.y"));
     let leaves = y.iter().position(|y| (y - y_of_lane_2()).abs() > 1e-9).expect("it leaves");
     // 10 m + 2 s at 10 m/s + the halves of two cars is where it begins, and it drives 3 s straight on.
     let begun = 10.0 + 20.0 + 0.5 * (Vehicle::BMW_320I.length + 4.5);
     assert!((x[leaves - 1] - (begun + 30.0)).abs() < 0.2, "{}", x[leaves - 1]);
-    let impact = *signal(&outcome, "car.x").last().unwrap() + 0.5 * Vehicle::BMW_320I.length;
+    let impact = *signal_of(&outcome, "car.x").last().unwrap() + 0.5 * Vehicle::BMW_320I.length;
     assert!((impact - (begun + 30.0 + 0.5 * 4.5 + 25.0)).abs() < 0.2, "{impact}");
 }
 
@@ -246,7 +271,7 @@ fn y_of_lane_2() -> f64 {
 
 /// Where the middle of a pedestrian is when the car has it: as a share of the car's width from its right side.
 fn impact(outcome: &Outcome, name: &str) -> f64 {
-    let last = |name: &str| *signal(outcome, name).last().unwrap();
+    let last = |name: &str| *signal_of(outcome, name).last().unwrap();
     0.5 + (last(&format!("{name}.y")) - last("car.y")) / Vehicle::BMW_320I.width
 }
 
@@ -280,7 +305,7 @@ fn pedestrians_reach_their_speed_over_the_distance_that_the_protocol_says() {
     for (scenario, name, run_up, km_h) in [("ncap-cpna", "adult", 1.0, 5.0), ("ncap-cpfa", "adult", 1.5, 8.0)] {
         let program = find(scenario).unwrap();
         let outcome = run(program, &nominal(program, &[]), VehicleModel::SingleTrack, "cruise");
-        let (y, speed) = (signal(&outcome, &format!("{name}.y")), signal(&outcome, &format!("{name}.speed")));
+        let (y, speed) = (signal_of(&outcome, &format!("{name}.y")), signal_of(&outcome, &format!("{name}.speed")));
         let walks = speed.iter().position(|speed| *speed > km_h / 3.6 - 1e-6).expect("it reaches its speed");
         let way = (y[walks] - y[0]).abs();
         assert!((way - run_up).abs() < 0.01, "{scenario}: {way} m");
@@ -293,10 +318,10 @@ fn a_cut_in_begins_at_the_gap_from_bumper_to_bumper_and_moves_across_as_fast_as_
     let changes = [("gap", 30.0), ("lateral_speed", 1.5), ("ego_speed", 60.0), ("relative_speed", -10.0)];
     let changes = changes.map(|(name, value)| (name, Value::Number(value)));
     let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
-    let clearance = signal(&outcome, "car.clearance")[0];
+    let clearance = signal_of(&outcome, "car.clearance")[0];
     let beside: f64 = 3.5 - 0.5 * (Vehicle::BMW_320I.width + 1.8);
     assert!((clearance - (beside * beside + 30.0 * 30.0).sqrt()).abs() < 1e-9, "{clearance}");
-    let y = signal(&outcome, "other.y");
+    let y = signal_of(&outcome, "other.y");
     assert!((y[101] - y[1] + 1.5).abs() < 1e-9);
 }
 
@@ -315,7 +340,7 @@ fn the_loop_is_gone_round_on_its_way() {
     for model in VehicleModel::ALL {
         let outcome = run(program, &nominal(program, &[]), model, "cruise");
         assert_eq!(outcome.verdict(), Verdict::Pass, "{model}: {:?}", outcome.judgements);
-        let travelled = *signal(&outcome, "car.travelled").last().unwrap();
+        let travelled = *signal_of(&outcome, "car.travelled").last().unwrap();
         assert!(travelled > 1000.0, "{model}: {travelled} m");
     }
 }
@@ -450,7 +475,7 @@ fn the_expert_stops_for_who_crosses_at_one_metre_a_second_and_goes_on() {
         let changes = [("speed", Value::Number(1.0)), ("distance", Value::Number(distance))];
         let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "expert");
         assert_eq!(outcome.verdict(), Verdict::Pass, "from {distance} m on");
-        let least = signal(&outcome, "car.speed").into_iter().fold(f64::INFINITY, f64::min);
+        let least = signal_of(&outcome, "car.speed").into_iter().fold(f64::INFINITY, f64::min);
         assert_eq!(least < 0.5, distance > 20.0, "{least} m/s from {distance} m on");
     }
 }

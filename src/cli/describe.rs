@@ -4,6 +4,7 @@ use super::draw::{FileKind, Target};
 use super::output::{Format, FormatOption, Table, digits, domain_words, json, value_words};
 use super::subject::Subject;
 use super::{Failure, Status, Verbosity, print};
+use crate::engine::{self, signal::SignalAbout};
 use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup};
 use crate::oracles::signal;
 use crate::space::{Domain, Value};
@@ -108,9 +109,15 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         let formula = requirement.formula.as_ref().map(ToString::to_string).unwrap_or_default();
         table.row("", &format!("{formula}{}", scale.unwrap_or_default()));
     }
-    table.heading("signals that formulas can use");
-    for (object, names) in by_object(&signals(study)?) {
-        table.row(object, &names.join(" "));
+    table.heading("signals of a trace, for formulas");
+    let recorded = study.signals()?.unwrap_or_default();
+    for name in &recorded {
+        let about = engine::signal::about(name).map_or_else(|| "as this formula says".to_owned(), in_words);
+        table.row(&signal(name).to_string(), &about);
+    }
+    table.heading("signals that are measured if a formula uses them");
+    for (name, about) in on_request(&recorded) {
+        table.row(name, &in_words(about));
     }
     let notes = study.notes()?;
     if !notes.is_empty() {
@@ -130,18 +137,33 @@ fn signals(study: &Study) -> Result<Vec<String>, Error> {
     Ok(study.signals()?.unwrap_or_default().into_iter().map(|name| signal(name).to_string()).collect())
 }
 
-/// Groups signals by the objects that their names begin with. Names in quotes belong to no object.
-fn by_object(signals: &[String]) -> Vec<(&str, Vec<&str>)> {
-    let mut objects: Vec<(&str, Vec<&str>)> = Vec::new();
-    for name in signals {
-        let object = name.split_once('.').map_or("", |(object, _)| object);
-        let object = if name.starts_with('"') { "" } else { object };
-        match objects.iter_mut().find(|(known, _)| *known == object) {
-            Some((_, names)) => names.push(name),
-            None => objects.push((object, vec![name])),
-        }
+/// Returns the signals that are measured if a formula uses them, without the recorded ones.
+fn on_request(recorded: &[String]) -> impl Iterator<Item = (&'static str, SignalAbout)> {
+    engine::signal::on_request().filter(|(name, _)| !recorded.iter().any(|known| known == name))
+}
+
+/// Says what a signal measures.
+fn in_words(about: SignalAbout) -> String {
+    match about.values() {
+        values if values.is_empty() => about.about.to_owned(),
+        values => format!("{} ({values})", about.about),
     }
-    objects
+}
+
+/// Describes the signals that a formula can use.
+fn described(recorded: &[String]) -> Vec<serde_json::Value> {
+    let bound = |bound: f64| bound.is_finite().then_some(bound);
+    let as_json = |name: &str, about: Option<SignalAbout>, recorded: bool| {
+        let mut said = json!({"name": name, "recorded": recorded});
+        if let Some(SignalAbout { unit, about, range: [least, greatest] }) = about {
+            said["unit"] = unit.into();
+            said["about"] = about.into();
+            said["range"] = json!([bound(least), bound(greatest)]);
+        }
+        said
+    };
+    let of_trace = recorded.iter().map(|name| as_json(name, engine::signal::about(name), true));
+    of_trace.chain(on_request(recorded).map(|(name, about)| as_json(name, Some(about), false))).collect()
 }
 
 fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Result<String, Error> {
@@ -164,5 +186,6 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
         .collect();
     Ok(json(&json!({"name": program.name(), "about": program.about(), "duration": declaration.duration,
         "parameters": parameters, "requirements": study.requirements(), "signals": signals(study)?,
+        "described_signals": described(&study.signals()?.unwrap_or_default()),
         "notes": study.notes()?})))
 }

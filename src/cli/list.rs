@@ -56,6 +56,8 @@ enum ListKind {
     Sensors,
     /// Settings of cameras
     Cameras,
+    /// Signals of the ego vehicle, for formulas
+    Signals,
     /// Elements of files of roads, ASAM OpenDRIVE (only if it is named)
     Opendrive,
     /// Elements of files of scenarios, ASAM OpenSCENARIO XML (only if it is named)
@@ -64,8 +66,8 @@ enum ListKind {
 
 impl ListKind {
     /// The kinds of things that have a name in this software.
-    const NAMED: [Self; 6] =
-        [Self::Scenarios, Self::Strategies, Self::Drivers, Self::Measures, Self::Sensors, Self::Cameras];
+    const NAMED: [Self; 7] =
+        [Self::Scenarios, Self::Strategies, Self::Drivers, Self::Measures, Self::Sensors, Self::Cameras, Self::Signals];
 }
 
 impl Options {
@@ -97,10 +99,13 @@ fn table(lists: &Lists, kinds: &[ListKind]) -> Result<String, Failure> {
             | ListKind::Measures
             | ListKind::Sensors
             | ListKind::Cameras
+            | ListKind::Signals
             | ListKind::Opendrive
             | ListKind::Openscenario => {
-                for (name, about) in named(lists, *kind) {
-                    writeln!(text, "  {name:<22}{about}")?;
+                let named = named(lists, *kind);
+                let width = named.iter().map(|(name, _)| name.len() + 1).max().unwrap_or_default().max(22);
+                for (name, about) in named {
+                    writeln!(text, "  {name:<width$}{about}")?;
                 }
             }
         }
@@ -181,6 +186,7 @@ fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failu
             ListKind::Strategies
             | ListKind::Measures
             | ListKind::Sensors
+            | ListKind::Signals
             | ListKind::Opendrive
             | ListKind::Openscenario => {
                 named(lists, *kind).into_iter().map(|(name, about)| json!({"name": name, "about": about})).collect()

@@ -7,7 +7,7 @@ use crate::Report;
 use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
-use paracosm_analysis::{Effects, Judged, Modes, Plausible, RangeRecall, Segmented, Worst};
+use paracosm_analysis::{Effects, Inconclusive, Judged, Modes, Plausible, RangeRecall, Segmented, Worst};
 use paracosm_campaign::{Artefact, Extension, ExtensionRecord, Finish, Number, Study, Trial};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{command_option, shell_word};
@@ -67,6 +67,10 @@ impl Printed<'_> {
             for (i, (name, line)) in lines.enumerate() {
                 table.row(if i == 0 { "explanation" } else { name }, line);
             }
+        }
+        let mut label = "inconclusive";
+        for line in self.report.inconclusive.iter().flat_map(Inconclusive::in_words) {
+            table.row(std::mem::take(&mut label), &line);
         }
         let mut label = "no effect";
         for line in self.report.effects.iter().flat_map(Effects::in_words) {
@@ -175,6 +179,9 @@ impl Printed<'_> {
         }
         if let Some(explanation) = &self.report.explanation {
             printed["explanation"] = json!(explanation);
+        }
+        if let Some(inconclusive) = &self.report.inconclusive {
+            printed["inconclusive"] = json!(inconclusive);
         }
         suspects::add_to(&mut printed, self.report);
         if study.sampling().stop_at_first {

@@ -73,6 +73,26 @@ fn a_requirement_may_speak_of_the_time_between_samples() {
 }
 
 #[test]
+fn a_formula_may_use_signals_that_are_measured_on_request_and_the_run_stays_the_same() {
+    let dir = tempfile::tempdir().unwrap();
+    let spec = "always (car.clearance_to_pedestrian > 0.5 and car.time_to_collision > 0.3)";
+    succeeds(fuzz(dir.path(), &["--budget", "12", "--out", "plain", "-q"]));
+    succeeds(fuzz(dir.path(), &["--budget", "12", "--out", "asked", "--spec", spec, "-q"]));
+    let [plain, asked] = ["plain", "asked"].map(|out| trials(dir.path(), out));
+    for (plain, asked) in plain.iter().zip(&asked) {
+        assert_eq!(plain["robustness"]["no-collision"], asked["robustness"]["no-collision"]);
+        assert_eq!(plain["ticks"], asked["ticks"]);
+        let [all, spec] = [&plain["robustness"]["no-collision"], &asked["robustness"]["spec-1"]].map(Value::as_f64);
+        assert!(spec.unwrap() <= all.unwrap() - 0.5 + 1e-9, "the pedestrian is the only other body: {asked}");
+    }
+    // The file of the study asks for the same signals.
+    succeeds(fuzz(dir.path(), &["replay", "asked", "2"]));
+    let slip = fuzz(dir.path(), &["--out", "slip", "--spec", "always (car.clearence_to_bicycle > 1)"]);
+    let definition = "`car.clearance_to_bicycle` is the distance to the nearest bicycle (m)";
+    refused(&slip, &["did you mean `car.clearance_to_bicycle`?", definition]);
+}
+
+#[test]
 fn a_file_adds_requirements_and_says_where_they_come_from() {
     let dir = tempfile::tempdir().unwrap();
     let summary = campaign(dir.path(), "12", &["--format", "table", "--spec", "G (car.speed < 30)"]);

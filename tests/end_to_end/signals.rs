@@ -123,13 +123,14 @@ fn a_scenario_is_described_and_drawn() {
     // As it is set and opened for a campaign.
     let changed = ["--set", "friction=0.3", "--set", "speed=2", "--open", "lanes=2,4", "--format"];
     let told = describe(&[&changed[..], &["table"]].concat());
+    let told: Vec<String> = told.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
     for line in [
-        "  speed                 0.5..10 m/s, nominally 1.4, plausibly 0.5..2.8, set to 2\n",
-        "  friction              0.2..0.8, nominally 0.8, set to 0.3\n",
-        "  lanes                 2,4, nominally 2, open\n",
-        "  fog                   0..1, nominally 0, unless opened\n",
+        "speed 0.5..10 m/s, nominally 1.4, plausibly 0.5..2.8, set to 2",
+        "friction 0.2..0.8, nominally 0.8, set to 0.3",
+        "lanes 2,4, nominally 2, open",
+        "fog 0..1, nominally 0, unless opened",
     ] {
-        assert!(told.contains(line), "{told}");
+        assert!(told.iter().any(|found| found == line), "{told:#?}");
     }
     let told = json(&describe(&[&changed[..], &["json"]].concat()));
     assert_eq!((&told["parameters"][0]["open"], &told["parameters"][0]["set"]), (&false.into(), &2.into()));

@@ -5,10 +5,12 @@
 //! the same total weight, so that rare failures are explained too. The explanation states the number of tests of a leaf
 //! that fail, which may be less than half.
 
+mod inconclusive;
 mod table;
 mod tree;
 mod words;
 
+pub use inconclusive::{Inconclusive, Place};
 use paracosm_campaign::{Error, JsonArtefact, Log, Trial};
 use paracosm_oracles::Verdict;
 use serde::Serialize;
@@ -84,7 +86,7 @@ impl Explanation {
     /// # Errors
     /// A trial does not fit into the study's space.
     pub fn of(log: &Log) -> Result<Option<Self>, Error> {
-        let (table, names) = table(log)?;
+        let (table, names) = table(log, Question::Failures)?;
         let failures = table.failed.iter().filter(|failed| **failed).count();
         let tests = table.failed.len();
         if failures.min(tests - failures) < LEAST_TESTS {
@@ -125,7 +127,7 @@ impl Explanation {
 /// # Errors
 /// A trial does not fit into the study's space.
 pub fn axes(log: &Log, given: [Option<&str>; 2]) -> Result<Option<[String; 2]>, Error> {
-    let (table, names) = table(log)?;
+    let (table, names) = table(log, Question::Failures)?;
     let columns: Vec<_> = names.columns().collect();
     let rows: Vec<usize> = (0..table.failed.len()).collect();
     let failures = table.failed.iter().filter(|failed| **failed).count();
@@ -188,10 +190,32 @@ impl Accuracy {
     }
 }
 
-/// Returns the tests that passed or failed as a table with a column for each coordinate.
-fn table(log: &Log) -> Result<(Table, Names<'_>), Error> {
+/// The question that a tree answers about a test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Question {
+    /// The question whether a test fails, of all that passed or failed.
+    Failures,
+    /// The question whether a test is inconclusive, of all that ran.
+    Inconclusive,
+}
+
+impl Question {
+    /// Returns the answer for a trial; `None` if the question does not concern it.
+    fn answer(self, trial: &Trial) -> Option<bool> {
+        match (self, trial.verdict) {
+            (_, Verdict::Error | Verdict::Invalid) => None,
+            (Self::Failures, Verdict::Fail | Verdict::Pass) => Some(trial.is_failure()),
+            (Self::Failures, Verdict::Inconclusive | Verdict::Unpreventable) => None,
+            (Self::Inconclusive, verdict) => Some(verdict == Verdict::Inconclusive),
+        }
+    }
+}
+
+/// Returns the tests that a question concerns as a table with a column for each coordinate. The answer `yes` stands for a failing test.
+fn table(log: &Log, question: Question) -> Result<(Table, Names<'_>), Error> {
     let (space, trials) = (log.study().space(), log.trials());
-    let judged: Vec<&Trial> = trials.iter().filter(|t| matches!(t.verdict, Verdict::Fail | Verdict::Pass)).collect();
+    let (judged, answers): (Vec<&Trial>, Vec<bool>) =
+        trials.iter().filter_map(|trial| Some((trial, question.answer(trial)?))).unzip();
     let names = Names::of(space);
     let points = judged.iter().map(|trial| space.encode(&trial.test)).collect::<Result<Vec<_>, _>>()?;
     let mut columns = Vec::new();
@@ -206,7 +230,7 @@ fn table(log: &Log) -> Result<(Table, Names<'_>), Error> {
             (None, None) => unreachable!("a coordinate without levels is a number"),
         });
     }
-    Ok((Table::new(columns, judged.iter().map(|trial| trial.is_failure()).collect()), names))
+    Ok((Table::new(columns, answers), names))
 }
 
 /// Grows a tree for these rows and chooses the size that predicts left-out tests best, with equal weights of failing

@@ -3,7 +3,9 @@
 
 use super::{StatedRequirement, Study, Subject};
 use crate::{Error, Reason};
+use paracosm_engine::signal;
 use paracosm_oracles::{EvaluationError, Formula, ParseError, Semantics, Trace};
+use paracosm_space::nearest;
 use thiserror::Error;
 
 /// The reason why a formula cannot judge any trace of a study.
@@ -13,10 +15,12 @@ pub enum FormulaFlaw {
     #[error(transparent)]
     Parse(#[from] ParseError),
     /// The formula names a signal that the scenario does not have.
-    #[error("{source}; `paracosm-fuzz describe {scenario}` shows its signals")]
+    #[error("{source}{}; `paracosm-fuzz describe {scenario}` shows all signals", definition(nearest))]
     Signal {
         /// The error in the formula.
-        source: ParseError,
+        source: Box<ParseError>,
+        /// The name of the most similar signal; `None` if no name is similar.
+        nearest: Option<String>,
         /// The name of the scenario.
         scenario: String,
     },
@@ -26,6 +30,15 @@ pub enum FormulaFlaw {
     /// The signals of the traces are not known, because the nominal world of the scenario cannot be built.
     #[error(transparent)]
     World(#[from] Error),
+}
+
+/// Says what the signal measures that was probably meant.
+fn definition(nearest: &Option<String>) -> String {
+    let described = nearest.as_ref().and_then(|name| Some((name, signal::about(name)?)));
+    described.map_or_else(String::new, |(name, about)| match about.values() {
+        values if values.is_empty() => format!("; `{name}` is {}", about.about),
+        values => format!("; `{name}` is {} ({values})", about.about),
+    })
 }
 
 /// The error that a formula of the option `--spec` cannot judge any trace of a study.
@@ -45,6 +58,7 @@ impl Study {
     /// Judges every trace by this formula as well. Its id is the first of `spec-1`, `spec-2` and so on that
     /// is free. The formula has no unit and no scale.
     pub(super) fn ask(&mut self, time: Semantics, text: &str) -> Result<(), SpecFlaw> {
+        self.record_for(text);
         let formula = self.checked(text, time).map_err(|flaw| SpecFlaw { text: text.to_owned(), flaw: flaw.into() })?;
         let mut ids = (1..).map(|number| format!("spec-{number}"));
         let id = ids.find(|id| self.requirement(id).is_none()).expect("there is always another number");
@@ -62,13 +76,27 @@ impl Study {
         Ok(())
     }
 
+    /// Records the signals that a formula asks for, as far as they are measured on request. An error in the text is found elsewhere.
+    pub(super) fn record_for(&mut self, text: &str) {
+        if let (Subject::Scenario(simulation), Ok(formula)) = (&mut self.subject, text.parse::<Formula>()) {
+            simulation.record(formula.signals());
+        }
+    }
+
     /// Returns a formula that can judge this study's traces, as far as their signals are known.
     pub(super) fn checked(&self, text: &str, time: Semantics) -> Result<Formula, FormulaFlaw> {
         let formula: Formula = text.parse()?;
         let signals = self.signals()?;
         if let (Subject::Scenario(simulation), Some(signals)) = (&self.subject, &signals) {
             let scenario = || simulation.scenario().to_owned();
-            Formula::parse(text, signals).map_err(|source| FormulaFlaw::Signal { source, scenario: scenario() })?;
+            // A slip in the name of a signal that is measured on request is found, too.
+            let known: Vec<String> =
+                signals.iter().cloned().chain(signal::on_request().map(|(name, _)| name.to_owned())).collect();
+            Formula::parse(text, &known).map_err(|source| {
+                let unknown = formula.signals().into_iter().find(|name| !known.iter().any(|known| known == name));
+                let nearest = unknown.and_then(|name| nearest(name, known.iter().map(String::as_str)));
+                FormulaFlaw::Signal { source: source.into(), nearest: nearest.map(str::to_owned), scenario: scenario() }
+            })?;
             if time == Semantics::Sampled {
                 formula.evaluate(&Trace::new(simulation.dt(), signals.clone()))?;
             }

@@ -49,6 +49,7 @@ use crate::{BlackBox, Catalogue, Error, TARGET, Trust};
 use paracosm_engine::driver::Driver;
 use paracosm_engine::{Program, Run, Setup, Test};
 use paracosm_generators::{Generator, GeneratorError};
+use paracosm_oracles::Formula;
 use paracosm_space::{Point, Space, Value, Values};
 
 /// The complete description of a campaign, with the system under test, the open parameters, the requirements of every
@@ -316,6 +317,8 @@ impl Study {
     pub fn with_program_of(mut self, catalogue: &Catalogue) -> Self {
         if let Subject::Scenario(simulation) = &mut self.subject {
             simulation.look_for_program(catalogue, &self.space);
+            let formulas = self.requirements.iter().filter_map(|requirement| requirement.formula.as_ref());
+            simulation.record(formulas.flat_map(Formula::signals));
         }
         self.references = self.references.into_iter().map(|study| study.with_program_of(catalogue)).collect();
         self

@@ -109,6 +109,7 @@ impl Study {
                     (requirement.source, requirement.severity) = (entry.source, entry.severity);
                 }
                 None => {
+                    entry.formula.iter().for_each(|formula| self.record_for(formula.get_ref()));
                     let stated = self.stated(entry).map_err(|(offset, flaw)| source.at(offset, flaw))?;
                     self.requirements.push(stated);
                 }

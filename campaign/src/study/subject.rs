@@ -171,6 +171,14 @@ impl Simulation {
         }
     }
 
+    /// Records further signals, which formulas ask for, in the traces of the scenario. Only signals that are measured on request change
+    /// anything.
+    pub(super) fn record<'s>(&mut self, signals: impl IntoIterator<Item = &'s str>) {
+        if let Source::Here(program) = &mut self.program {
+            *program = program.recording(signals);
+        }
+    }
+
     /// Looks for the program of a study that was read from a file. Parameters that were added to the program since then
     /// are fixed at their nominal values, which changes nothing.
     pub(super) fn look_for_program(&mut self, catalogue: &Catalogue, open: &Space) {

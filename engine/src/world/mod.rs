@@ -23,7 +23,7 @@ const FLOOR: f64 = 0.2;
 /// at 10 ms), and an overlap is noticed at the tick at which it exists.
 const REACH: f64 = 0.05;
 /// The distance in metres that counts as touching: the resolution of rapier's 32-bit numbers at some hundred metres.
-const TOUCH: f64 = 1e-5;
+pub(crate) const TOUCH: f64 = 1e-5;
 
 /// A body in rapier.
 #[derive(Debug, Clone)]

@@ -5,7 +5,9 @@ use crate::Lists;
 use crate::cli::Failure;
 use crate::cli::output::digits;
 use crate::engine::object::VehicleKind;
+use crate::engine::signal::{self, SignalAbout};
 use crate::engine::vehicle::{Resistance, VehicleSetting};
+use std::borrow::Cow;
 use std::fmt::Write;
 
 /// The lists of these kinds, each under a heading.
@@ -32,6 +34,7 @@ pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Fail
             ListKind::Strategies
             | ListKind::Measures
             | ListKind::Sensors
+            | ListKind::Signals
             | ListKind::Opendrive
             | ListKind::Openscenario => {}
         }
@@ -40,17 +43,33 @@ pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Fail
 }
 
 /// Name and meaning of all of a kind.
-pub(super) fn named(lists: &Lists, kind: ListKind) -> Vec<(&str, &str)> {
+pub(super) fn named(lists: &Lists, kind: ListKind) -> Vec<(&str, Cow<'_, str>)> {
+    let borrowed = |(name, about): (&'static str, &'static str)| (name, Cow::Borrowed(about));
     match kind {
-        ListKind::Scenarios => lists.scenarios.iter().map(|it| (it.name(), it.about())).collect(),
-        ListKind::Strategies => lists.strategies.iter().map(|it| (it.name(), it.about())).collect(),
-        ListKind::Drivers => lists.drivers.iter().map(|it| (it.name, it.about)).collect(),
-        ListKind::Measures => lists.measures.iter().map(|it| (it.name(), it.descriptor().about)).collect(),
-        ListKind::Sensors => lists.sensors.iter().map(|it| (it.name, it.about)).collect(),
-        ListKind::Cameras => lists.cameras.iter().map(|it| (it.name, it.about)).collect(),
+        ListKind::Scenarios => lists.scenarios.iter().map(|it| (it.name(), Cow::Borrowed(it.about()))).collect(),
+        ListKind::Strategies => lists.strategies.iter().map(|it| borrowed((it.name(), it.about()))).collect(),
+        ListKind::Drivers => lists.drivers.iter().map(|it| borrowed((it.name, it.about))).collect(),
+        ListKind::Measures => lists.measures.iter().map(|it| borrowed((it.name(), it.descriptor().about))).collect(),
+        ListKind::Sensors => lists.sensors.iter().map(|it| borrowed((it.name, it.about))).collect(),
+        ListKind::Cameras => lists.cameras.iter().map(|it| borrowed((it.name, it.about))).collect(),
+        ListKind::Signals => signals(),
         // The elements of standards have lists of their own form.
         ListKind::Opendrive | ListKind::Openscenario => Vec::new(),
     }
+}
+
+/// The signals of the ego vehicle, and whether every trace has them.
+fn signals() -> Vec<(&'static str, Cow<'static, str>)> {
+    let line = |(name, about): (&'static str, SignalAbout), when: &str| {
+        let values = [about.values(), when.to_owned()].into_iter().filter(|word| !word.is_empty());
+        (name, Cow::Owned(with_values(about.about, &values.collect::<Vec<_>>().join("; "))))
+    };
+    let always = signal::always().map(|signal| line(signal, ""));
+    always.chain(signal::on_request().map(|signal| line(signal, "only if a formula uses it"))).collect()
+}
+
+fn with_values(about: &str, values: &str) -> String {
+    if values.is_empty() { about.to_owned() } else { format!("{about} ({values})") }
 }
 
 fn parameters(lists: &Lists, text: &mut String) -> Result<(), Failure> {

@@ -10,7 +10,8 @@ use crate::line::Line;
 use crate::object::{Body, BodyState, Class, Output, Outputs};
 use crate::observation::{Ahead, Briefing, Control, Navigation, Way};
 use crate::road::{LaneId, Path, RoadNetwork};
-use crate::stream::Stream;
+use crate::signal::{Quantity, ROAD_USERS};
+use crate::stream::{Source, Stream};
 use crate::upset::Upset;
 use crate::vehicle::{Dynamics, Pedals, Vehicle, VehicleSetup};
 use lead::Led;
@@ -18,7 +19,7 @@ pub use lead::{Lead, LedMotion};
 use nalgebra::Vector2;
 use paracosm_road::Pose;
 use paracosm_road::wrapped;
-use quantity::{Asked, Quantity};
+use quantity::Asked;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -61,6 +62,11 @@ struct Shown {
 }
 
 impl EgoSetup {
+    /// Measures a quantity in the run, and returns its name and the place of its values.
+    pub fn record(&self, quantity: Quantity) -> (String, Source) {
+        (quantity.name().to_owned(), self.shown.asked.output(quantity).source())
+    }
+
     /// Returns the middle and the radius in metres of a disc around the car at its start.
     pub fn disc(&self) -> (Vector2<f64>, f64) {
         (self.car.start().position, 0.5 * (self.car.vehicle.length + self.car.vehicle.width))
@@ -205,6 +211,16 @@ impl Car {
     /// car and the body close along the heading of the car, or 0 if they do not close.
     pub fn clearance(&self) -> Stream<f64> {
         self.shown.clearance.stream()
+    }
+
+    /// Returns the distance to the nearest road user of a class in metres; infinite without one. At a contact with such a road user it is
+    /// the same number as [`clearance`](Self::clearance). Bodies that are no road users, such as buildings, have no clearance of their own:
+    /// the stream is that of all bodies then.
+    pub fn clearance_to(&self, class: Class) -> Stream<f64> {
+        match ROAD_USERS.iter().position(|(known, ..)| *known == class) {
+            Some(index) => self.asked(Quantity::Clearance(index)),
+            None => self.clearance(),
+        }
     }
 
     /// Returns a stream that is true while the car touches another body.
@@ -392,7 +408,7 @@ impl Ego {
         outputs.set(&self.shown.steering, self.control.steering);
         outputs.set(&self.shown.travelled, self.travelled());
         outputs.set(&self.shown.clearance, clearance);
-        self.shown.asked.show(self, bodies, network, outputs);
+        self.shown.asked.show(self, clearance, bodies, network, outputs);
     }
 
     /// Moves the car on by a tick on ground with the given friction. If the scenario leads the car, `takes_over` tells whether

@@ -2,29 +2,13 @@
 
 use super::Ego;
 use super::right_of_way;
-use crate::object::{BodyState, Output, Outputs, Wiring};
+use crate::object::{BodyState, Class, Output, Outputs, Wiring, gap};
 use crate::road::RoadNetwork;
+use crate::signal::{Quantity, ROAD_USERS};
 use crate::stream::Stream;
+use crate::world::TOUCH;
 use nalgebra::Vector2;
 use std::cell::RefCell;
-
-/// A quantity of the ego vehicle, or of the ego vehicle and its surroundings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
-    LateralAcceleration,
-    YawRate,
-    Jerk,
-    WheelSlip,
-    SlipAngle,
-    WheelsOnRoad,
-    StandingTime,
-    TimeToCollision,
-    Headway,
-    LaneMargin,
-    RightOfWay,
-    WayOffset,
-    Remaining,
-}
 
 /// The quantities that a program has asked for, with the outputs that show them.
 #[derive(Debug)]
@@ -34,26 +18,8 @@ pub(super) struct Asked {
 }
 
 impl Quantity {
-    fn name(self) -> &'static str {
-        match self {
-            Quantity::LateralAcceleration => "car.lateral_acceleration",
-            Quantity::YawRate => "car.yaw_rate",
-            Quantity::Jerk => "car.jerk",
-            Quantity::WheelSlip => "car.wheel_slip",
-            Quantity::SlipAngle => "car.slip_angle",
-            Quantity::WheelsOnRoad => "car.wheels_on_road",
-            Quantity::StandingTime => "car.standing_time",
-            Quantity::TimeToCollision => "car.time_to_collision",
-            Quantity::Headway => "car.headway",
-            Quantity::LaneMargin => "car.lane_margin",
-            Quantity::RightOfWay => "car.right_of_way",
-            Quantity::WayOffset => "car.way_offset",
-            Quantity::Remaining => "car.remaining",
-        }
-    }
-
-    /// Measures the quantity now, with the car as the first of the bodies.
-    fn measure(self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
+    /// Measures the quantity now, with the car as the first of the bodies. `clearance` is the clearance from all bodies.
+    fn measure(self, ego: &Ego, clearance: f64, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
         let state = ego.dynamics().state();
         let wheels = || ego.dynamics().wheels().into_iter();
         match self {
@@ -70,6 +36,7 @@ impl Quantity {
             Quantity::RightOfWay => right_of_way::of(ego, bodies, network),
             Quantity::WayOffset => ego.way_offset(),
             Quantity::Remaining => ego.remaining(),
+            Quantity::Clearance(index) => clearance_from(ROAD_USERS[index].0, clearance, bodies),
         }
     }
 }
@@ -79,24 +46,45 @@ impl Asked {
         Self { wiring, outputs: RefCell::default() }
     }
 
-    /// Returns the stream of a quantity, which is measured from now on.
-    pub fn stream(&self, quantity: Quantity) -> Stream<f64> {
+    /// Returns the output of a quantity, which is measured from now on.
+    pub fn output(&self, quantity: Quantity) -> Output<f64> {
         let mut outputs = self.outputs.borrow_mut();
         if let Some((_, output)) = outputs.iter().find(|(asked, _)| *asked == quantity) {
-            return output.stream();
+            return output.clone();
         }
         let output = self.wiring.output(quantity.name());
-        let stream = output.stream();
-        outputs.push((quantity, output));
-        stream
+        outputs.push((quantity, output.clone()));
+        output
+    }
+
+    /// Returns the stream of a quantity, which is measured from now on.
+    pub fn stream(&self, quantity: Quantity) -> Stream<f64> {
+        self.output(quantity).stream()
     }
 
     /// Sets the outputs of all quantities that a program has asked for.
-    pub fn show(&self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
+    pub fn show(
+        &self,
+        ego: &Ego,
+        clearance: f64,
+        bodies: &[BodyState],
+        network: &RoadNetwork,
+        outputs: &mut Outputs<'_>,
+    ) {
         for (quantity, output) in &*self.outputs.borrow() {
-            outputs.set(output, quantity.measure(ego, bodies, network));
+            outputs.set(output, quantity.measure(ego, clearance, bodies, network));
         }
     }
+}
+
+/// Returns the distance to the nearest body of a class, infinite without one. At a contact with a body of the class it is the clearance
+/// from all bodies, which is minus the missing braking distance.
+fn clearance_from(class: Class, clearance: f64, bodies: &[BodyState]) -> f64 {
+    let others = bodies[1..].iter().filter(|other| other.present && other.body.class == class);
+    let car = &bodies[0];
+    let apart = |other: &BodyState| gap((&car.body.outline, &car.pose), (&other.body.outline, &other.pose));
+    let nearest = others.map(apart).fold(f64::INFINITY, f64::min).max(TOUCH);
+    if nearest == TOUCH { clearance.min(nearest) } else { nearest }
 }
 
 /// Returns the least value of `of` for the car and each other body; infinite if there is no other body.
