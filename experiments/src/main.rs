@@ -85,7 +85,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "audit-strategies",
         about: "whether suites of even strategies kill more mutants than random suites, in all scenarios",
-        time: "hours",
+        time: "1 h",
         run: audit::run_strategies,
     },
     Study {

@@ -65,7 +65,12 @@ fn known_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, csv::Error> {
 
 /// Writes rows to a CSV file.
 fn write_rows<T: Serialize>(path: &Path, rows: &[T]) -> Done {
+    crate::write(path, as_csv(rows)?)
+}
+
+/// Returns rows as the contents of a CSV file.
+fn as_csv<T: Serialize>(rows: &[T]) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
     let mut table = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| table.serialize(row))?;
-    crate::write(path, &table.into_inner()?)
+    Ok(table.into_inner()?)
 }
