@@ -25,14 +25,14 @@ Examples:
 Beside the files of the campaign, --out gets a folder for each test. The folder 000017 of test 17 has for a \
     camera `front`:
   front/rgb/000003.png: colours of its fourth image, in sRGB
-  front/semantic/000003.png: the class of each pixel, numbered as CARLA numbers them
+  front/semantic/000003.png: the class of each pixel, numbered and coloured as CARLA does
   front/depth/000003.png: metres along the camera's axis times 256, 16 bits; 0 if the ray hits nothing (as in \
     KITTI)
   front/instance/000003.png: the number of the thing, 16 bits; 0 for a pixel without a thing
-  annotations.json: boxes in the COCO format, with occlusion and boxes in 3D
+  annotations.json: boxes and masks in the COCO format, with occlusion and boxes in 3D
   calibration.json: the cameras' matrices and where they are mounted
   controls.csv: for each image its time, pose and speed, and the driver's answer
-The file annotations.json beside these folders has the boxes of all tests as one dataset.";
+The file annotations.json beside these folders has the boxes and masks of all tests as one dataset.";
 
 /// The options of `record`.
 #[derive(Debug, Args)]

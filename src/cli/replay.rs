@@ -8,7 +8,7 @@ use crate::engine::sensor::Cameras;
 use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
-use paracosm_campaign::cameras::{VariedCameras, cameras_for_people, read_cameras};
+use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
 use paracosm_campaign::files::is_no_link;
 use paracosm_campaign::{
     Catalogue, Error, Expectation, Log, Metric, Replayed, Study, Subject, Trial, Worker, write_trace,
@@ -231,7 +231,7 @@ impl Options {
 /// Returns the cameras of the driver with the look of its images, or a camera for people if the driver has no camera.
 fn eyes(worker: &mut Worker) -> Result<(Cameras, Look), Error> {
     let eyes = worker.eyes()?;
-    Ok(if eyes.all.is_empty() { (cameras_for_people(), Look::Textured) } else { (eyes, Look::default()) })
+    Ok(if eyes.all.is_empty() { (standard_cameras(), Look::Textured) } else { (eyes, Look::default()) })
 }
 
 impl From<Ending> for Expectation {

@@ -6,6 +6,7 @@ mod adapter;
 use crate::common::{fuzz, refused, stderr, stdout, succeeds};
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 /// Whether there is something to draw with; a note where there is not, unless somebody insists.
 pub fn can_draw() -> bool {
@@ -15,7 +16,7 @@ pub fn can_draw() -> bool {
 /// The default cameras, but small and slow.
 fn write_cameras(dir: &Path) {
     let printed = stdout(&succeeds(fuzz(dir, &["record", "--print-cameras"])));
-    let small = printed.replace("[200, 66]", "[40, 24]").replace("rate = 10.0", "rate = 1.0");
+    let small = printed.replace("[640, 360]", "[40, 24]").replace("rate = 10.0", "rate = 1.0");
     assert_ne!(small, printed);
     fs::write(dir.join("cameras.toml"), small).expect("a file");
 }
@@ -55,6 +56,44 @@ fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
     shows_the_same(dir, "front.mp4", "front", count);
     succeeds(fuzz(dir, &[&replay[..], &["front.gif"]].concat()));
     refused(&fuzz(dir, &[&replay[..], &["front"]].concat()), &["front exists"]);
+}
+
+#[test]
+fn a_machine_without_a_desktop_prints_no_message_of_the_graphics_driver() {
+    if !can_draw() {
+        return;
+    }
+    let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let doctor = succeeds(program.arg("doctor").env_remove("XDG_RUNTIME_DIR").output().expect("it runs"));
+    assert!(stdout(&doctor).contains("graphics adapter"), "{}", stdout(&doctor));
+    assert_eq!(stderr(&doctor), "");
+}
+
+#[test]
+fn pycocotools_makes_masks_of_a_recording_and_viewers_show_classes_in_colours() {
+    if !can_draw() {
+        return;
+    }
+    let dir = tempfile::tempdir().expect("a folder");
+    let dir = dir.path();
+    write_cameras(dir);
+    let record = ["record", "grid-traffic", "--budget", "2", "--cameras", "cameras.toml", "--out", "images"];
+    succeeds(fuzz(dir, &record));
+    let file = fs::File::open(dir.join("images/000001/front/semantic/000000.png")).expect("an image");
+    let image = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+    let palette = image.info().palette.as_ref().expect("a palette");
+    // The colour of roads in CARLA and Cityscapes.
+    assert_eq!(palette[3..6], [128, 64, 128]);
+    let has_judge = Command::new("python3").args(["-c", "import pycocotools"]).stderr(Stdio::null()).status();
+    if !has_judge.is_ok_and(|status| status.success()) {
+        eprintln!("no pycocotools: the masks are not compared");
+        return;
+    }
+    let judge = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/end_to_end/coco_judge.py");
+    let judged =
+        succeeds(Command::new("python3").args([judge, "images/annotations.json"]).current_dir(dir).output().unwrap());
+    let count: usize = stdout(&judged).trim().parse().expect("a number");
+    assert!(count > 20, "only {count} objects were compared");
 }
 
 #[test]

@@ -17,7 +17,7 @@ use paracosm_render::camera_settings;
 use std::path::Path;
 
 /// Returns the text of the standard camera file, which a recording uses if the user names no file. The file has one
-/// camera at the front with 200 x 66 pixels, the size that networks for driving commonly take, and ten images a second.
+/// camera at the front with 640 x 360 pixels and ten images a second.
 /// It lists all settings of the lens with their defaults, so that users can change them.
 pub fn standard_cameras_file() -> String {
     let of_lens = camera_settings().iter().filter(CameraSetting::is_of_lens);
@@ -32,15 +32,6 @@ pub fn standard_cameras_file() -> String {
 pub fn standard_cameras() -> Cameras {
     let Ok(cameras) = parse(&standard_cameras_file()) else { panic!("the file that comes with the program is sound") };
     cameras.nominal().clone()
-}
-
-/// Returns a set of one camera at the front of the car, with images of 640 x 480 pixels for people to look at.
-pub fn cameras_for_people() -> Cameras {
-    let mut cameras = standard_cameras();
-    for camera in cameras.all.values_mut() {
-        camera.resolution = [640, 480];
-    }
-    cameras
 }
 
 /// Reads and checks a file that describes cameras.

@@ -1,6 +1,7 @@
-//! Writes boxes in the COCO format (Lin et al. 2014): images, annotations and categories. The files have two fields
+//! Writes boxes and masks in the COCO format (Lin et al. 2014): images, annotations and categories. The files have two fields
 //! that COCO does not define: the hidden share of an object, and its box in space.
 
+use super::mask::masks;
 use super::{Rendering, Shot};
 use paracosm_campaign::Error;
 use paracosm_campaign::files::read_text;
@@ -42,6 +43,9 @@ struct Annotation {
     bbox: [u32; 4],
     /// The number of visible pixels of the object.
     area: u32,
+    /// The visible pixels of the object; `None` in recordings of version 0.2.0 and before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    segmentation: Option<Segmentation>,
     /// 1 for an object that a detector should neither be rewarded nor punished for, because it exists only in pictures.
     iscrowd: u8,
     /// The id of the object in the images of ids, which is the same in all images of a test.
@@ -49,6 +53,15 @@ struct Annotation {
     attributes: Attributes,
     #[serde(rename = "box3d")]
     in_space: Option<InSpace>,
+}
+
+/// The visible pixels of an object, as `pycocotools` reads them.
+#[derive(Debug, Serialize, Deserialize)]
+struct Segmentation {
+    /// The height and the width of the image.
+    size: [u32; 2],
+    /// The run-length encoding.
+    counts: String,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -86,9 +99,12 @@ impl Annotations {
         let (width, height) = (picture.frame.width(), picture.frame.height());
         let (frame, time) = (shot.number, shot.time);
         self.images.push(Image { id: image_id, file_name, width, height, camera: camera.to_owned(), frame, time });
+        let mut masks = masks(picture.frame.instance.as_deref().unwrap_or_default(), width as usize);
         for seen in boxes(&picture.frame).unwrap_or_default() {
+            let counts = masks.remove(&seen.visible.id).unwrap_or_default();
+            let segmentation = Segmentation { size: [height, width], counts };
             let in_space = picture.boxes.iter().find(|in_space| in_space.id == seen.visible.id);
-            self.annotations.push(annotation(self.annotations.len() + 1, image_id, &seen, in_space));
+            self.annotations.push(annotation([self.annotations.len() + 1, image_id], &seen, segmentation, in_space));
         }
     }
 }
@@ -150,7 +166,12 @@ impl<W: Write> Lists<'_, W> {
     }
 }
 
-fn annotation(id: usize, image_id: usize, seen: &Box2, in_space: Option<&Box3>) -> Annotation {
+fn annotation(
+    [id, image_id]: [usize; 2],
+    seen: &Box2,
+    segmentation: Segmentation,
+    in_space: Option<&Box3>,
+) -> Annotation {
     let Box2 { visible, semantic, occlusion } = seen;
     let [left, top] = visible.min;
     Annotation {
@@ -159,6 +180,7 @@ fn annotation(id: usize, image_id: usize, seen: &Box2, in_space: Option<&Box3>) 
         category_id: semantic.unwrap_or_default(),
         bbox: [left, top, visible.max[0] - left + 1, visible.max[1] - top + 1],
         area: visible.pixels,
+        segmentation: Some(segmentation),
         iscrowd: u8::from(is_only_pictured(visible.id)),
         instance: visible.id,
         attributes: Attributes { occlusion: *occlusion },

@@ -11,7 +11,7 @@ use paracosm_campaign::cameras::VariedCameras;
 use paracosm_campaign::files::{Draft, read_text, write_whole_here};
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
-use paracosm_render::{Camera, Look, NoCamera, Stages, WantedImages, camera_settings};
+use paracosm_render::{Camera, Look, NoCamera, Semantic, Stages, WantedImages, camera_settings};
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -298,9 +298,10 @@ fn write_images(camera: &Path, shot: &Shot, picture: &Rendering, kept: Kept) -> 
     let frame = &picture.frame;
     let size = [frame.width(), frame.height()];
     let depth = frame.planar_depth().map(|depth| depth_words(&depth));
+    let palette: Vec<[u8; 3]> = (0..).zip(Semantic::names()).map(|(number, _)| Semantic::colour_of(number)).collect();
     let images = [
         (kept.rgb, "rgb", frame.rgb.as_deref().map(Pixels::Colours)),
-        (kept.semantic, "semantic", frame.semantic.as_deref().map(Pixels::Bytes)),
+        (kept.semantic, "semantic", frame.semantic.as_deref().map(|classes| Pixels::Indices(classes, &palette))),
         (kept.depth, "depth", depth.as_deref().map(Pixels::Words)),
         (kept.instance, "instance", frame.instance.as_deref().map(Pixels::Words)),
     ];

@@ -12,8 +12,8 @@ pub(super) const DEPTH_STEPS: f32 = 256.0;
 pub(super) enum Pixels<'a> {
     /// The red, green and blue of each pixel, with 8 bits each.
     Colours(&'a [u8]),
-    /// A number with 8 bits for each pixel.
-    Bytes(&'a [u8]),
+    /// A number with 8 bits for each pixel, which viewers show in the colour of the palette at this number.
+    Indices(&'a [u8], &'a [[u8; 3]]),
     /// A number with 16 bits for each pixel.
     Words(&'a [u16]),
 }
@@ -24,7 +24,10 @@ pub(super) fn png(pixels: Pixels<'_>, [width, height]: [u32; 2]) -> Result<Vec<u
     let mut encoder = png::Encoder::new(&mut file, width, height);
     let (colour, depth, bytes) = match pixels {
         Pixels::Colours(bytes) => (ColorType::Rgb, BitDepth::Eight, bytes.to_vec()),
-        Pixels::Bytes(bytes) => (ColorType::Grayscale, BitDepth::Eight, bytes.to_vec()),
+        Pixels::Indices(indices, palette) => {
+            encoder.set_palette(palette.concat());
+            (ColorType::Indexed, BitDepth::Eight, indices.to_vec())
+        }
         Pixels::Words(words) => {
             (ColorType::Grayscale, BitDepth::Sixteen, words.iter().flat_map(|word| word.to_be_bytes()).collect())
         }

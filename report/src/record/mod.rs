@@ -11,6 +11,7 @@ mod coco;
 mod dataset;
 mod film;
 mod image;
+mod mask;
 mod missing;
 mod projector;
 #[cfg(test)]

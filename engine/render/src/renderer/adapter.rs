@@ -1,5 +1,6 @@
 //! The graphics adapter: finds it, describes it, and records its errors.
 
+use super::quiet::quietly;
 use crate::{LossReason, RenderError};
 use std::pin::pin;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -109,10 +110,10 @@ pub fn adapter() -> Result<Adapter, RenderError> {
 }
 
 fn best() -> Result<wgpu::Adapter, RenderError> {
-    let instance = wgpu::Instance::default();
     let wanted =
         wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
-    now(instance.request_adapter(&wanted)).map_err(|error| RenderError::NoAdapter(Arc::new(error)))
+    let found = quietly(|| now(wgpu::Instance::default().request_adapter(&wanted)));
+    found.map_err(|error| RenderError::NoAdapter(Arc::new(error)))
 }
 
 fn describe(adapter: &wgpu::Adapter) -> Adapter {

@@ -11,6 +11,7 @@ mod inside;
 mod meshes;
 mod pipelines;
 mod prepare;
+mod quiet;
 mod raw;
 mod read;
 mod shadow;
