@@ -23,6 +23,8 @@ pub(super) struct Finding {
 
 /// A score of a suite.
 type ScoreOf = fn(&Graded) -> Option<f64>;
+/// A question whether a suite is among those that are compared.
+type IsAmong = fn(&Graded) -> bool;
 /// A measure of the coverage of a suite. A larger number means better coverage.
 type CoverageOf = fn(&Graded) -> Option<f64>;
 
@@ -36,7 +38,7 @@ const MEASURES: [(&str, CoverageOf); 3] = [
 
 /// The suites whose measures are compared with their scores. Suites of corners have by far the largest holes and the lowest scores, so that they
 /// alone could make a correlation.
-const AMONG: [(&str, fn(&Graded) -> bool); 2] =
+const AMONG: [(&str, IsAmong); 2] =
     [("", |_| true), (", without random-corners", |suite| suite.strategy != Strategy::RANDOM_CORNERS.name())];
 
 /// Returns all findings: the strategies against random tests, then the measures.
