@@ -67,6 +67,7 @@ impl Strategy {
         match self.kind() {
             MethodKind::Search { build, .. } => return build(self.descriptor(), request, rules),
             MethodKind::Own(build) => return build(request),
+            MethodKind::Given(sets) => return sets.generator(self.name(), request),
             MethodKind::Holes(make) if !self.has_rows(request) => {
                 let k = k.unwrap_or(2.min(dims + rules.levels().len()));
                 let rng = seeded(seed_or_0, Purpose::Greedy, 0);
@@ -97,7 +98,9 @@ impl Strategy {
             MethodKind::Holes(make) => {
                 Box::new(PerRow::new(room, GreedyRows::new(make, dims, seed_or_0, family.points_of_rows(existing))))
             }
-            MethodKind::Search { .. } | MethodKind::Own(_) => unreachable!("such generators were built above"),
+            MethodKind::Search { .. } | MethodKind::Own(_) | MethodKind::Given(_) => {
+                unreachable!("such generators were built above")
+            }
         };
         let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
         if end > len {

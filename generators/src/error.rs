@@ -24,6 +24,28 @@ pub enum GeneratorError {
         /// The name of the discrete family that the user perhaps meant; `None` if no family has a similar name.
         nearest: Option<&'static str>,
     },
+    /// The strategy has points of continuous coordinates only, and the space has discrete parameters.
+    #[error("`{strategy}` has points of continuous parameters only, and this space has discrete parameters")]
+    OnlyContinuous {
+        /// The name of the strategy that cannot serve the request.
+        strategy: &'static str,
+    },
+    /// The strategy consists of given sets, and no set has the size and the number of the request.
+    #[error(
+        "`{strategy}` has {} of {} in {}, and no set {number}", plural(*sets, "set"), plural(*points, "point"), plural(*dims, "dimension")
+    )]
+    NoSet {
+        /// The name of the strategy that cannot serve the request.
+        strategy: &'static str,
+        /// The number of dimensions of the space.
+        dims: usize,
+        /// The number of points that were asked for.
+        points: usize,
+        /// The number of the set that was asked for, from 1.
+        number: u64,
+        /// The number of sets of this size.
+        sets: usize,
+    },
     /// The space has no parameter.
     #[error("the space has no parameters; a generator needs at least one")]
     EmptySpace,

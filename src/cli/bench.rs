@@ -1,6 +1,7 @@
 //! `paracosm-fuzz bench`: compares strategies by the failures that they find, and shows the progress.
 
 use super::arguments::{COMPARED, OUTPUT, RUNNING};
+use super::given;
 use super::output::{Format, FormatOption, json, plural};
 use super::subject::Subject;
 use super::usage;
@@ -65,6 +66,8 @@ pub(super) struct Options {
     /// The strategies
     ///
     /// `paracosm-fuzz list` shows them all [default: random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto].
+    /// NAME=FILES takes sets of points in [0,1], a set of --budget points in each file: mine=folder/*.csv. The set of the seed 1 is in the
+    /// first file.
     #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = COMPARED)]
     strategies: Vec<String>,
     /// The number of tests of a run
@@ -154,17 +157,21 @@ impl Options {
     }
 
     fn bench(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Bench, Error> {
-        let strategy = |name: &String| Ok(name.parse::<Strategy>()?);
+        let strategy = |name: &str| Ok(name.parse::<Strategy>()?);
         let strategies: Vec<Strategy> = match self.strategies.as_slice() {
             [] => USUAL.to_vec(),
-            names => names.iter().map(strategy).collect::<Result<_, Error>>()?,
+            names => given::strategies(names, strategy)?,
         };
         let targets = match self.scenarios.as_slice() {
             [] => vec![Target::study(self.subject.name(), self.study(&self.subject, catalogue, verbosity)?)],
             names => names.iter().map(|name| self.target(name, catalogue, verbosity)).collect::<Result<_, _>>()?,
         };
         let usual = Bench::of(&strategies, targets)?;
-        let baseline = self.baseline.as_ref().map(strategy).transpose()?.unwrap_or(usual.baseline);
+        let baseline = self.baseline.as_ref().map(|name| {
+            let known = strategies.iter().copied().find(|strategy| strategy.name() == name);
+            known.map_or_else(|| strategy(name), Ok)
+        });
+        let baseline = baseline.transpose()?.unwrap_or(usual.baseline);
         let (budget, seeds, first_seed, batch) = (self.budget, self.seeds, self.seed, self.batch);
         Ok(Bench { budget, seeds, first_seed, batch, baseline, ..usual })
     }

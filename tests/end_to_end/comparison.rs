@@ -57,6 +57,44 @@ fn a_comparison_has_a_row_for_every_set_and_a_figure_for_every_measure_and_dimen
 }
 
 #[test]
+fn points_in_files_are_compared_like_those_of_a_strategy() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("sets")).unwrap();
+    let generate = |seed: &str, to: &str| {
+        let arguments = ["generate", "--dims", "2", "--strategy", "halton", "--budget", "24", "--seed", seed];
+        let csv = stdout(&succeeds(cover(dir.path(), &arguments)));
+        // As `numpy.savetxt` writes it.
+        let plain = csv.lines().skip(1).map(|line| line.replace(',', " ") + "\n").collect::<String>();
+        fs::write(dir.path().join(to), plain).unwrap();
+    };
+    ["1", "2", "3"].into_iter().for_each(|seed| generate(seed, &format!("sets/{seed}.txt")));
+    let study = ["compare", "--strategies", "halton,lhs,mine=sets/*.txt", "--dims", "2", "--budgets", "24,8"];
+    let more = ["--seeds", "3", "--measures", "dispersion,star", "--out", "out", "--format", "table"];
+    let compared = succeeds(cover(dir.path(), &[&study[..], &more].concat()));
+    assert!(stderr(&compared).contains("mine has no set at d = 2, n = 8"), "{}", stderr(&compared));
+    let sets = rows(&dir.path().join("out/sets.csv"));
+    let values = |strategy: &str| {
+        let of = sets.iter().filter(|set| is(set, strategy, "2", "24") && !set["seed"].is_empty());
+        of.map(|set| (set["seed"].clone(), number(set, "dispersion_lower"), number(set, "star_lower")))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!((values("mine").len(), values("mine")), (3, values("halton")));
+    // One set has a value and no comparison. It can be the baseline.
+    generate("9", "alone.csv");
+    let alone =
+        ["compare", "--strategies", "one=alone.csv,halton", "--dims", "2", "--budgets", "24", "--baseline", "one"];
+    let alone = succeeds(cover(dir.path(), &[&alone[..], &["--seeds", "3", "--out", "alone"]].concat()));
+    assert!(stderr(&alone).contains("one has 1 set at d = 2, n = 24, too few for a comparison"), "{}", stderr(&alone));
+    for (strategies, says) in [
+        ("halton=sets/*.txt", "a strategy is called `halton` already"),
+        ("mine=nowhere/*.csv", "mine=nowhere/*.csv: found no file"),
+        ("mine=sets", "expected files, for example FOLDER/*.csv"),
+    ] {
+        refused(&cover(dir.path(), &["compare", "--strategies", strategies, "--out", "no"]), &[says]);
+    }
+}
+
+#[test]
 fn results_do_not_depend_on_the_number_of_jobs() {
     let dir = tempfile::tempdir().unwrap();
     let measures = ["--measures", "dispersion,centered,star", "--quiet", "--jobs"];

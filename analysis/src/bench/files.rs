@@ -6,10 +6,13 @@ use super::{Bench, BenchFlaw, Row};
 use crate::asked::{make_folder, new_folder};
 use paracosm_campaign::files::{read_text, write_whole};
 use paracosm_campaign::{Error, differing_key};
+use paracosm_generators::PointSets;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use xxhash_rust::xxh3::xxh3_128;
 
 const BENCH: &str = "bench.json";
 const RUNS: &str = "runs.csv";
@@ -95,7 +98,9 @@ impl Rows {
 
 /// Returns the content of `bench.json`, which distinguishes the bench from other benches.
 fn description(bench: &Bench, maps: &Value) -> Value {
-    json!({
+    let given = bench.strategies.iter().filter_map(|strategy| Some((strategy.name(), hash_of(strategy.given()?))));
+    let given: BTreeMap<&str, String> = given.collect();
+    let mut description = json!({
         "format": 2,
         "version": env!("CARGO_PKG_VERSION"),
         "strategies": bench.strategies.iter().map(|strategy| strategy.name()).collect::<Vec<_>>(),
@@ -105,7 +110,23 @@ fn description(bench: &Bench, maps: &Value) -> Value {
         "batch": bench.batch,
         "scenarios": bench.targets.iter().map(super::Target::description).collect::<Vec<_>>(),
         "maps": maps,
-    })
+    });
+    // A bench with other points is another bench.
+    if !given.is_empty() {
+        description["points"] = json!(given);
+    }
+    description
+}
+
+/// Returns a hash of given points.
+fn hash_of(sets: &PointSets) -> String {
+    let mut bytes = Vec::new();
+    for (dims, points) in sets.sizes() {
+        for set in (1..).map_while(|number| sets.set(dims, points, number)) {
+            bytes.extend(set.iter().flat_map(|point| &point.continuous).flat_map(|number| number.to_le_bytes()));
+        }
+    }
+    format!("{:032x}", xxh3_128(&bytes))
 }
 
 fn parse(path: &Path, text: &str, bench: &Bench) -> Result<Vec<Row>, Error> {

@@ -26,6 +26,7 @@ use paracosm_generators::Strategy;
 use paracosm_space::plural;
 use set::Case;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use thiserror::Error;
 
 /// The greatest number of sets: a comparison with more sets is a mistake rather than a plan.
@@ -195,13 +196,21 @@ impl SamplerComparison {
         self.strategies.iter().copied().filter(move |strategy| strategy.dims().contains(&dims))
     }
 
+    /// Returns the seeds with which a strategy makes sets of a size. Given sets have their numbers in place of seeds, and there may be fewer.
+    fn seeds_of(&self, strategy: Strategy, dims: usize, budget: usize) -> Range<u64> {
+        match strategy.given() {
+            None => self.first_seed..self.first_seed + self.seeds as u64,
+            Some(sets) => 1..1 + sets.count(dims, budget).min(self.seeds) as u64,
+        }
+    }
+
     fn cases(&self) -> Vec<Case> {
         let mut cases = Vec::new();
         for &dims in &self.dims {
             for &budget in self.budgets.iter().filter(|budget| !self.measures(dims, **budget).is_empty()) {
                 for strategy in self.able(dims) {
                     let plain = strategy.has_plain_set().then_some(None);
-                    let seeds = (0..self.seeds as u64).map(|i| Some(self.first_seed + i));
+                    let seeds = self.seeds_of(strategy, dims, budget).map(Some);
                     cases.extend(plain.into_iter().chain(seeds).map(|seed| Case { strategy, dims, budget, seed }));
                 }
             }
@@ -216,6 +225,27 @@ impl SamplerComparison {
             let unable: Vec<usize> = self.dims.iter().copied().filter(|d| !strategy.dims().contains(d)).collect();
             if !unable.is_empty() {
                 notes.push(format!("{strategy} supports {} and is left out at d = {}", span(*strategy), list(&unable)));
+            }
+        }
+        for strategy in &self.strategies {
+            let Some(sets) = strategy.given() else { continue };
+            let sizes = self.dims.iter().flat_map(|dims| self.budgets.iter().map(move |budget| (*dims, *budget)));
+            for (dims, budget) in sizes.filter(|(dims, _)| strategy.dims().contains(dims)) {
+                let (count, at) = (sets.count(dims, budget), format!("at d = {dims}, n = {budget}"));
+                match count {
+                    0 => notes.push(format!("{strategy} has no set {at}")),
+                    _ if count < self.seeds => {
+                        let have = plural(count, "set");
+                        notes.push(format!(
+                            "{strategy} has {have} {at}, too few for a comparison of pairs with the baseline"
+                        ));
+                    }
+                    _ => {}
+                }
+            }
+            for (dims, points) in sets.sizes().filter(|(d, n)| !self.dims.contains(d) || !self.budgets.contains(n)) {
+                let words = format!("{} in {}", plural(points, "point"), plural(dims, "dimension"));
+                notes.push(format!("{strategy} also has sets of {words}: --dims and --budgets do not name this size"));
             }
         }
         let low: Vec<usize> = self.dims.iter().copied().filter(|dims| *dims <= self.k).collect();

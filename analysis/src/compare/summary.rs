@@ -138,7 +138,10 @@ impl Line {
         let (median, quartiles) = median_and_quartiles(&place.values);
         // The order of bracketed values is unknown, and values that do not vary with the seed allow no statistical
         // test.
-        let tells = |base: &&Place| place.exact && base.exact && (place.spreads() || base.spreads());
+        let tells = |base: &&Place| {
+            let are_pairs = place.values.len() == base.values.len();
+            are_pairs && place.exact && base.exact && (place.spreads() || base.spreads())
+        };
         let base = base.filter(|_| self.strategy != baseline).filter(tells);
         ComparisonCell {
             measure: self.measure,

@@ -9,6 +9,7 @@ pub use look::{Look, MarkShape};
 
 use crate::Aim;
 use crate::deal::Deal;
+use crate::point_sets::PointSets;
 use crate::{Generator, GeneratorError, Request};
 use paracosm_coverage::PointSetError;
 use paracosm_coverage::empty_boxes::EmptyBoxes;
@@ -81,6 +82,8 @@ pub(crate) enum MethodKind {
     },
     /// The method is a custom generator of another crate.
     Own(BuildOwn),
+    /// The method hands out sets that another program has made.
+    Given(&'static PointSets),
 }
 
 /// The description of a sequence of points without a fixed end.
@@ -158,7 +161,7 @@ impl Strategy {
             MethodKind::Holes(_) => {
                 dims == 0 || request.epsilon.is_some() || is_dispersion || aim.unwrap_or(default) == Aim::Dispersion
             }
-            MethodKind::Search { .. } | MethodKind::Own(_) => false,
+            MethodKind::Search { .. } | MethodKind::Own(_) | MethodKind::Given(_) => false,
         }
     }
 

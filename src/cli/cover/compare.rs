@@ -1,9 +1,9 @@
 //! `paracosm-cover compare`: compares strategies by their point sets, and shows the progress.
 
 use super::{open_loop, time_limit};
+use crate::cli::given;
 use crate::cli::output::{Format, FormatOption, json};
 use crate::cli::{Failure, Verbosity, print};
-use crate::generators::Strategy;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::Limit;
@@ -18,6 +18,8 @@ use std::thread::available_parallelism;
 const EXAMPLES: &str = "\
 Examples:
   paracosm-cover compare --strategies random,halton,greedy --out compared
+  paracosm-cover compare --strategies halton,mine=folder/*.csv --dims 2 --budgets 64
+      with the sets of points of another program, a file for each set
   paracosm-cover compare --strategies halton,sobol-owen,lhs --dims 2,4 --budgets 64,256 --measures dispersion,star
 
 Every strategy makes a set of points for every dimension, budget and seed; those that have one add their plain \
@@ -31,6 +33,9 @@ Every strategy makes a set of points for every dimension, budget and seed; those
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct Options {
     /// The strategies; `paracosm-fuzz list` shows them all
+    ///
+    /// NAME=FILES takes the sets of points of other programs, a set in each file: mine=folder/*.csv. The columns of a file are in
+    /// [0,1], as `estimate` reads them. The sets of a size count as the seeds 1, 2 and so on, in the order of the names of their files.
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     strategies: Vec<String>,
     /// The numbers of dimensions
@@ -106,9 +111,13 @@ impl Options {
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
         TestSet::check_size(budget, dims)?;
-        let strategies: Vec<Strategy> = self.strategies.iter().map(|name| open_loop(name)).collect::<Result<_, _>>()?;
+        let strategies = given::strategies(&self.strategies, open_loop)?;
         let defaults = SamplerComparison::of(&strategies)?;
-        let baseline = self.baseline.as_ref().map(|name| open_loop(name)).transpose()?;
+        let named = |name: &String| {
+            let known = strategies.iter().copied().find(|strategy| strategy.name() == name);
+            known.map_or_else(|| open_loop(name), Ok)
+        };
+        let baseline = self.baseline.as_ref().map(named).transpose()?;
         Ok(SamplerComparison {
             dims: self.dims.clone(),
             budgets: self.budgets.clone(),

@@ -344,7 +344,8 @@ impl Ego {
 
     /// Returns the car's velocity over the ground in m/s.
     pub fn velocity(&self) -> Vector2<f64> {
-        self.pose().turn_to_plane(self.dynamics().state().velocity)
+        let state = self.dynamics().state();
+        state.pose().turn_to_plane(state.velocity)
     }
 
     /// Returns the rest of the way that the car is to go; `None` if the car is just to go straight on.
@@ -406,7 +407,7 @@ impl Ego {
         outputs.set(&self.shown.acceleration, state.acceleration.x);
         outputs.set(&self.shown.throttle, self.control.throttle);
         outputs.set(&self.shown.steering, self.control.steering);
-        outputs.set(&self.shown.travelled, self.travelled());
+        outputs.set(&self.shown.travelled, self.led_metres + state.travelled);
         outputs.set(&self.shown.clearance, clearance);
         self.shown.asked.show(self, clearance, bodies, network, outputs);
     }

@@ -1,0 +1,86 @@
+//! Makes a strategy of sets of points that another program has made, so that a sampler of a user is compared like ours.
+
+use crate::point_sets::PointSets;
+use crate::strategy::{Descriptor, Look, Method, MethodKind, Strategy};
+use crate::{Generator, GeneratorError, Request};
+use paracosm_space::Point;
+
+impl PointSets {
+    /// Returns the generator of the set whose number is the seed of the request, by default 1.
+    pub(crate) fn generator(
+        &'static self,
+        strategy: &'static str,
+        request: &Request,
+    ) -> Result<Box<dyn Generator>, GeneratorError> {
+        if !request.space.levels().is_empty() {
+            return Err(GeneratorError::OnlyContinuous { strategy });
+        }
+        let (dims, points, number) = (request.space.dims(), request.budget, request.seed.unwrap_or(1));
+        let sets = self.count(dims, points);
+        let set =
+            self.set(dims, points, number).ok_or(GeneratorError::NoSet { strategy, dims, points, number, sets })?;
+        Ok(Box::new(Given { points: set.iter() }))
+    }
+}
+
+impl Strategy {
+    /// Makes a strategy of given sets. A request with the seed s gets the set with the number s of exactly the size of the request. The
+    /// strategy stays in memory until the program ends.
+    pub fn of_sets(name: &str, look: Look, sets: PointSets) -> Self {
+        let dims = || sets.sizes().map(|(dims, _)| dims);
+        let dims = dims().min().unwrap_or(1)..=dims().max().unwrap_or(1);
+        let method = Method(MethodKind::Given(Box::leak(Box::new(sets))));
+        let name = Box::leak(name.to_owned().into_boxed_str());
+        Self::of(Box::leak(Box::new(Descriptor { name, about: "sets of points from files", dims, look, method })))
+    }
+
+    /// Returns the given sets of the strategy; `None` if the strategy makes its sets itself.
+    pub fn given(self) -> Option<&'static PointSets> {
+        match self.kind() {
+            MethodKind::Given(sets) => Some(sets),
+            _ => None,
+        }
+    }
+}
+
+/// The points of a set that were not asked for yet.
+struct Given {
+    points: std::slice::Iter<'static, Point>,
+}
+
+impl Generator for Given {
+    fn ask(&mut self, n: usize) -> Vec<Point> {
+        self.points.by_ref().take(n).cloned().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::strategy::MarkShape;
+    use paracosm_space::Space;
+
+    fn points(first: f64, count: usize) -> Vec<Point> {
+        let point = |i: usize| Point { continuous: vec![first, i as f64 / count as f64], discrete: vec![] };
+        (0..count).map(point).collect()
+    }
+
+    #[test]
+    fn the_seed_is_the_number_of_the_set_and_other_sizes_are_refused() {
+        let mut sets = PointSets::default();
+        [0.1, 0.2].into_iter().for_each(|first| sets.add(points(first, 5)));
+        sets.add(points(0.3, 7));
+        sets.add(Vec::new());
+        let strategy = Strategy::of_sets("mine", Look::hollow(0, MarkShape::Circle), sets);
+        let space = Space::unit_cube(2);
+        let ask = |seed, budget| strategy.build(&Request { seed, ..Request::new(&space, budget) });
+        assert_eq!(ask(Some(2), 5).unwrap().ask(9), points(0.2, 5));
+        assert_eq!(ask(None, 7).unwrap().ask(9), points(0.3, 7));
+        let mut begun = ask(Some(1), 5).unwrap();
+        assert_eq!([begun.ask(2), begun.ask(9)].concat(), points(0.1, 5));
+        let error = ask(Some(3), 5).err().expect("there are two").to_string();
+        assert_eq!(error, "`mine` has 2 sets of 5 points in 2 dimensions, and no set 3");
+        let error = ask(Some(1), 6).err().expect("no set has this size").to_string();
+        assert_eq!(error, "`mine` has 0 sets of 6 points in 2 dimensions, and no set 1");
+    }
+}

@@ -1,0 +1,54 @@
+//! Strategies on the command line that are sets of points in files: `mine=folder/*.csv`.
+
+use super::usage;
+use crate::generators::{Look, MarkShape, PointSets, Strategy};
+use paracosm_campaign::{Error, read_tests};
+use std::path::{Path, PathBuf};
+
+/// The looks of such strategies in figures, one after the other.
+const LOOKS: [Look; 4] = [
+    Look::hollow(0x00_0000, MarkShape::Square),
+    Look::hollow(0x77_3399, MarkShape::Diamond),
+    Look::hollow(0x99_6600, MarkShape::Tip),
+    Look::hollow(0x66_6666, MarkShape::Triangle),
+];
+
+/// Reads the strategies of a list. `strategy` reads the name of a strategy that comes with the software.
+///
+/// # Errors
+/// A name is unknown, or a file does not hold points in the unit cube.
+pub(super) fn strategies(
+    names: &[String],
+    strategy: impl Fn(&str) -> Result<Strategy, Error>,
+) -> Result<Vec<Strategy>, Error> {
+    let mut looks = LOOKS.into_iter().cycle();
+    let mut one = |name: &String| match name.split_once('=') {
+        None => strategy(name),
+        Some((name, _)) if name.parse::<Strategy>().is_ok() => Err(usage(format!(
+            "--strategies: a strategy is called `{name}` already; choose another name for the files"
+        ))),
+        Some((name, files)) => Ok(Strategy::of_sets(name, looks.next().expect("they go on"), read(name, files)?)),
+    };
+    names.iter().map(&mut one).collect()
+}
+
+/// Reads the sets of points in the files of a pattern, in the order of their names.
+fn read(name: &str, pattern: &str) -> Result<PointSets, Error> {
+    let wrong = |why: String| usage(format!("--strategies {name}={pattern}: {why}"));
+    let files = glob::glob(pattern).map_err(|error| wrong(error.to_string()))?;
+    let mut files: Vec<PathBuf> = files.filter_map(Result::ok).filter(|path| path.is_file()).collect();
+    files.sort();
+    if files.is_empty() {
+        let hint = if Path::new(pattern).is_dir() { ", expected files, for example FOLDER/*.csv" } else { "" };
+        return Err(wrong(format!("found no file{hint}")));
+    }
+    let mut sets = PointSets::default();
+    for file in &files {
+        let tests = read_tests(file, None)?;
+        if tests.points.is_empty() {
+            return Err(wrong(format!("{} has no points", file.display())));
+        }
+        sets.add(tests.points);
+    }
+    Ok(sets)
+}
