@@ -64,7 +64,8 @@ impl Log {
     /// that was read from a file can be run if it needs the command. With trust in all commands, they run in the folder in which they ran
     /// in the campaign. Otherwise they run in the folder of this process, because the folder of a stranger may name any other.
     pub fn trusting(self, trust: &Trust) -> Self {
-        let trust = self.run_in.iter().fold(trust.clone(), |trust, folder| trust.running_in(folder));
+        let there = self.run_in.iter().filter(|folder| trust.is_all() && folder.is_dir());
+        let trust = there.fold(trust.clone(), |trust, folder| trust.running_in(folder));
         Self { study: self.study.trusting(&trust), ..self }
     }
 

@@ -27,11 +27,21 @@ pub(crate) fn keep(campaign: &Path, study: &Study) -> Result<(), Error> {
     write_whole_here(&campaign.join(FILE), format!("{text}\n").as_bytes())
 }
 
-/// Returns the folder in which the commands of a campaign ran, if the file says so and the folder still exists.
+/// Returns the folder in which the commands of a campaign ran, as far as the file says so. Nobody looks at the folder, which a stranger may
+/// have named.
 pub(crate) fn read(campaign: &Path) -> Option<PathBuf> {
     let text = read_text_here(&campaign.join(FILE)).ok()?;
     let RunIn { run_in } = serde_json::from_str(&text).ok()?;
-    campaign.join(run_in).canonicalize().ok().filter(|folder| folder.is_dir())
+    let mut folder = campaign.canonicalize().ok()?;
+    for part in run_in.components() {
+        match part {
+            Component::ParentDir => drop(folder.pop()),
+            Component::Normal(name) => folder.push(name),
+            Component::CurDir => {}
+            Component::Prefix(_) | Component::RootDir => return None,
+        }
+    }
+    Some(folder)
 }
 
 /// Returns the path from one folder to another; both paths are absolute.

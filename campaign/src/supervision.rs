@@ -48,7 +48,8 @@ struct Kept {
     waiting: Vec<(&'static str, Vec<u8>)>,
     bytes: usize,
     folder: Option<PathBuf>,
-    logs: HashMap<&'static str, Log>,
+    /// The logs; `None` for a log that cannot be written.
+    logs: HashMap<&'static str, Option<Log>>,
 }
 
 /// The log of the programs of one role.
@@ -95,20 +96,24 @@ impl Kept {
     /// Writes a line to the log of a role. A log that cannot be written ends no campaign: the tests do not depend on it.
     fn log(&mut self, role: &'static str, line: &[u8]) {
         let Some(folder) = &self.folder else { return };
-        if !self.logs.contains_key(role) {
-            let path = folder.join(format!("{role}.log"));
-            // A link could lead to a file of somebody else.
-            if path.is_symlink() {
-                return;
-            }
-            let opened = File::options().create(true).append(true).open(path);
-            let Ok(file) = opened else { return };
-            self.logs.insert(role, Log { file, left: MOST_KEPT });
-        }
-        let Some(log) = self.logs.get_mut(role).filter(|log| log.left > 0) else { return };
+        let opened = self.logs.entry(role).or_insert_with(|| Log::open(&folder.join(format!("{role}.log"))));
+        let Some(log) = opened.as_mut().filter(|log| log.left > 0) else { return };
         log.left = log.left.saturating_sub(line.len());
         let rest: &[u8] = if log.left == 0 { b"\n(this log is full, and the rest is not kept)\n" } else { b"" };
         let _ = log.file.write_all(line).and_then(|()| log.file.write_all(rest));
+    }
+}
+
+impl Log {
+    /// Opens a log to append to it. A link could lead to a file of somebody else, and a pipe would wait for its reader.
+    fn open(path: &Path) -> Option<Self> {
+        let there = path.symlink_metadata().ok();
+        if there.as_ref().is_some_and(|there| !there.is_file()) {
+            return None;
+        }
+        let file = File::options().create(true).append(true).open(path).ok()?;
+        let length = there.map_or(0, |there| usize::try_from(there.len()).unwrap_or(usize::MAX));
+        Some(Self { file, left: MOST_KEPT.saturating_sub(length) })
     }
 }
 

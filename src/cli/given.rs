@@ -24,6 +24,11 @@ pub(super) fn strategies(
     let mut looks = LOOKS.into_iter().cycle();
     let mut one = |name: &String| match name.split_once('=') {
         None => strategy(name),
+        Some((name, _)) if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c)) => {
+            Err(usage(format!(
+                "--strategies: found the name `{name}` for files, expected letters, digits, `-` and `_`"
+            )))
+        }
         Some((name, _)) if name.parse::<Strategy>().is_ok() => Err(usage(format!(
             "--strategies: a strategy is called `{name}` already; choose another name for the files"
         ))),
@@ -36,10 +41,15 @@ pub(super) fn strategies(
 fn read(name: &str, pattern: &str) -> Result<PointSets, Error> {
     let wrong = |why: String| usage(format!("--strategies {name}={pattern}: {why}"));
     let files = glob::glob(pattern).map_err(|error| wrong(error.to_string()))?;
-    let mut files: Vec<PathBuf> = files.filter_map(Result::ok).filter(|path| path.is_file()).collect();
+    let mut files: Vec<PathBuf> = files.collect::<Result<_, _>>().map_err(|error| wrong(error.to_string()))?;
+    files.retain(|path| path.is_file());
     files.sort();
     if files.is_empty() {
-        let hint = if Path::new(pattern).is_dir() { ", expected files, for example FOLDER/*.csv" } else { "" };
+        let hint = match pattern {
+            folder if Path::new(folder).is_dir() => ", expected files, for example FOLDER/*.csv",
+            part if part.contains(['{', '}']) => "; a pattern has `*` and `?`, and no comma",
+            _ => "",
+        };
         return Err(wrong(format!("found no file{hint}")));
     }
     let mut sets = PointSets::default();

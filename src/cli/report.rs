@@ -112,7 +112,8 @@ impl Printed<'_> {
             let failing = plausible.summary.count(Verdict::Fail);
             let words = format!("{ranges}; {failing} of {tests} fail");
             match plausible.summary.worst(self.report.log.scales()) {
-                None => table.row("plausible", &format!("no test has {ranges}")),
+                None if plausible.summary.tests() == 0 => table.row("plausible", &format!("no test has {ranges}")),
+                None => table.row("plausible", &words),
                 Some(found) if worst.as_ref() == Some(&found) => {
                     table.row("  plausible", &words);
                 }

@@ -45,7 +45,7 @@ pub(super) fn read_log(
     let here = std::env::current_dir().and_then(|here| here.canonicalize()).ok();
     if let Some(folder) = log.run_in().filter(|folder| Some(*folder) != here.as_deref() && !trust.is_all()) {
         let folder = folder.display();
-        verbosity.note(format_args!("the commands of this campaign ran in {folder}; --trust runs them there"));
+        verbosity.note(format_args!("commands.json says that the commands of this campaign ran in {folder}; if you trust the campaign, --trust runs them there"));
     }
     Ok(log)
 }

@@ -105,6 +105,8 @@ fn broken_files_of_tests_are_refused_with_the_line() {
         (b"0.5 0.5\n0.1 far\n", &["line 2", "`x2`", "`far`", "number"]),
         (b"# points\n0.5 0.5\n0.1\n", &["line 3", "found 1 field, expected 2"]),
         (b"nan 0.5\n", &["line 1", "`x1`", "`nan`", "number"]),
+        (b"0,1\n0.1,0.2\n", &["the first line `0,1` seems to have the numbers of the columns"]),
+        (b"# a, b\n", &["empty", "or numbers"]),
         (b"a;b\n0.1;0.2\n", &["line 1", "`;`"]),
         (b"a,a\n0.1,0.2\n", &["line 1", "`a`", "twice"]),
         (b"a,b\n0.1,\xff\n", &["line 2", "UTF-8"]),
@@ -122,7 +124,8 @@ fn broken_files_of_tests_are_refused_with_the_line() {
     let of_space = |file: &str| cover(dir.path(), &["estimate", file, "--space", "SPACE.toml"]);
     let says = ["three.txt", "found 3 columns without names, expected 2, in this order: speed, gap"];
     refused(&of_space("three.txt"), &says);
-    refused(&of_space("renamed.txt"), &["renamed.txt, line 1", "no column is called `speed`"]);
+    let says = ["renamed.txt", "a comment names the columns `pace, gap`", "among them speed, gap"];
+    refused(&of_space("renamed.txt"), &says);
     refused(&cover(dir.path(), &["estimate", "missing.csv"]), &["missing.csv"]);
     refused(&cover(dir.path(), &["estimate"]), &["paracosm-out"]);
 }

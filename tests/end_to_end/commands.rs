@@ -146,6 +146,9 @@ fn files_of_numbers_and_standard_input_are_measured_as_a_csv_with_the_same_tests
         "# speed gap\n1.5 20\n9.25 40\n0.5 60\n",
         "# made on Monday\n# gap,speed\n20,1.5\n40,9.25\n# the last\n60,0.5\n",
         "   1.5     20.0\r\n   9.25    40.0\r\n\n\t0.5\t60\r\n",
+        "\u{feff}1.5,20\n9.25,40\n0.5,60\n",
+        "\n\"1.5\",\"20\"\n\"9.25\",\"40\"\n\"0.5\",\"60\"\n",
+        "# Gap [m], Speed [m/s]\n\n# made by nobody\n20 1.5\n40 9.25\n60 0.5\n",
     ];
     for text in files {
         assert_eq!(estimate(text, "tests"), expected, "{text}");

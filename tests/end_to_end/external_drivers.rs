@@ -253,7 +253,7 @@ fn a_replay_from_another_folder_runs_the_command_where_the_campaign_ran_it_if_it
     // A stranger's folder may name any folder, so a command that the user gives runs where the user is.
     let here = fuzz(&elsewhere, &[&["replay", "../home/out", "1"], &driver[..]].concat());
     let home = home.canonicalize().unwrap();
-    let note = format!("the commands of this campaign ran in {}; --trust runs them there", home.display());
+    let note = format!("the commands of this campaign ran in {}; if you trust the campaign, --trust", home.display());
     refused(&here, &[&note, "driver.sh"]);
     // The folder may have moved with everything in it.
     fs::rename(&home, dir.path().join("moved")).unwrap();

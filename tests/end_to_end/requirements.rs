@@ -88,7 +88,7 @@ fn a_formula_may_use_signals_that_are_measured_on_request_and_the_run_stays_the_
     // The file of the study asks for the same signals.
     succeeds(fuzz(dir.path(), &["replay", "asked", "2"]));
     let slip = fuzz(dir.path(), &["--out", "slip", "--spec", "always (car.clearence_to_bicycle > 1)"]);
-    let definition = "`car.clearance_to_bicycle` is the distance to the nearest bicycle (m)";
+    let definition = "`car.clearance_to_bicycle`: as car.clearance, from bicycles only; infinite without one (m)";
     refused(&slip, &["did you mean `car.clearance_to_bicycle`?", definition]);
 }
 

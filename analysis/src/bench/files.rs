@@ -122,6 +122,7 @@ fn description(bench: &Bench, maps: &Value) -> Value {
 fn hash_of(sets: &PointSets) -> String {
     let mut bytes = Vec::new();
     for (dims, points) in sets.sizes() {
+        bytes.extend([dims, points, sets.count(dims, points)].into_iter().flat_map(|size| (size as u64).to_le_bytes()));
         for set in (1..).map_while(|number| sets.set(dims, points, number)) {
             bytes.extend(set.iter().flat_map(|point| &point.continuous).flat_map(|number| number.to_le_bytes()));
         }

@@ -36,8 +36,8 @@ pub enum FormulaFlaw {
 fn definition(nearest: &Option<String>) -> String {
     let described = nearest.as_ref().and_then(|name| Some((name, signal::about(name)?)));
     described.map_or_else(String::new, |(name, about)| match about.values() {
-        values if values.is_empty() => format!("; `{name}` is {}", about.about),
-        values => format!("; `{name}` is {} ({values})", about.about),
+        values if values.is_empty() => format!("; `{name}`: {}", about.about),
+        values => format!("; `{name}`: {} ({values})", about.about),
     })
 }
 

@@ -22,8 +22,29 @@ pub struct TooManyTests {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum HeaderFlaw {
     /// The CSV file is empty and has no header.
-    #[error("the file is empty, expected a header with the names of the columns")]
+    #[error("the file is empty, expected a header with the names of the columns, or numbers")]
     Empty,
+    /// The first line has the numbers of the columns in place of names.
+    #[error(
+        "the first line `{line}` seems to have the numbers of the columns: write the names of the columns there, or leave it out; numbers of a \
+         test may be written as 0.0"
+    )]
+    ColumnNumbers {
+        /// The first line of numbers.
+        line: String,
+    },
+    /// A comment before the numbers names a coordinate of the space, but not each column.
+    #[error(
+        "a comment names the columns `{found}`, expected a name for each of {}, among them {}", plural(*columns, "column"), expected.join(", ")
+    )]
+    Comment {
+        /// The words of the comment.
+        found: String,
+        /// The number of columns of the file.
+        columns: usize,
+        /// The names of the coordinates of the space.
+        expected: Vec<String>,
+    },
     /// The file has numbers without a header, and the number of columns is not the number of coordinates of the space.
     #[error(
         "found {} without names, expected {}, in this order: {}", plural(*found, "column"), expected.len(), expected.join(", ")

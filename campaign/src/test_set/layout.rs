@@ -9,11 +9,14 @@ use std::io::{self, BufRead, BufReader, Read};
 const MOST_COMMENTS: usize = 1000;
 
 /// The beginning of a line with a comment, as `numpy.savetxt` writes it.
-const COMMENT: u8 = b'#';
+const COMMENT: char = '#';
+
+/// The bytes with which a file in UTF-8 may begin.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The way in which a file of tests separates and names its columns.
 pub(super) enum Layout {
-    /// The file has no byte.
+    /// The file has neither tests nor names of columns.
     Empty,
     /// The first line names the columns.
     Header {
@@ -22,12 +25,12 @@ pub(super) enum Layout {
     },
     /// The file has numbers and comments only.
     Numbers {
-        /// The number of columns.
-        columns: usize,
+        /// The cells of the first line of numbers.
+        first: Vec<String>,
         /// True if spaces or tabs separate the columns, and false if commas do.
         is_spaced: bool,
-        /// The words of the last comment before the numbers.
-        comment: Vec<String>,
+        /// The words of each comment before the numbers.
+        comments: Vec<Vec<String>>,
     },
 }
 
@@ -36,21 +39,22 @@ impl Layout {
     pub fn of(source: impl Read + 'static) -> io::Result<(Self, impl BufRead)> {
         let mut source = BufReader::new(source);
         let mut begin = Vec::new();
-        let mut last = 0;
-        let mut comment = 0..0;
+        let (mut last, mut comments, mut is_over) = (0, Vec::new(), false);
         for _ in 0..=MOST_COMMENTS {
             last = begin.len();
-            source.read_until(b'\n', &mut begin)?;
-            if begin.get(last) != Some(&COMMENT) {
-                break;
+            is_over = source.read_until(b'\n', &mut begin)? == 0;
+            if last == 0 && begin.starts_with(MARK) {
+                begin.drain(..MARK.len());
             }
-            comment = last + 1..begin.len();
+            match String::from_utf8_lossy(&begin[last..]).trim() {
+                line if line.starts_with(COMMENT) => comments.push(words(&line[1..])),
+                "" if !is_over => {}
+                _ => break,
+            }
         }
         let layout = match numbers(&begin[last..]) {
-            _ if begin.is_empty() => Self::Empty,
-            Some((columns, is_spaced)) => {
-                Self::Numbers { columns, is_spaced, comment: words(&String::from_utf8_lossy(&begin[comment])) }
-            }
+            _ if is_over => Self::Empty,
+            Some((first, is_spaced)) => Self::Numbers { first, is_spaced, comments },
             None => {
                 let first = begin.split(|byte| *byte == b'\n').next().unwrap_or_default();
                 let has_tabs = first.contains(&b'\t') && !first.contains(&b',');
@@ -65,7 +69,7 @@ impl Layout {
         let mut builder = csv::ReaderBuilder::new();
         match self {
             Self::Empty | Self::Header { .. } => builder.trim(csv::Trim::Headers),
-            Self::Numbers { .. } => builder.has_headers(false).comment(Some(COMMENT)).trim(csv::Trim::All),
+            Self::Numbers { .. } => builder.has_headers(false).comment(Some(COMMENT as u8)).trim(csv::Trim::All),
         };
         if let Self::Header { separator: separator @ b'\t' } = self {
             builder.delimiter(*separator).quoting(false);
@@ -79,19 +83,22 @@ impl Layout {
     }
 }
 
-/// Returns the number of columns of a line of numbers, and whether the line has no commas; `None` if something in the line is not a number.
-fn numbers(line: &[u8]) -> Option<(usize, bool)> {
+/// Returns the cells of a line of numbers, and whether the line has no commas; `None` if something in the line is not a number.
+fn numbers(line: &[u8]) -> Option<(Vec<String>, bool)> {
     let line = std::str::from_utf8(line).ok()?;
     let is_spaced = !line.contains(',');
     let cells: Vec<&str> =
         if is_spaced { line.split_whitespace().collect() } else { line.split(',').map(str::trim).collect() };
-    (!cells.is_empty() && cells.iter().all(|cell| cell.parse::<f64>().is_ok())).then_some((cells.len(), is_spaced))
+    let cells: Vec<String> = cells.into_iter().map(|cell| cell.trim_matches('"').to_owned()).collect();
+    (!cells.is_empty() && cells.iter().all(|cell| cell.parse::<f64>().is_ok())).then_some((cells, is_spaced))
 }
 
-/// Returns the words of a comment.
+/// Returns the words of a comment, without units in brackets. Commas separate words, or spaces if there are no commas.
 fn words(comment: &str) -> Vec<String> {
-    let ends = |c: char| c == ',' || c.is_whitespace();
-    comment.split(ends).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    let word = |text: &str| text.split(['[', '(']).next().unwrap_or_default().trim().to_owned();
+    let all: Vec<&str> =
+        if comment.contains(',') { comment.split(',').collect() } else { comment.split_whitespace().collect() };
+    all.into_iter().map(word).filter(|word| !word.is_empty()).collect()
 }
 
 /// Text whose columns are separated by spaces or tabs, read as text with one comma between two columns.

@@ -189,8 +189,8 @@ impl<'p> TestsFile<'p> {
         let header = match &layout {
             Layout::Empty => return Err(Error::in_file(path, None, HeaderFlaw::Empty)),
             Layout::Header { .. } => reader.headers().map_err(|error| Error::in_csv(path, error))?.clone(),
-            Layout::Numbers { columns, comment, .. } => {
-                names(*columns, comment, space.as_ref()).map_err(|flaw| Error::in_file(path, None, flaw))?
+            Layout::Numbers { first, comments, .. } => {
+                names(first, comments, space.as_ref()).map_err(|flaw| Error::in_file(path, None, flaw))?
             }
         };
         if header.len() == 1 && header[0].contains(';') {
@@ -288,16 +288,33 @@ impl<'p> TestsFile<'p> {
     }
 }
 
-/// Returns the names of the columns of a file of numbers. They are the words of the comment if there are as many, and if one of the words is
-/// a coordinate of the space or there is no space. Otherwise the columns are the coordinates in their order.
-fn names(columns: usize, comment: &[String], space: Option<&Space>) -> Result<csv::StringRecord, HeaderFlaw> {
-    let space_of_all = Space::unit_cube(columns);
-    let expected: Vec<String> = space.unwrap_or(&space_of_all).coordinates().map(|of| of.name()).collect();
-    let is_header = comment.len() == columns && (space.is_none() || comment.iter().any(|word| expected.contains(word)));
-    match is_header {
-        true => Ok(csv::StringRecord::from(comment.to_vec())),
-        false if columns == expected.len() => Ok(csv::StringRecord::from(expected)),
-        false => Err(HeaderFlaw::Columns { found: columns, expected }),
+/// Returns the names of the columns of a file of numbers. They are the words of the last comment that names a coordinate of the space; without a
+/// space, those of the last comment with as many words as columns. Otherwise the columns are the coordinates in their order.
+fn names(first: &[String], comments: &[Vec<String>], space: Option<&Space>) -> Result<csv::StringRecord, HeaderFlaw> {
+    let columns = first.len();
+    // A table of numbers in pandas has the numbers of its columns as a header.
+    if [0, 1].iter().any(|begin| first.iter().enumerate().all(|(i, cell)| *cell == (begin + i).to_string())) {
+        return Err(HeaderFlaw::ColumnNumbers { line: first.join(",") });
+    }
+    let Some(space) = space else {
+        let named = comments.iter().rev().find(|words| words.len() == columns);
+        let unnamed = || Space::unit_cube(columns).coordinates().map(|of| of.name()).collect();
+        return Ok(named.map_or_else(unnamed, |words| words.iter().collect()));
+    };
+    let expected: Vec<String> = space.coordinates().map(|of| of.name()).collect();
+    let known = |word: &String| expected.iter().find(|name| name.eq_ignore_ascii_case(word));
+    if let Some(words) = comments.iter().rev().find(|words| words.iter().any(|word| known(word).is_some())) {
+        let names: Vec<&String> = words.iter().map(|word| known(word).unwrap_or(word)).collect();
+        if names.len() == columns && expected.iter().all(|name| names.iter().filter(|word| **word == name).count() == 1)
+        {
+            return Ok(names.into_iter().collect());
+        }
+        return Err(HeaderFlaw::Comment { found: words.join(", "), columns, expected });
+    }
+    if columns == expected.len() {
+        Ok(expected.iter().collect())
+    } else {
+        Err(HeaderFlaw::Columns { found: columns, expected })
     }
 }
 

@@ -74,13 +74,13 @@ const OTHERS: [(&str, SignalAbout); 3] = [
 
 /// The classes of road users that have a clearance of their own.
 pub(crate) const ROAD_USERS: [(Class, &str, &str); 7] = [
-    (Class::Pedestrian, "car.clearance_to_pedestrian", "the distance to the nearest pedestrian"),
-    (Class::Bicycle, "car.clearance_to_bicycle", "the distance to the nearest bicycle"),
-    (Class::Motorcycle, "car.clearance_to_motorcycle", "the distance to the nearest motorcycle"),
-    (Class::Car, "car.clearance_to_car", "the distance to the nearest other car"),
-    (Class::Van, "car.clearance_to_van", "the distance to the nearest van"),
-    (Class::Truck, "car.clearance_to_truck", "the distance to the nearest truck"),
-    (Class::Bus, "car.clearance_to_bus", "the distance to the nearest bus"),
+    (Class::Pedestrian, "car.clearance_to_pedestrian", "as car.clearance, from pedestrians only; infinite without one"),
+    (Class::Bicycle, "car.clearance_to_bicycle", "as car.clearance, from bicycles only; infinite without one"),
+    (Class::Motorcycle, "car.clearance_to_motorcycle", "as car.clearance, from motorcycles only; infinite without one"),
+    (Class::Car, "car.clearance_to_car", "as car.clearance, from other cars only; infinite without one"),
+    (Class::Van, "car.clearance_to_van", "as car.clearance, from vans only; infinite without one"),
+    (Class::Truck, "car.clearance_to_truck", "as car.clearance, from trucks only; infinite without one"),
+    (Class::Bus, "car.clearance_to_bus", "as car.clearance, from buses only; infinite without one"),
 ];
 
 pub(crate) const fn of(unit: &'static str, about: &'static str, range: [f64; 2]) -> SignalAbout {

@@ -104,12 +104,14 @@ impl FailureMap {
     }
 
     /// Makes the map of the impact speeds of a campaign, over two named continuous coordinates. The colour of a test is the speed of the
-    /// ego vehicle at its first contact, and 0 m/s without a contact.
+    /// ego vehicle at its first contact, and 0 m/s without a contact. Tests with the verdict `error` or `invalid` are left out.
     ///
     /// # Errors
     /// Returns an error if a name is not the name of a continuous coordinate, or if both names are the same.
     pub fn of_severity(log: &Log, names: [&str; 2]) -> Result<Self, AxesFlaw> {
         let axes = failure_estimate::axes(log.study(), names)?;
+        // The severity of a test that broke is not known.
+        let log = &log.with_trials(log.trials().iter().filter(|trial| trial.covers()).cloned().collect());
         let mark = |trial: &Trial| Mark::Verdict(trial.verdict);
         let map = Self::at(log, axes, mark).expect("there are coordinates of these names");
         let speed = |trial: &Trial| trial.contact().map_or(0.0, |contact| contact.speed);

@@ -10,6 +10,9 @@ pub(super) fn quietly<T>(open: impl FnOnce() -> T) -> T {
     if std::env::var_os(VARIABLE).is_some() {
         return open();
     }
+    // Two threads that hold standard error at once would give it back in the wrong order.
+    static ONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+    let _one = ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let Ok(held) = Held::begin() else { return open() };
     let opened = open();
     let text = held.end();
@@ -40,7 +43,7 @@ impl Held {
     /// Lets standard error lead to a pipe.
     fn begin() -> rustix::io::Result<Self> {
         use rustix::pipe::{PipeFlags, pipe_with};
-        let kept = rustix::io::dup(rustix::stdio::stderr())?;
+        let kept = rustix::io::fcntl_dupfd_cloexec(rustix::stdio::stderr(), 0)?;
         // A full pipe loses text instead of waiting for ever.
         let (text, end) = pipe_with(PipeFlags::CLOEXEC | PipeFlags::NONBLOCK)?;
         rustix::stdio::dup2_stderr(&end)?;
@@ -49,11 +52,23 @@ impl Held {
 
     /// Lets standard error lead to its file again, and returns the text in the pipe.
     fn end(self) -> String {
-        let _ = rustix::stdio::dup2_stderr(&self.kept);
+        self.give_back();
         let (mut all, mut part) = (Vec::new(), [0; 4096]);
         while let Ok(read @ 1..) = rustix::io::read(&self.text, &mut part[..]) {
             all.extend_from_slice(&part[..read]);
         }
         String::from_utf8_lossy(&all).into_owned()
+    }
+
+    fn give_back(&self) {
+        let _ = rustix::stdio::dup2_stderr(&self.kept);
+    }
+}
+
+/// A panic gives standard error back, too.
+#[cfg(unix)]
+impl Drop for Held {
+    fn drop(&mut self) {
+        self.give_back();
     }
 }
