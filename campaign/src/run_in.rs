@@ -16,14 +16,16 @@ struct RunIn {
     run_in: PathBuf,
 }
 
-/// Writes the folder of this process to the folder of a campaign, if the study runs commands. Does nothing if one of the folders has no path.
+/// Writes the folder of this process to the folder of a campaign, if the study runs commands. Does nothing if
+/// the path between the folders is not known or is no text.
 pub(crate) fn keep(campaign: &Path, study: &Study) -> Result<(), Error> {
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     let (Ok(here), Ok(folder)) = (here, campaign.canonicalize()) else { return Ok(()) };
     if study.commands().is_empty() {
         return Ok(());
     }
-    let text = serde_json::to_string(&RunIn { run_in: from(&folder, &here) }).expect("a path is JSON");
+    // A path that is no text cannot stand in JSON.
+    let Ok(text) = serde_json::to_string(&RunIn { run_in: from(&folder, &here) }) else { return Ok(()) };
     write_whole_here(&campaign.join(FILE), format!("{text}\n").as_bytes())
 }
 

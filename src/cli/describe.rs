@@ -112,12 +112,13 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
     table.heading("signals of a trace, for formulas");
     let recorded = study.signals()?.unwrap_or_default();
     for name in &recorded {
-        let about = engine::signal::about(name).map_or_else(|| "as this formula says".to_owned(), in_words);
+        let about =
+            engine::signal::about(name).map_or_else(|| "as this formula says".to_owned(), |about| about.in_words());
         table.row(&signal(name).to_string(), &about);
     }
     table.heading("signals that are measured if a formula uses them");
     for (name, about) in on_request(&recorded) {
-        table.row(name, &in_words(about));
+        table.row(name, &about.in_words());
     }
     let notes = study.notes()?;
     if !notes.is_empty() {
@@ -140,14 +141,6 @@ fn signals(study: &Study) -> Result<Vec<String>, Error> {
 /// Returns the signals that are measured if a formula uses them, without the recorded ones.
 fn on_request(recorded: &[String]) -> impl Iterator<Item = (&'static str, SignalAbout)> {
     engine::signal::on_request().filter(|(name, _)| !recorded.iter().any(|known| known == name))
-}
-
-/// Says what a signal measures.
-fn in_words(about: SignalAbout) -> String {
-    match about.values() {
-        values if values.is_empty() => about.about.to_owned(),
-        values => format!("{} ({values})", about.about),
-    }
 }
 
 /// Describes the signals that a formula can use.

@@ -260,6 +260,17 @@ fn a_replay_from_another_folder_runs_the_command_where_the_campaign_ran_it_if_it
     succeeds(fuzz(&elsewhere, &["replay", "../moved/out", "1", "--trust"]));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_campaign_runs_in_a_folder_whose_name_is_no_text() {
+    use std::os::unix::ffi::OsStrExt;
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join(std::ffi::OsStr::from_bytes(b"no-text-\xff"));
+    fs::create_dir(&folder).unwrap();
+    succeeds(fuzz(&folder, &["--driver-command", &command(), "--budget", "1", "--out", "../out"]));
+    assert!(dir.path().join("out/trials.jsonl").exists() && !dir.path().join("out/commands.json").exists());
+}
+
 #[test]
 fn a_campaign_of_a_driver_is_continued_replayed_and_shrunk() {
     let dir = tempfile::tempdir().unwrap();

@@ -35,10 +35,7 @@ pub enum FormulaFlaw {
 /// Says what the signal measures that was probably meant.
 fn definition(nearest: &Option<String>) -> String {
     let described = nearest.as_ref().and_then(|name| Some((name, signal::about(name)?)));
-    described.map_or_else(String::new, |(name, about)| match about.values() {
-        values if values.is_empty() => format!("; `{name}`: {}", about.about),
-        values => format!("; `{name}`: {} ({values})", about.about),
-    })
+    described.map_or_else(String::new, |(name, about)| format!("; `{name}`: {}", about.in_words()))
 }
 
 /// The error that a formula of the option `--spec` cannot judge any trace of a study.

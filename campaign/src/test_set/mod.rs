@@ -54,8 +54,8 @@ impl TestSet {
     /// `invalid`.
     ///
     /// A file may also consist of numbers between spaces, tabs or commas, and of comments that begin with `#`, as
-    /// `numpy.savetxt` writes. The columns are the coordinates of the space in its order, or in the order of the last comment before the
-    /// numbers if this comment names a coordinate.
+    /// `numpy.savetxt` writes. The columns are the coordinates of the space in its order, unless a comment before the numbers
+    /// names coordinates: the last such comment then has a name for each column.
     ///
     /// # Errors
     /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.

@@ -20,6 +20,14 @@ pub struct SignalAbout {
 }
 
 impl SignalAbout {
+    /// Returns the definition, with the unit and the range of the values in brackets.
+    pub fn in_words(&self) -> String {
+        match self.values() {
+            values if values.is_empty() => self.about.to_owned(),
+            values => format!("{} ({values})", self.about),
+        }
+    }
+
     /// Returns the unit and the range of the values in words, such as `m/s, 0 and more`.
     pub fn values(&self) -> String {
         let range = match self.range {
