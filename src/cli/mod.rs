@@ -23,6 +23,7 @@ mod map;
 mod monitor;
 mod odd;
 mod output;
+mod paint;
 mod perceive;
 mod perceiver;
 mod progress;
@@ -227,10 +228,14 @@ fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(escape).collect())
 }
 
-/// Prints a result.
+/// Prints a result, with colours on a terminal.
 fn print(text: &str) -> Result<(), Failure> {
+    let mut text = printable(text);
+    if paint::is_wanted() {
+        text = Cow::Owned(paint::painted(&text));
+    }
     let mut stdout = io::stdout().lock();
-    let written = stdout.write_all(printable(text).as_bytes()).and_then(|()| stdout.flush());
+    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
     Ok(written.map_err(output_error)?)
 }
 

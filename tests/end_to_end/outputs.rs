@@ -314,3 +314,21 @@ fn a_replay_into_a_folder_that_does_not_exist_leaves_no_drawing() {
     let out = fuzz(dir.path(), &["map", "camp", "--out", "nowhere/map.svg"]);
     refused(&out, &["--out nowhere/map.svg: the folder nowhere does not exist"]);
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn verdicts_have_a_colour_and_a_sign_on_a_terminal_unless_the_user_wants_none() {
+    let dir = campaign();
+    let command = format!("'{}' replay camp 1 -q", env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let on_terminal = |variables: &[(&str, &str)]| {
+        let mut script = Command::new("script");
+        script.args(["-qec", &command, "/dev/null"]).current_dir(dir.path()).env_remove("NO_COLOR").env("TERM", "xterm");
+        stdout(&succeeds(script.envs(variables.iter().copied()).output().expect("a program of Linux"))).replace("\r\n", "\n")
+    };
+    let plain = stdout(&succeeds(fuzz(dir.path(), &["replay", "camp", "1", "-q"])));
+    assert!(plain.starts_with("test 1: pass\n"), "{plain}");
+    assert_eq!(on_terminal(&[]), plain.replacen("pass", "\x1b[32m✓ pass\x1b[0m", 1));
+    for variable in [("NO_COLOR", "1"), ("TERM", "dumb")] {
+        assert_eq!(on_terminal(&[variable]), plain, "{variable:?}");
+    }
+}
