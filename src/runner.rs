@@ -1,8 +1,8 @@
 //! The whole job in one call: runs a study, and writes the log and all results into a folder.
 
 use crate::analysis::{
-    Coverage, Effects, Explanation, Impacts, Inconclusive, Limit, LocatedReport, Modes, Perceived, Plausible, Promise,
-    Summary, SuspectReport, explanation,
+    Coverage, Effects, Explanation, Impacts, Inconclusive, Limit, LocatedReport, Modes, Perceived, Plausible, Points,
+    Promise, Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Supervision, Trial,
@@ -66,6 +66,8 @@ pub struct Report {
     pub plausible: Option<Plausible>,
     /// The impact speeds of the tests with a contact, or `None` if no test has one.
     pub impacts: Option<Impacts>,
+    /// The points of Euro NCAP, or `None` if no test is on a grid of the protocol.
+    pub points: Option<Points>,
     /// The failure map, or `None` if fewer than two continuous parameters are open.
     pub map: Option<FailureMap>,
     /// The combinations of discrete values that only failing tests have, or `None` if the search was not possible. The
@@ -126,6 +128,7 @@ impl Report {
             coverage,
             plausible: Plausible::of(&log),
             impacts: Impacts::of(&log),
+            points: Points::of(&log),
             map,
             suspects: if has_levels { SuspectReport::of(&log)? } else { None },
             located: None,

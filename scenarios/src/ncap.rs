@@ -1,6 +1,7 @@
 //! Tests of Euro NCAP's AEB protocols of 2023: crossing pedestrians (CPNA, CPFA, CPNCO) and cars ahead (CCR).
 //!
-//! The speeds, overlaps, gaps and decelerations are those of the public files of the protocols (OSC-NCAP-scenarios).
+//! The speeds, overlaps, gaps and decelerations are those of the public files of the protocols (OSC-NCAP-scenarios). An impact at 50 % of the
+//! width for CPNA is of the protocol of 2026.
 //!
 //! A pedestrian starts so that a car that does not brake hits the pedestrian with a given part of its front. `impact`
 //! is the place of the pedestrian's middle at that moment as a share of the car's width, counted from the side that the
@@ -17,7 +18,7 @@ use paracosm_engine::{
 };
 
 pub(crate) const CPNA: Program =
-    Program::new("ncap-cpna", "an adult walks from the near side (Euro NCAP CPNA-25 and CPNA-75)", cpna);
+    Program::new("ncap-cpna", "an adult walks from the near side (Euro NCAP CPNA-25 to CPNA-75)", cpna);
 pub(crate) const CPFA: Program = Program::new("ncap-cpfa", "an adult runs from the far side (Euro NCAP CPFA-50)", cpfa);
 pub(crate) const CPNCO: Program =
     Program::new("ncap-cpnco", "a child runs from behind parked cars at the near side (Euro NCAP CPNCO-50)", cpnco);
@@ -97,7 +98,7 @@ fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road,
 
 fn cpna(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 10.0..=60.0).unit("km/h").default(40.0);
-    let impact = s.choice("impact", [25, 75]).unit("%").default(25);
+    let impact = s.choice("impact", [25, 50, 75]).unit("%").default(25);
     let impact = f64::from(impact.value()) / 100.0;
     let body = Body::adult();
     let crossing = Crossing { body, name: "adult", side: -1.0, from: 4.0, run_up: 1.0, speed: 5.0 / 3.6, impact };

@@ -10,6 +10,7 @@ use crate::oracles::signal;
 use crate::space::{Domain, Value};
 use crate::standards::opendrive;
 use clap::Args;
+use paracosm_analysis::points;
 use paracosm_campaign::{Catalogue, Error, Study};
 use paracosm_report::{birds_eye, plot};
 use serde_json::json;
@@ -109,6 +110,14 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         let formula = requirement.formula.as_ref().map(ToString::to_string).unwrap_or_default();
         table.row("", &format!("{formula}{}", scale.unwrap_or_default()));
     }
+    if let Some(grid) = points::grid(program.name()) {
+        table.heading("points");
+        table.row(
+            grid.name,
+            &format!("{} of {}, for a campaign with these options:", digits(grid.points), points::PROTOCOL),
+        );
+        table.row("", &grid.options());
+    }
     table.heading("signals of a trace, for formulas");
     let recorded = study.signals()?.unwrap_or_default();
     for name in &recorded {
@@ -177,8 +186,11 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
             said
         })
         .collect();
+    let points = points::grid(program.name()).map(
+        |grid| json!({"grid": grid.name, "of": grid.points, "protocol": points::PROTOCOL, "options": grid.options()}),
+    );
     Ok(json(&json!({"name": program.name(), "about": program.about(), "duration": declaration.duration,
-        "parameters": parameters, "requirements": study.requirements(), "signals": signals(study)?,
+        "parameters": parameters, "requirements": study.requirements(), "points": points, "signals": signals(study)?,
         "described_signals": described(&study.signals()?.unwrap_or_default()),
         "notes": study.notes()?})))
 }

@@ -47,7 +47,8 @@ mod tests {
 
     #[test]
     fn verdicts_get_a_colour_and_a_sign_and_everything_else_stays() {
-        let text = "aeb: 40 tests\n  fail                  5     12.5 %\n  failure modes         3 tests\ntest 2: pass\n";
+        let text =
+            "aeb: 40 tests\n  fail                  5     12.5 %\n  failure modes         3 tests\ntest 2: pass\n";
         let expected = "aeb: 40 tests\n\x1b[31m✗ fail\x1b[0m                  5     12.5 %\n  failure modes         3 tests\n\
                         test 2: \x1b[32m✓ pass\x1b[0m\n";
         assert_eq!(painted(text), expected);

@@ -7,7 +7,7 @@ use crate::Report;
 use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
-use paracosm_analysis::{Effects, Inconclusive, Judged, Modes, Plausible, RangeRecall, Segmented, Worst};
+use paracosm_analysis::{Effects, Inconclusive, Judged, Modes, Plausible, Points, RangeRecall, Segmented, Worst};
 use paracosm_campaign::{Artefact, Extension, ExtensionRecord, Finish, Number, Study, Trial};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{command_option, shell_word};
@@ -57,6 +57,9 @@ impl Printed<'_> {
         self.show_perceived(&mut table);
         if let Some(impacts) = &self.report.impacts {
             table.row("impact speed", &impacts_in_words(impacts));
+        }
+        if let Some(points) = &self.report.points {
+            show_points(&mut table, points);
         }
         self.show_modes(&mut table);
         if let Some(explanation) = &self.report.explanation {
@@ -167,6 +170,9 @@ impl Printed<'_> {
         }
         if let Some(impacts) = &self.report.impacts {
             printed["impact_speed"] = json!(impacts);
+        }
+        if let Some(points) = &self.report.points {
+            printed["points"] = json!(points);
         }
         if let Some(odd) = study.odd() {
             printed["odd"] = json!(odd);
@@ -307,6 +313,17 @@ impl Printed<'_> {
         let (program, out) = (shell_word(self.program), shell_word(&self.out.to_string_lossy()));
         format!("{program} {verb} {out} {index}{}", command_option(self.study()))
     }
+}
+
+/// Adds the points of Euro NCAP to the table.
+fn show_points(table: &mut Table, Points { protocol, grid, cells, ran, points, of }: &Points) {
+    match points {
+        Some(points) => {
+            table.row("points on this grid", &format!("{points:.3} of {of:.3}: {grid}, {}", plural(*cells, "test")));
+        }
+        None => table.row("points on this grid", &format!("none: {ran} of the {cells} tests of {grid} have run")),
+    }
+    table.row("  protocol", protocol);
 }
 
 /// Explains a verdict that is neither pass nor fail.

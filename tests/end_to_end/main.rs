@@ -43,6 +43,7 @@ mod perceivers;
 mod pict;
 mod pictures;
 mod plan;
+mod points;
 mod python;
 mod races;
 mod reference_drivers;

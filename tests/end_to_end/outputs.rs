@@ -322,8 +322,13 @@ fn verdicts_have_a_colour_and_a_sign_on_a_terminal_unless_the_user_wants_none() 
     let command = format!("'{}' replay camp 1 -q", env!("CARGO_BIN_EXE_paracosm-fuzz"));
     let on_terminal = |variables: &[(&str, &str)]| {
         let mut script = Command::new("script");
-        script.args(["-qec", &command, "/dev/null"]).current_dir(dir.path()).env_remove("NO_COLOR").env("TERM", "xterm");
-        stdout(&succeeds(script.envs(variables.iter().copied()).output().expect("a program of Linux"))).replace("\r\n", "\n")
+        script
+            .args(["-qec", &command, "/dev/null"])
+            .current_dir(dir.path())
+            .env_remove("NO_COLOR")
+            .env("TERM", "xterm");
+        stdout(&succeeds(script.envs(variables.iter().copied()).output().expect("a program of Linux")))
+            .replace("\r\n", "\n")
     };
     let plain = stdout(&succeeds(fuzz(dir.path(), &["replay", "camp", "1", "-q"])));
     assert!(plain.starts_with("test 1: pass\n"), "{plain}");
