@@ -235,3 +235,26 @@ fn what_cannot_be_benched_is_said() {
     fs::write(&runs, text.replace("random,2", "random,3")).unwrap();
     refused(&bench(&[small.as_slice(), &["--resume"]].concat()), &["runs.csv, line 3", "edited"]);
 }
+
+#[test]
+fn a_bench_with_too_few_given_sets_is_refused_before_the_first_run() {
+    let dir = tempfile::tempdir().unwrap();
+    for set in ["a", "b"] {
+        fs::write(dir.path().join(format!("{set}.csv")), "x,y\n0.1,0.2\n0.7,0.4\n0.3,0.9\n").unwrap();
+    }
+    let study = [
+        "bench",
+        "--scenarios",
+        "ball2",
+        "--strategies",
+        "random,mine=*.csv",
+        "--budget",
+        "3",
+        "--reference-tests",
+        "0",
+    ];
+    let run = |seeds: &str| fuzz(dir.path(), &[&study[..], &["--seeds", seeds, "--quiet", "--out", "out"]].concat());
+    refused(&run("3"), &["`mine` has 2 sets of 3 points in 2 dimensions, and no set 3"]);
+    assert!(!dir.path().join("out").exists());
+    succeeds(run("2"));
+}

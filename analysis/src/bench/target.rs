@@ -72,15 +72,16 @@ impl Target {
         }
     }
 
-    /// Checks that a strategy can make tests of the target.
+    /// Checks that a strategy can make tests of the target, with every seed of the bench if the strategy consists of given sets.
     pub(super) fn check(&self, strategy: Strategy, bench: &Bench) -> Result<(), Error> {
-        match &self.kind {
+        let seeds = if strategy.given().is_some() { bench.seeds as u64 } else { 1 };
+        (bench.first_seed..bench.first_seed + seeds).try_for_each(|seed| match &self.kind {
             TargetKind::Study(study) => {
-                let study = study_of(study, strategy, bench.first_seed, bench)?;
+                let study = study_of(study, strategy, seed, bench)?;
                 Ok(study.independent_generator().map(drop)?)
             }
-            TargetKind::Function(function) => generator_of(*function, strategy, bench.first_seed, bench).map(drop),
-        }
+            TargetKind::Function(function) => generator_of(*function, strategy, seed, bench).map(drop),
+        })
     }
 }
 

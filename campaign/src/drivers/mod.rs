@@ -100,6 +100,7 @@ impl Problem {
         let cause = match error {
             OpenError::Unreachable | OpenError::UnknownHost => ProblemKind::Process,
             OpenError::Foreign | OpenError::Protocol { .. } => ProblemKind::Answer,
+            OpenError::NotBuilt => ProblemKind::Driver,
             OpenError::Unusable(fault) => ProblemKind::of(fault.kind),
         };
         Self::new(cause, error.to_string())

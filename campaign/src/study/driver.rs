@@ -7,7 +7,7 @@ use crate::black_box::{TimeoutFlaw, checked_timeout};
 use crate::process::{self, CommandFlaw};
 use crate::{Error, Reason};
 use paracosm_engine::driver::{self, Descriptor, Driver, DriverError, Setting};
-use paracosm_rpc::{Address, AddressError, Terms};
+use paracosm_rpc::{Address, AddressError, CONNECTS, OpenError, Terms};
 use paracosm_space::{Record, did_you_mean, nearest};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -179,6 +179,12 @@ pub enum DriverFlaw {
         /// The error in the command.
         flaw: CommandFlaw,
     },
+    /// The program was built without drivers in external processes.
+    #[error("driver `{driver}` runs in a process of its own: {}", OpenError::NotBuilt)]
+    NotBuilt {
+        /// The address or the command of the driver.
+        driver: String,
+    },
     /// The time-out of the driver is out of range.
     #[error(transparent)]
     Timeout(#[from] TimeoutFlaw),
@@ -236,6 +242,9 @@ impl DriverChoice {
             Wish::Name(name) => Self::in_engine(name, changes)?,
         };
         match timeout {
+            _ if choice.is_external() && !CONNECTS => {
+                Err(Error::unavailable(DriverFlaw::NotBuilt { driver: choice.name }))
+            }
             Some(_) if !choice.is_external() => Err(DriverFlaw::NoTimeout { driver: choice.name }.into()),
             _ => Ok(choice),
         }

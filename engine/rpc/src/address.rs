@@ -1,7 +1,9 @@
 //! The network address of a driver: `grpc://HOST:PORT`.
 
 use std::fmt;
-use std::net::{SocketAddr, ToSocketAddrs};
+use std::net::SocketAddr;
+#[cfg(feature = "connect")]
+use std::net::ToSocketAddrs;
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -34,6 +36,7 @@ impl Address {
         format!("{}:{}", self.host, self.port)
     }
 
+    #[cfg(feature = "connect")]
     /// Returns `true` if the host's name can be resolved to an address.
     pub(crate) fn is_known(&self) -> bool {
         self.authority().to_socket_addrs().is_ok_and(|mut all| all.next().is_some())

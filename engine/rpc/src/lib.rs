@@ -6,6 +6,8 @@
 //! the session waits. Only this crate deals with asynchronous tasks, and a question costs no change of threads on this
 //! side.
 //!
+//! The feature `connect` builds the client. A program without it has addresses, and its sessions do not begin.
+//!
 //! All values are sent bit by bit, so the same driver gives the same trace in process and over gRPC.
 //!
 //! ```no_run
@@ -21,18 +23,31 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(not(feature = "connect"))]
+mod absent;
 mod address;
+mod open_error;
 #[cfg(feature = "serve")]
 mod serve;
+#[cfg(feature = "connect")]
 mod session;
 mod terms;
+#[cfg(feature = "connect")]
 mod wire;
 
+#[cfg(not(feature = "connect"))]
+pub use absent::Session;
+
 pub use address::{Address, AddressError};
+pub use open_error::OpenError;
 #[cfg(feature = "serve")]
 pub use serve::{SessionOptions, serve};
-pub use session::{OpenError, Session};
+#[cfg(feature = "connect")]
+pub use session::Session;
 pub use terms::Terms;
+
+/// True if sessions can begin, because the feature `connect` was built.
+pub const CONNECTS: bool = cfg!(feature = "connect");
 
 /// The version of the protocol that this crate speaks.
 const PROTOCOL: u32 = 1;

@@ -1,7 +1,7 @@
 //! A driver that answers from another process.
 
 use crate::wire::{self, Described, answer, request};
-use crate::{Address, PROTOCOL, Terms};
+use crate::{Address, OpenError, PROTOCOL, Terms};
 use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
 use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
@@ -11,7 +11,6 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use thiserror::Error;
 use tokio::runtime::{Builder, Runtime};
 use tokio::sync::mpsc::{UnboundedSender, unbounded_channel};
 use tokio_stream::wrappers::UnboundedReceiverStream;
@@ -24,33 +23,6 @@ const PATIENCE: Duration = Duration::from_millis(20);
 
 /// The longest answer in bytes. A driver's answers are short, except for its message when it gives up.
 const LONGEST_ANSWER: usize = 1 << 24;
-
-/// An error at the beginning of a session.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum OpenError {
-    /// No process listens at the given address.
-    #[error("no process listens at this address; start the driver first")]
-    Unreachable,
-    /// The name of the host cannot be resolved to an address.
-    #[error("the name of the host is not known; check the address")]
-    UnknownHost,
-    /// The process at the given address is not a driver.
-    #[error(
-        "the process at this address is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC"
-    )]
-    Foreign,
-    /// The driver speaks another version of the protocol.
-    #[error(
-        "the driver speaks version {found} of the protocol, expected version {PROTOCOL}; update the driver or PARACOSM, whichever is older"
-    )]
-    Protocol {
-        /// The version of the protocol that the driver speaks.
-        found: u32,
-    },
-    /// The driver refuses the session, does not answer, or asks for an impossible period or impossible sensors.
-    #[error(transparent)]
-    Unusable(#[from] Fault),
-}
 
 /// A driver in another process, which answers as long as the connection lasts.
 ///
