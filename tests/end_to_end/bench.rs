@@ -245,7 +245,7 @@ fn a_bench_with_too_few_given_sets_is_refused_before_the_first_run() {
     let study = [
         "bench",
         "--scenarios",
-        "ball2",
+        "pedestrian-crossing",
         "--strategies",
         "random,mine=*.csv",
         "--budget",
