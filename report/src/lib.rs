@@ -21,6 +21,7 @@ pub mod bench;
 pub mod birds_eye;
 pub mod blame;
 pub mod compare;
+pub mod hole;
 pub mod junit;
 pub mod plot;
 #[cfg(feature = "camera")]

@@ -15,9 +15,11 @@ use paracosm_analysis::audit::{
     Additions, Audit, AuditFolder, Audited, Better, Estimate, Report, Runs, Score, Screen, Share, Source, Suite,
     SuiteFlaw, Witness,
 };
+use paracosm_analysis::estimate::Discrete;
 use paracosm_campaign::files::write_whole_here;
 use paracosm_campaign::{Artefact, Catalogue, Error, Study, Worker, tests_as_csv};
 use paracosm_report::birds_eye::MotionRecord;
+use paracosm_report::hole;
 use paracosm_space::{Record, Values};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -42,8 +44,8 @@ An audit says what a suite of tests would have missed:
     found. No mutant chooses a test, but they say how many tests there are. Grade it with other mutants: --seed 1
 
 The audit writes audit.json, mutants.jsonl, which has a line for each mutant, and for the first suite \
-    certificate-1.json, a proof of its holes that tests/check_certificate.py checks, additions-1.csv, better-1.csv \
-    and witness-1.gif, and so on, to the folder --out. If the scenario is a file, additions-1.xosc and better-1.xosc \
+    certificate-1.json, a proof of its holes that tests/check_certificate.py checks, hole-1.png, \
+    additions-1.csv, better-1.csv and witness-1.gif, and so on, to the folder --out. If the scenario is a file, additions-1.xosc and better-1.xosc \
     list the same tests.";
 
 /// The number of rows with the largest holes in the table.
@@ -108,7 +110,7 @@ impl Options {
         AuditFolder::check(&self.out, self.resume).map_err(Error::from)?;
         let (study, mut suites) = self.suites(&sources, catalogue, verbosity)?;
         if self.compare {
-            let (others, refusals) = suites[0].rivals(&study);
+            let (others, refusals) = suites[0].rivals(&study, &sources);
             refusals.iter().for_each(|refusal| verbosity.note(format_args!("not compared: {refusal}")));
             suites.extend(others);
         }
@@ -143,6 +145,9 @@ impl Options {
             }
             if let Some(better) = &suite.better {
                 self.write_tests(&study, &better.file, &better.suite, verbosity)?;
+            }
+            if let Some(picture) = hole::picture(study.space(), &audit.suites()[number - 1], suite) {
+                write_whole_here(&self.out.join(hole_file(number)), &picture.png()?)?;
             }
             if let Some(witness) = &suite.witness {
                 write_whole_here(&self.out.join(film_file(number)), &film(witness, &study)?)?;
@@ -191,6 +196,11 @@ impl Options {
 /// Returns the name of the certificate of a suite's holes.
 fn certificate_file(number: usize) -> String {
     format!("certificate-{number}.json")
+}
+
+/// Returns the name of the picture of a suite's largest hole.
+fn hole_file(number: usize) -> String {
+    format!("hole-{number}.png")
 }
 
 /// Returns the name of the film of a suite's witness.
@@ -348,9 +358,14 @@ fn score(table: &mut Table, screen: &Screen, score: &Score) {
 }
 
 fn compared(table: &mut Table, report: &Report) {
-    table.heading("compared: largest hole of a row, mutation score");
+    let has_pairs = report.suites.iter().any(|suite| suite.k_wise.is_some());
+    let pairs = if has_pairs { ", k-wise coverage" } else { "" };
+    table.heading(&format!("compared: largest hole of a row{pairs}, mutation score"));
     for suite in &report.suites {
-        let score = suite.mutants.as_ref().map_or(String::new(), |score| share(&score.all));
-        table.row(&suite.suite, &format!("{}, {score}", short_bracket(&suite.holes.largest())));
+        let k_wise =
+            suite.k_wise.as_ref().map(|Discrete { k, covered, valid, .. }| format!("{k}-wise {covered} of {valid}"));
+        let score = suite.mutants.as_ref().map(|score| share(&score.all));
+        let columns = [Some(short_bracket(&suite.holes.largest())), k_wise, score];
+        table.row(&suite.suite, &columns.into_iter().flatten().collect::<Vec<_>>().join(", "));
     }
 }

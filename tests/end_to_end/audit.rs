@@ -73,6 +73,7 @@ fn an_audit_shows_holes_a_witness_and_scores() {
     let given = ["audit", "--tests", "halton:20", "--mutants", "0", "--format", "table", "--out", "table"];
     let table = stdout(&succeeds(fuzz(dir.path(), &given)));
     assert!(fs::read(dir.path().join("table/witness-1.gif")).unwrap().starts_with(b"GIF89a"));
+    assert!(fs::read(dir.path().join("table/hole-1.png")).unwrap().starts_with(b"\x89PNG"));
     assert!(table.contains("witness") && table.contains("fails in the box"), "{table}");
 }
 

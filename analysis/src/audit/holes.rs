@@ -42,6 +42,20 @@ pub struct RowHole {
     pub(super) part: Option<Arc<ValidPart>>,
 }
 
+impl RowHole {
+    /// Returns the tests of a suite in the row of the hole. A test is on the hole's slice along two axes if it lies between the sides of
+    /// the hole along all other axes; such a test is beside the hole along one of the two axes.
+    pub fn slice<'a>(&'a self, suite: &'a Suite, axes: [usize; 2]) -> impl Iterator<Item = (&'a Point, bool)> {
+        let is_between = move |point: &Point| {
+            let sides = self.found.lower.iter().zip(&self.found.upper);
+            let mut sides = point.continuous.iter().zip(sides).enumerate();
+            sides.all(|(axis, (x, (lower, upper)))| axes.contains(&axis) || (lower < x && x < upper))
+        };
+        let points = suite.points.iter().filter(|point| point.discrete == self.levels);
+        points.map(move |point| (point, is_between(point)))
+    }
+}
+
 /// The holes of a suite, the largest first. Holes of the same volume stand in the order of their rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Holes {

@@ -159,6 +159,11 @@ impl<'a> Audit<'a> {
         Ok(Self { study, suites, screen: None, limit: None, runs: Runs::default() })
     }
 
+    /// Returns the suites, in the order of the report.
+    pub fn suites(&self) -> &[Suite] {
+        &self.suites
+    }
+
     /// Puts the mutants of a screen on trial.
     pub fn mutants(self, screen: Screen) -> Self {
         Self { screen: Some(screen), ..self }

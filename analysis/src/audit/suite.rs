@@ -203,10 +203,11 @@ impl Suite {
         Self::new(Source::Strategy(strategy, tests).to_string(), points, study)
     }
 
-    /// Makes suites of as many tests as this suite has, one by each strategy that does not learn from outcomes. Also returns why
-    /// strategies refuse the space or the number of tests.
-    pub fn rivals(&self, study: &Study) -> (Vec<Self>, Vec<Error>) {
-        let strategies = Strategy::all().filter(|strategy| !strategy.is_adaptive());
+    /// Makes suites of as many tests as this suite has, one by each strategy that does not learn from outcomes, and leaves out the `known`
+    /// sources. Also returns why strategies refuse the space or the number of tests.
+    pub fn rivals(&self, study: &Study, known: &[Source]) -> (Vec<Self>, Vec<Error>) {
+        let is_known = |strategy: &Strategy| known.contains(&Source::Strategy(*strategy, self.points.len()));
+        let strategies = Strategy::all().filter(|strategy| !strategy.is_adaptive() && !is_known(strategy));
         let of = |strategy| Self::of_strategy(study, strategy, self.points.len(), None);
         let (mut suites, mut refusals) = (Vec::new(), Vec::new());
         for suite in strategies.map(of) {

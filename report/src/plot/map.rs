@@ -29,7 +29,7 @@ pub struct Axis {
 
 impl Axis {
     /// Returns the axis of a continuous coordinate; `None` for a discrete coordinate.
-    fn of(coordinate: &Coordinate) -> Option<Self> {
+    pub fn of(coordinate: &Coordinate) -> Option<Self> {
         match coordinate.parameter.domain {
             Domain::Interval { lo, hi } => Some(Self { label: coordinate.label(), range: (lo, hi) }),
             Domain::Choice(_) => None,

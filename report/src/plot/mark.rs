@@ -9,11 +9,11 @@ use plotters::prelude::*;
 use plotters_backend::DrawingErrorKind;
 use std::fmt;
 
-const BLUE: RGBColor = RGBColor(0x00, 0x77, 0xbb);
-const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
+pub(super) const BLUE: RGBColor = RGBColor(0x00, 0x77, 0xbb);
+pub(super) const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
 const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
 const MAGENTA: RGBColor = RGBColor(0xee, 0x33, 0x77);
-const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
+pub(super) const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
 /// The property of a test that determines its mark on a failure map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -19,6 +19,7 @@ mod mark;
 mod raster;
 mod shade;
 mod shares;
+mod slice;
 mod survival;
 mod symbol;
 mod tint;
@@ -37,6 +38,7 @@ pub use map_files::MapFiles;
 pub use mark::Mark;
 pub use raster::drawing_png;
 pub use shares::{Series, Shares};
+pub use slice::{Slice, Slices};
 pub use survival::{Survivals, Waiting};
 pub use tint::Tints;
 
@@ -88,6 +90,7 @@ enum Panel {
     Survivals(Survivals),
     Lines(Lines),
     Heat(HeatMap),
+    Slices(Slices),
 }
 
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
@@ -143,6 +146,16 @@ impl Picture {
         Self { panels: images.into_iter().map(Panel::Heat).collect(), columns, size }
     }
 
+    /// Makes a picture of the slices of a hole.
+    ///
+    /// # Panics
+    /// Panics if there is no slice.
+    pub fn of_slices(slices: Slices) -> Self {
+        assert!(!slices.panels.is_empty(), "a picture shows something");
+        let size = slices.size();
+        Self { panels: vec![Panel::Slices(slices)], columns: 1, size }
+    }
+
     fn extent(&self) -> (u32, u32) {
         let rows = self.panels.len().div_ceil(self.columns);
         (self.size.0 * self.columns as u32, self.size.1 * rows as u32)
@@ -188,6 +201,7 @@ impl Picture {
                     Panel::Survivals(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Heat(image) => image.draw(&part, scale)?,
+                    Panel::Slices(slices) => slices.draw(&part, f64::from(scale))?,
                 }
             }
             area.present()

@@ -93,7 +93,7 @@ fn another_seed_gives_other_mutants_and_other_tests_of_the_screen() {
 #[test]
 fn every_strategy_that_does_not_learn_makes_a_rival_of_the_same_size() {
     let study = study("pedestrian-crossing", "aeb", &[]);
-    let (rivals, refusals) = suite("grid:5x4", &study).rivals(&study);
+    let (rivals, refusals) = suite("grid:5x4", &study).rivals(&study, &[]);
     let sizes: Vec<usize> = rivals.iter().map(|suite| suite.points.len()).collect();
     let open_loop = Strategy::all().filter(|strategy| !strategy.is_adaptive()).count();
     assert_eq!(rivals.len() + refusals.len(), open_loop);
