@@ -12,7 +12,7 @@ use super::{Failure, Status, Verbosity, on_interrupt, print};
 use crate::standards::openscenario::value_sets;
 use clap::Args;
 use paracosm_analysis::audit::{
-    Additions, Audit, AuditFolder, Audited, Better, Estimate, Report, Runs, Score, Screen, Share, Source, Suite,
+    Additions, Audit, AuditFolder, Audited, Better, Estimate, Kept, Report, Runs, Score, Screen, Share, Source, Suite,
     SuiteFlaw, Witness,
 };
 use paracosm_analysis::estimate::Discrete;
@@ -23,6 +23,7 @@ use paracosm_report::hole;
 use paracosm_space::{Record, Values};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -120,6 +121,7 @@ impl Options {
         }
         on_interrupt(runs.stop.clone());
         let audit = Audit::of(&study, suites).map_err(Error::from)?;
+        runs.kept = Some(Arc::new(Kept::open(&self.out, self.resume)?));
         let mut audit = limit.into_iter().fold(audit, Audit::time_limit);
         if self.mutants > 0 {
             audit = audit.mutants(Screen::of(&study, self.mutants, self.screen, self.seed, &runs)?);

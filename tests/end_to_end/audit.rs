@@ -54,6 +54,39 @@ fn an_audit_is_the_same_with_any_number_of_jobs_and_after_a_cut() {
 }
 
 #[test]
+fn an_audit_that_goes_on_makes_no_run_again_whose_result_is_kept() {
+    let dir = tempfile::tempdir().unwrap();
+    audit(dir.path(), "out", &[]);
+    let whole = contents(dir.path(), "out");
+    let runs = dir.path().join("out/runs.jsonl");
+    let kept = fs::read_to_string(&runs).unwrap();
+    let goes_on = |text: &str| {
+        fs::write(&runs, text).unwrap();
+        fs::write(dir.path().join("out/mutants.jsonl"), "").unwrap();
+        audit(dir.path(), "out", &["--resume"]);
+        assert_eq!(whole, contents(dir.path(), "out"));
+        fs::read_to_string(&runs).unwrap()
+    };
+    assert!(goes_on(&kept) == kept, "a run was made again");
+    // A kill while a line was written, a line of another program, and nothing.
+    let keys = |text: &str| {
+        let key = |line: &str| serde_json::from_str::<Value>(line).unwrap()["key"].to_string();
+        text.lines().map(key).collect::<std::collections::BTreeSet<_>>()
+    };
+    for left in [kept.len() / 2, 0] {
+        assert!(keys(&goes_on(&kept[..left])) == keys(&kept), "the file has other runs than before");
+    }
+    let foreign = format!("{kept}{{\"key\": 7}}\n");
+    assert!(goes_on(&foreign) == foreign, "a line of another program changes nothing");
+    // A new audit uses none of them.
+    let one = dir.path().join("two");
+    fs::create_dir(&one).unwrap();
+    fs::write(one.join("runs.jsonl"), kept.replace("no-collision", "progress")).unwrap();
+    audit(dir.path(), "two", &[]);
+    assert_eq!(whole, contents(dir.path(), "two"));
+}
+
+#[test]
 fn an_audit_shows_holes_a_witness_and_scores() {
     let dir = tempfile::tempdir().unwrap();
     let report = audit(dir.path(), "out", &["--driver", "planner"]);

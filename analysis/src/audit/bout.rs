@@ -73,7 +73,7 @@ pub(super) struct Known {
 impl Known {
     pub fn of(suite: &Suite, study: &Study, runs: &Runs) -> Result<Self, Error> {
         let tests = suite.values(study);
-        let given = runs.of(study, &tests)?;
+        let given = runs.given(study, &tests)?;
         let mut order: Vec<usize> = (0..tests.len()).filter(|index| given[*index].covers()).collect();
         order.sort_by(|a, b| margin(&given[*a]).total_cmp(&margin(&given[*b])));
         Ok(Self { tests, given, order })

@@ -25,7 +25,7 @@ impl NearMisses {
     pub fn of(study: &Study, tests: usize, seed: u64, runs: &Runs) -> Result<Self, Error> {
         let pool = Suite::of_strategy(study, Strategy::RANDOM, tests, Some(seed))?;
         let values = pool.values(study);
-        let trials = runs.of(study, &values)?;
+        let trials = runs.given(study, &values)?;
         let passed: Vec<(usize, &Trial)> = trials
             .iter()
             .enumerate()

@@ -1,6 +1,7 @@
 //! Runs the tests of an audit, with the driver of the study or with a driver that has a defect.
 
 use super::AuditFlaw;
+use super::kept::{Kept, Key};
 use paracosm_campaign::darkroom::Darkroom;
 use paracosm_campaign::executor::{in_order, pool};
 use paracosm_campaign::{Error, Study, Subject, Supervision, Trial, Worker};
@@ -18,12 +19,14 @@ pub struct Runs {
     pub jobs: NonZeroUsize,
     /// The flag that, once set, ends the audit with [`Error::Interrupted`].
     pub stop: Arc<AtomicBool>,
+    /// The results that are kept; `None` if each run is made.
+    pub kept: Option<Arc<Kept>>,
 }
 
 impl Default for Runs {
-    /// Uses all cores.
+    /// Uses all cores, and keeps nothing.
     fn default() -> Self {
-        Self { jobs: available_parallelism().unwrap_or(NonZeroUsize::MIN), stop: Arc::default() }
+        Self { jobs: available_parallelism().unwrap_or(NonZeroUsize::MIN), stop: Arc::default(), kept: None }
     }
 }
 
@@ -33,6 +36,19 @@ impl Runs {
         let seats = Seats::of(study)?;
         let run = |worker: &mut Worker, index: usize| worker.run(index, &tests[index]).0;
         self.each(tests.len(), || seats.worker(study), run)
+    }
+
+    /// Runs tests of a study, unless their trials are kept. Returns a trial for each test.
+    pub(super) fn given(&self, study: &Study, tests: &[Values]) -> Result<Vec<Trial>, Error> {
+        let Some(kept) = &self.kept else { return self.of(study, tests) };
+        let (seats, key) = (Seats::of(study)?, Key::new("given", study));
+        let run = |worker: &mut Worker, index: usize| {
+            let mut trial: Trial = kept.or(&key, &tests[index], || Ok(worker.run(index, &tests[index]).0))?;
+            // The test may have stood elsewhere when it ran.
+            trial.index = index;
+            Ok(trial)
+        };
+        self.each(tests.len(), || seats.worker(study), run)?.into_iter().collect()
     }
 
     /// Does a piece of work for every index, and returns the results in order. Each thread has a worker of its own.
@@ -69,6 +85,7 @@ impl Runs {
             done += 1;
             sink(result)
         })?;
+        self.kept.as_ref().map_or(Ok(()), |kept| kept.check())?;
         if done < expected { Err(Error::Interrupted) } else { Ok(()) }
     }
 

@@ -7,6 +7,7 @@
 //! that no random test met, so mutation scores are a little too high.
 
 use super::bout::{Bout, Found, Kill, Known, Noticed};
+use super::kept::Key;
 use super::runs::{Runs, Seats, check, mutated};
 use super::{Score, Suite};
 use paracosm_campaign::{Error, Study};
@@ -56,9 +57,14 @@ impl Screen {
         let known = Known::of(&suite, study, runs)?;
         let seats = Seats::of(study)?;
         let defects: Vec<Defect> = ALL.iter().copied().flat_map(Defect::all_of).collect();
-        let notice = |(): &mut (), index: usize| {
-            let study = mutated(study, defects[index])?;
-            Ok(known.noticing(&mut seats.worker(&study)).collect::<Vec<Kill>>())
+        let key = Key::new("screen", study);
+        let noticing = |defect: Defect| -> Result<Vec<Kill>, Error> {
+            let study = mutated(study, defect)?;
+            Ok(known.noticing(&mut seats.worker(&study)).collect())
+        };
+        let notice = |(): &mut (), index: usize| match &runs.kept {
+            Some(kept) => kept.or(&key, &(tests, seed, defects[index]), || noticing(defects[index])),
+            None => noticing(defects[index]),
         };
         let kills = runs.each(defects.len(), || (), notice)?.into_iter().collect::<Result<Vec<_>, Error>>()?;
         let place = |defect: Defect| defects.iter().position(|one| *one == defect).expect("it is one of the list");

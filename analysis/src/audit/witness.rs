@@ -176,7 +176,7 @@ impl Search<'_> {
         let trials = self.runs.of(blind, tests)?;
         let bad: Vec<Trial> = trials.into_iter().filter(|trial| trial.violated().next().is_some()).collect();
         let again: Vec<Values> = bad.iter().map(|trial| trial.test.clone()).collect();
-        let given = self.runs.of(self.study, &again)?;
+        let given = self.runs.given(self.study, &again)?;
         let mut worst: Option<Failing> = None;
         let mut count = 0;
         for (given, trial) in given.iter().zip(&bad) {
