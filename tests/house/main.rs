@@ -9,11 +9,13 @@
 //! - [`texts`]: an error is a type with data; its words are made where it is shown.
 //! - [`decisions`]: no decision reads the words of a message.
 //! - [`excerpts`]: the page on extending shows code that exists.
+//! - [`features`]: the table of features counts the crates that each builds.
 //! - [`sentences`]: the documentation of an item begins with a plain statement.
 
 mod cycles;
 mod decisions;
 mod excerpts;
+mod features;
 mod floors;
 mod imports;
 mod sentences;
