@@ -8,7 +8,7 @@
 use paracosm_campaign::{Log, Study};
 use paracosm_space::{Value, Values};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The protocol of the points, with its version.
 pub const PROTOCOL: &str = "Euro NCAP Crash Avoidance, Frontal Collisions 1.2 (2026)";
@@ -74,9 +74,11 @@ pub struct Points {
     pub grid: &'static str,
     /// The number of tests on the grid.
     pub cells: usize,
-    /// The number of tests on the grid that the campaign ran.
+    /// The number of tests on the grid that the campaign ran, and in which the situation came about.
     pub ran: usize,
-    /// The points; `None` if a test of the grid has not run.
+    /// The number of tests on the grid in which the situation never came about: the car was too slow, say.
+    pub without_situation: usize,
+    /// The points; `None` if a test of the grid has not run, or if its situation never came about.
     pub points: Option<f64>,
     /// The greatest number of points on the grid.
     pub of: f64,
@@ -94,16 +96,30 @@ impl Points {
         let grid = grid(scenario)?;
         let nominal = nominal(study)?;
         let mut shares: BTreeMap<Vec<usize>, f64> = BTreeMap::new();
+        let mut missed = BTreeSet::new();
         for trial in log.trials().iter().filter(|trial| trial.covers()) {
-            if let Some(place) = grid.place(&study.complete(&trial.test), &nominal) {
+            let Some(place) = grid.place(&study.complete(&trial.test), &nominal) else { continue };
+            if trial.contact().is_none() && trial.triggered() != Some(true) {
+                missed.insert(place);
+            } else {
                 let share = share(grid.axes[0].1[place[0]], trial.contact().map_or(0.0, |contact| 3.6 * contact.speed));
                 let worst = shares.entry(place).or_insert(share);
                 *worst = worst.min(share);
             }
         }
-        let (cells, ran) = (grid.cells(), shares.len());
-        let points = (ran == cells).then(|| grid.points * shares.values().sum::<f64>() / cells as f64);
-        (ran > 0).then_some(Self { protocol: PROTOCOL, grid: grid.name, cells, ran, points, of: grid.points })
+        let (cells, ran, without_situation) = (grid.cells(), shares.len(), missed.len());
+        let is_whole = ran == cells && without_situation == 0;
+        let points = is_whole.then(|| grid.points * shares.values().sum::<f64>() / cells as f64);
+        let (protocol, name, of) = (PROTOCOL, grid.name, grid.points);
+        (ran + without_situation > 0).then_some(Self {
+            protocol,
+            grid: name,
+            cells,
+            ran,
+            without_situation,
+            points,
+            of,
+        })
     }
 }
 

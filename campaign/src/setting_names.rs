@@ -4,8 +4,8 @@
 /// stand in the log, but do not belong to the world.
 const CAMERA: &str = "camera.";
 
-#[cfg(feature = "camera")]
 /// Returns the name of the parameter that varies a setting of a camera.
+#[cfg(feature = "camera")]
 pub(crate) fn setting_name(camera: &str, setting: &str) -> String {
     format!("{CAMERA}{camera}.{setting}")
 }

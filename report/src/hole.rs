@@ -63,7 +63,7 @@ pub fn slices(space: &Space, suite: &Suite, audited: &Audited) -> Option<Slices>
         })
         .collect();
     let panels = panels.filter(|panels| !panels.is_empty())?;
-    let (title, note) = (title(audited, hole), note(&panels, axes.len()));
+    let (title, note) = (title(audited, hole), note(&panels, axes.len(), hole));
     Some(Slices { title, note, panels })
 }
 
@@ -85,19 +85,22 @@ fn narrowest(axes: &[Coordinate], hole: &RowHole) -> Vec<usize> {
 
 fn title(audited: &Audited, hole: &RowHole) -> String {
     let row: Vec<String> = hole.row.iter().map(|(name, value)| format!("{name} {value}")).collect();
-    let of = if row.is_empty() { "of the space".to_owned() } else { format!("of the row {}", row.join(", ")) };
+    let has_part = audited.coverage.continuous.as_ref().is_some_and(|measured| measured.valid_share.is_some());
+    let part = if has_part { "the valid part of " } else { "" };
+    let of = if row.is_empty() { "the space".to_owned() } else { format!("the row {}", row.join(", ")) };
     let least = if hole.volume.is_exact() { "" } else { "at least " };
-    format!("{}: the largest hole, {least}{:.3} {of}", audited.suite, hole.volume.lower)
+    format!("{}: the largest hole, {least}{:.3} of {part}{of}", audited.suite, hole.volume.lower)
 }
 
-fn note(panels: &[Slice], dims: usize) -> String {
+fn note(panels: &[Slice], dims: usize, hole: &RowHole) -> String {
+    let row = if hole.row.iter().next().is_some() { " of the row" } else { "" };
     let fails = panels.iter().any(|panel| panel.fails.is_some());
     let fails = if fails { "; red cross: the witness fails" } else { "" };
     if dims == 2 {
         return format!("blue: the tests{fails}");
     }
     format!(
-        "blue: tests within the hole along {}, grey: other tests of the row{fails}",
+        "blue: tests within the hole along {}, grey: other tests{row}{fails}",
         match dims - 2 {
             1 => "the third parameter".to_owned(),
             others => format!("the {} that the panel does not show", plural(others, "parameter")),

@@ -1,7 +1,7 @@
 //! Tests of Euro NCAP's AEB protocols of 2023: crossing pedestrians (CPNA, CPFA, CPNCO) and cars ahead (CCR).
 //!
-//! The speeds, overlaps, gaps and decelerations are those of the public files of the protocols (OSC-NCAP-scenarios). An impact at 50 % of the
-//! width for CPNA is of the protocol of 2026.
+//! The speeds, overlaps, gaps and decelerations are those of the public files of the protocols (OSC-NCAP-scenarios). The impact at 50 % of the
+//! width for CPNA comes from the protocol of 2026.
 //!
 //! A pedestrian starts so that a car that does not brake hits the pedestrian with a given part of its front. `impact`
 //! is the place of the pedestrian's middle at that moment as a share of the car's width, counted from the side that the

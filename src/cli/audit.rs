@@ -8,7 +8,7 @@ use super::output::{Format, FormatOption, Table, digits, json, percent, plural, 
 use super::progress::bar;
 use super::replay::draw;
 use super::subject::Subject;
-use super::{Failure, Status, Verbosity, on_interrupt, print};
+use super::{Failure, Status, Verbosity, on_interrupt, print, usage};
 use crate::standards::openscenario::value_sets;
 use clap::Args;
 use paracosm_analysis::audit::{
@@ -107,6 +107,11 @@ impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let sources = self.tests.iter().map(|text| text.parse()).collect::<Result<Vec<Source>, SuiteFlaw>>();
         let sources = sources.map_err(Error::from)?;
+        if self.mutants > 0 && self.screen == 0 {
+            return Err(
+                usage("--screen is 0, expected at least 1 test: mutants come from the screen".to_owned()).into()
+            );
+        }
         let limit = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
         AuditFolder::check(&self.out, self.resume).map_err(Error::from)?;
         let (study, mut suites) = self.suites(&sources, catalogue, verbosity)?;
@@ -121,7 +126,8 @@ impl Options {
         }
         on_interrupt(runs.stop.clone());
         let audit = Audit::of(&study, suites).map_err(Error::from)?;
-        runs.kept = Some(Arc::new(Kept::open(&self.out, self.resume)?));
+        AuditFolder::check_same(&self.out, &audit)?;
+        runs.kept = Some(Arc::new(Kept::open(&self.out)?));
         let mut audit = limit.into_iter().fold(audit, Audit::time_limit);
         if self.mutants > 0 {
             audit = audit.mutants(Screen::of(&study, self.mutants, self.screen, self.seed, &runs)?);
@@ -140,6 +146,7 @@ impl Options {
         for file in report.files() {
             write_whole_here(&self.out.join(file), &report.contents(file)?)?;
         }
+        let mut drawn = Vec::new();
         for (number, suite) in (1..).zip(&report.suites) {
             write_whole_here(&self.out.join(certificate_file(number)), &suite.certificate.to_json())?;
             if let Some(additions) = suite.additions.as_ref().filter(|additions| !additions.tests.is_empty()) {
@@ -150,6 +157,7 @@ impl Options {
             }
             if let Some(picture) = hole::picture(study.space(), &audit.suites()[number - 1], suite) {
                 write_whole_here(&self.out.join(hole_file(number)), &picture.png()?)?;
+                drawn.push(number);
             }
             if let Some(witness) = &suite.witness {
                 write_whole_here(&self.out.join(film_file(number)), &film(witness, &study)?)?;
@@ -157,7 +165,7 @@ impl Options {
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
         print(&match self.form.format {
-            Format::Table => table(&report),
+            Format::Table => table(&report, &drawn),
             Format::Json => json(&report),
         })?;
         Ok(Status::Nothing)
@@ -224,7 +232,8 @@ fn additions_file(number: usize) -> String {
     format!("additions-{number}.csv")
 }
 
-fn table(report: &Report) -> String {
+/// Prints a report. `drawn` has the numbers of the suites whose largest hole is drawn.
+fn table(report: &Report, drawn: &[usize]) -> String {
     let mut table = Table::default();
     for (number, suite) in (1..).zip(&report.suites) {
         let left = if suite.left_out == 0 {
@@ -236,6 +245,9 @@ fn table(report: &Report) -> String {
         table.coverage(&suite.coverage);
         suite.k_wise.iter().for_each(|found| table.discrete(found));
         holes(&mut table, suite);
+        if drawn.contains(&number) {
+            table.row("  picture", &hole_file(number));
+        }
         certificate(&mut table, suite, number);
         match &suite.witness {
             Some(witness) => self::witness(&mut table, witness, number),

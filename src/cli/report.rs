@@ -316,10 +316,14 @@ impl Printed<'_> {
 }
 
 /// Adds the points of Euro NCAP to the table.
-fn show_points(table: &mut Table, Points { protocol, grid, cells, ran, points, of }: &Points) {
+fn show_points(table: &mut Table, Points { protocol, grid, cells, ran, without_situation, points, of }: &Points) {
     match points {
         Some(points) => {
             table.row("points on this grid", &format!("{points:.3} of {of:.3}: {grid}, {}", plural(*cells, "test")));
+        }
+        None if *without_situation > 0 => {
+            let missed = plural(*without_situation, "test");
+            table.row("points on this grid", &format!("none: in {missed} of {grid}, the situation never came about"));
         }
         None => table.row("points on this grid", &format!("none: {ran} of the {cells} tests of {grid} have run")),
     }

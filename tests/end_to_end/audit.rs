@@ -76,14 +76,28 @@ fn an_audit_that_goes_on_makes_no_run_again_whose_result_is_kept() {
     for left in [kept.len() / 2, 0] {
         assert!(keys(&goes_on(&kept[..left])) == keys(&kept), "the file has other runs than before");
     }
-    let foreign = format!("{kept}{{\"key\": 7}}\n");
-    assert!(goes_on(&foreign) == foreign, "a line of another program changes nothing");
-    // A new audit uses none of them.
-    let one = dir.path().join("two");
-    fs::create_dir(&one).unwrap();
-    fs::write(one.join("runs.jsonl"), kept.replace("no-collision", "progress")).unwrap();
+    // Lines that somebody has changed are refused, and so is a new audit in the folder.
+    let resume =
+        ["audit", "--tests", "halton:20", "--tests", "grid:5x4", "--mutants", "30", "--screen", "16", "--out", "out"];
+    for wrong in [kept.replacen("pass", "fail", 1), format!("{kept}{{\"key\": 7}}\n"), "mine\n".to_owned()] {
+        fs::write(&runs, &wrong).unwrap();
+        let output = fuzz(dir.path(), &[&resume[..], &["--resume"]].concat());
+        refused(&output, &["runs.jsonl", "the line is not what an audit has written"]);
+        assert!(fs::read_to_string(&runs).unwrap() == wrong, "the file has changed");
+    }
+    fs::remove_file(dir.path().join("out/audit-settings.json")).unwrap();
+    refused(&fuzz(dir.path(), &resume), &["out holds an audit already; --resume continues it"]);
+    // Another audit that is to go on there changes nothing.
     audit(dir.path(), "two", &[]);
-    assert_eq!(whole, contents(dir.path(), "two"));
+    let before = fs::read(dir.path().join("two/runs.jsonl")).unwrap();
+    let other = ["audit", "--driver", "planner", "--tests", "halton:20", "--out", "two", "--resume"];
+    refused(&fuzz(dir.path(), &other), &["two holds another audit: `study` differs"]);
+    assert!(fs::read(dir.path().join("two/runs.jsonl")).unwrap() == before, "the file has changed");
+    refused(
+        &fuzz(dir.path(), &["audit", "--tests", "halton:20", "--screen", "0", "--out", "three"]),
+        &["--screen is 0"],
+    );
+    assert!(!dir.path().join("three").exists());
 }
 
 #[test]

@@ -255,6 +255,9 @@ fn a_bench_with_too_few_given_sets_is_refused_before_the_first_run() {
     ];
     let run = |seeds: &str| fuzz(dir.path(), &[&study[..], &["--seeds", seeds, "--quiet", "--out", "out"]].concat());
     refused(&run("3"), &["`mine` has 2 sets of 3 points in 2 dimensions, and no set 3"]);
+    let last =
+        fuzz(dir.path(), &[&study[..], &["--seeds", "2", "--seed", "18446744073709551614", "--out", "out"]].concat());
+    refused(&last, &["and no set 18446744073709551614"]);
     assert!(!dir.path().join("out").exists());
     succeeds(run("2"));
 }

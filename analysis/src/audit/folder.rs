@@ -1,5 +1,6 @@
 //! The folder of an audit: what is audited, and the mutants that have been tried, so that the audit can go on after a kill.
 
+use super::kept::has_results;
 use super::{Audit, Suite, Tried};
 use paracosm_campaign::files::{create_folder, is_no_link, write_whole_here};
 use paracosm_campaign::reasons::InUse;
@@ -41,6 +42,9 @@ pub enum AuditFolderFlaw {
         /// The number of the mutant, from 0.
         index: usize,
     },
+    /// A line is not the result of a run.
+    #[error("the line is not what an audit has written; delete the file, and the same runs are made again")]
+    Run,
     /// The file is not JSON, so it does not say what is audited.
     #[error("the file is not the JSON that an audit writes")]
     NoSettings,
@@ -79,7 +83,9 @@ impl AuditFolder {
     /// # Errors
     /// The folder cannot be written, holds an audit that is not to go on, or holds another audit.
     pub fn open(path: &Path, audit: &Audit, resume: bool) -> Result<(Self, Vec<Tried>), Error> {
-        Self::check(path, resume)?;
+        if !resume && path.join(SETTINGS).exists() {
+            return Err(AuditFolderFlaw::Occupied { path: path.to_owned() }.into());
+        }
         create_folder(path)?;
         let settings = serde_json::to_value(audit.settings()).expect("what is audited is always JSON");
         let (file, tried) = (path.join(SETTINGS), path.join(TRIED));
@@ -130,8 +136,28 @@ impl AuditFolder {
     /// # Errors
     /// The folder holds an audit, which is not to go on.
     pub fn check(path: &Path, resume: bool) -> Result<(), AuditFolderFlaw> {
-        let is_occupied = !resume && path.join(SETTINGS).exists();
+        let is_occupied = !resume && (path.join(SETTINGS).exists() || has_results(path));
         if is_occupied { Err(AuditFolderFlaw::Occupied { path: path.to_owned() }) } else { Ok(()) }
+    }
+
+    /// Checks that a folder does not hold an audit of another study or of other suites, before slow work begins.
+    ///
+    /// # Errors
+    /// The folder holds such an audit, or its file cannot be read.
+    pub fn check_same(path: &Path, audit: &Audit) -> Result<(), Error> {
+        let file = path.join(SETTINGS);
+        let text = match fs::read_to_string(&file) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+            Err(error) => return Err(Error::io("read", &file)(error)),
+        };
+        let there: Value =
+            serde_json::from_str(&text).map_err(|_| Error::in_file(&file, None, AuditFolderFlaw::NoSettings))?;
+        let here = serde_json::to_value(audit.settings()).expect("what is audited is always JSON");
+        match ["study", "suites"].into_iter().find(|key| there.get(key) != here.get(key)) {
+            Some(key) => Err(AuditFolderFlaw::Other { path: path.to_owned(), key: key.to_owned() }.into()),
+            None => Ok(()),
+        }
     }
 
     /// Adds a mutant that has been tried.

@@ -1,8 +1,9 @@
 //! Keeps results of runs in the folder of an audit, so that an audit that goes on after a kill does not run the same tests again.
 //!
-//! A result is known by a hash of everything that it depends on. So a line of another study, or of another version of the software, is
-//! never used. The file is for the audit alone: without the file, the same runs are made again.
+//! A result is known by a hash of its study, with the version of the software, and of its test. So a line of another study or of another
+//! released version is never used. The file is for the audit alone: without the file, the same runs are made again.
 
+use super::AuditFolderFlaw;
 use paracosm_campaign::files::{create_folder, is_no_link};
 use paracosm_campaign::reasons::InUse;
 use paracosm_campaign::{Error, Learned, Study, StudyFile};
@@ -35,14 +36,16 @@ struct Line<T> {
     /// The 128-bit XXH3 of what the result depends on, as 32 hexadecimal digits.
     key: String,
     result: T,
+    /// The 128-bit XXH3 of the key and the result, which tells a line that somebody has changed.
+    hash: String,
 }
 
 impl Kept {
-    /// Opens the results in the folder of an audit. Only an audit that goes on uses results that are there.
+    /// Opens the results in the folder of an audit, which are kept for an audit that goes on.
     ///
     /// # Errors
-    /// The file cannot be written, or another audit is using the folder.
-    pub fn open(folder: &Path, resume: bool) -> Result<Self, Error> {
+    /// The file cannot be written, a line is not what an audit writes, or another audit is using the folder.
+    pub fn open(folder: &Path) -> Result<Self, Error> {
         create_folder(folder)?;
         let path = folder.join(FILE);
         is_no_link(&path)?;
@@ -53,13 +56,18 @@ impl Kept {
             return Err(InUse { folder: folder.to_owned(), holder: None }.into());
         }
         let mut bytes = Vec::new();
-        if resume {
-            file.read_to_end(&mut bytes).map_err(Error::io("read", &path))?;
-        }
+        file.read_to_end(&mut bytes).map_err(Error::io("read", &path))?;
         // A last line without its end was cut off.
         bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
-        let lines = bytes.split(|byte| *byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok());
-        let known = lines.map(|Line::<serde_json::Value> { key, result }| (key, result.to_string())).collect();
+        let mut known = HashMap::new();
+        for (index, line) in bytes.split(|byte| *byte == b'\n').filter(|line| !line.is_empty()).enumerate() {
+            let line: Option<Line<serde_json::Value>> = serde_json::from_slice(line).ok();
+            let line = line.map(|Line { key, result, hash }| (key, result.to_string(), hash));
+            let line = line.filter(|(key, result, hash)| *hash == of_line(key, result));
+            let flaw = || Error::in_file(&path, Some(index + 1), AuditFolderFlaw::Run);
+            let (key, result, _) = line.ok_or_else(flaw)?;
+            known.insert(key, result);
+        }
         let end = bytes.len() as u64;
         file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end))).map_err(Error::io("write", &path))?;
         Ok(Self { path, known, file: Mutex::new(file), flaw: Mutex::new(None) })
@@ -71,7 +79,9 @@ impl Kept {
     }
 
     fn put<T: Serialize>(&self, key: String, result: &T) {
-        let mut line = serde_json::to_vec(&Line { key, result }).expect("results are always JSON");
+        let result = serde_json::to_value(result).expect("results are always JSON");
+        let hash = of_line(&key, &result.to_string());
+        let mut line = serde_json::to_vec(&Line { key, result, hash }).expect("results are always JSON");
         line.push(b'\n');
         let written = self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(&line);
         if let Err(error) = written {
@@ -80,7 +90,7 @@ impl Kept {
         }
     }
 
-    /// Returns the result of some work: the kept one, or that of the work.
+    /// Returns the result of some work: the kept one, or that of the work. `is_sure` says if a result is worth keeping.
     ///
     /// # Errors
     /// The work fails.
@@ -88,6 +98,7 @@ impl Kept {
         &self,
         key: &Key,
         what: &impl Serialize,
+        is_sure: impl FnOnce(&T) -> bool,
         work: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error> {
         let key = key.of(what);
@@ -95,7 +106,9 @@ impl Kept {
             return Ok(result);
         }
         let result = work()?;
-        self.put(key, &result);
+        if is_sure(&result) {
+            self.put(key, &result);
+        }
         Ok(result)
     }
 
@@ -120,6 +133,16 @@ impl Key {
     fn of(&self, what: &impl Serialize) -> String {
         format!("{:032x}", hash(&(self.0.to_string(), what)))
     }
+}
+
+/// Returns the hash of a line of the file.
+fn of_line(key: &str, result: &str) -> String {
+    format!("{:032x}", hash(&(key, result)))
+}
+
+/// Returns `true` if a folder has results of an audit.
+pub(super) fn has_results(folder: &Path) -> bool {
+    folder.join(FILE).metadata().is_ok_and(|file| file.len() > 0)
 }
 
 fn hash(value: &impl Serialize) -> u128 {

@@ -6,6 +6,7 @@ use paracosm_campaign::darkroom::Darkroom;
 use paracosm_campaign::executor::{in_order, pool};
 use paracosm_campaign::{Error, Study, Subject, Supervision, Trial, Worker};
 use paracosm_mutants::Defect;
+use paracosm_oracles::Verdict;
 use paracosm_space::Values;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -43,7 +44,13 @@ impl Runs {
         let Some(kept) = &self.kept else { return self.of(study, tests) };
         let (seats, key) = (Seats::of(study)?, Key::new("given", study));
         let run = |worker: &mut Worker, index: usize| {
-            let mut trial: Trial = kept.or(&key, &tests[index], || Ok(worker.run(index, &tests[index]).0))?;
+            let mut trial: Trial = kept.or(
+                &key,
+                &tests[index],
+                // A graphics adapter that failed may work at the next try.
+                |trial: &Trial| trial.verdict != Verdict::Error,
+                || Ok(worker.run(index, &tests[index]).0),
+            )?;
             // The test may have stood elsewhere when it ran.
             trial.index = index;
             Ok(trial)

@@ -63,7 +63,7 @@ impl Screen {
             Ok(known.noticing(&mut seats.worker(&study)).collect())
         };
         let notice = |(): &mut (), index: usize| match &runs.kept {
-            Some(kept) => kept.or(&key, &(tests, seed, defects[index]), || noticing(defects[index])),
+            Some(kept) => kept.or(&key, &(tests, seed, defects[index]), |_| true, || noticing(defects[index])),
             None => noticing(defects[index]),
         };
         let kills = runs.each(defects.len(), || (), notice)?.into_iter().collect::<Result<Vec<_>, Error>>()?;

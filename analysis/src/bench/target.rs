@@ -75,7 +75,7 @@ impl Target {
     /// Checks that a strategy can make tests of the target, with every seed of the bench if the strategy consists of given sets.
     pub(super) fn check(&self, strategy: Strategy, bench: &Bench) -> Result<(), Error> {
         let seeds = if strategy.given().is_some() { bench.seeds as u64 } else { 1 };
-        (bench.first_seed..bench.first_seed + seeds).try_for_each(|seed| match &self.kind {
+        (0..seeds).map(|i| bench.first_seed + i).try_for_each(|seed| match &self.kind {
             TargetKind::Study(study) => {
                 let study = study_of(study, strategy, seed, bench)?;
                 Ok(study.independent_generator().map(drop)?)

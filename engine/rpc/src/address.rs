@@ -36,8 +36,8 @@ impl Address {
         format!("{}:{}", self.host, self.port)
     }
 
-    #[cfg(feature = "connect")]
     /// Returns `true` if the host's name can be resolved to an address.
+    #[cfg(feature = "connect")]
     pub(crate) fn is_known(&self) -> bool {
         self.authority().to_socket_addrs().is_ok_and(|mut all| all.next().is_some())
     }
