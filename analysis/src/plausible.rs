@@ -30,7 +30,8 @@ impl Plausible {
         let mut plausible = Self { ranges: ranges.collect(), summary: Summary::default() };
         plausible.ranges.iter().next()?;
         for trial in log.trials() {
-            if plausible.takes(&trial.test) {
+            // A test that broke says nothing.
+            if trial.covers() && plausible.takes(&trial.test) {
                 plausible.summary.add(trial);
             }
         }

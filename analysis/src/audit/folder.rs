@@ -42,9 +42,6 @@ pub enum AuditFolderFlaw {
         /// The number of the mutant, from 0.
         index: usize,
     },
-    /// A line is not the result of a run.
-    #[error("the line is not what an audit has written; delete the file, and the same runs are made again")]
-    Run,
     /// The file is not JSON, so it does not say what is audited.
     #[error("the file is not the JSON that an audit writes")]
     NoSettings,

@@ -3,10 +3,9 @@
 //! A result is known by a hash of its study, with the version of the software, and of its test. So a line of another study or of another
 //! released version is never used. The file is for the audit alone: without the file, the same runs are made again.
 
-use super::AuditFolderFlaw;
 use paracosm_campaign::files::{create_folder, is_no_link};
 use paracosm_campaign::reasons::InUse;
-use paracosm_campaign::{Error, Learned, Study, StudyFile};
+use paracosm_campaign::{Error, Learned, Reason, Study, StudyFile};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -14,6 +13,7 @@ use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// The file with the results.
@@ -29,6 +29,13 @@ pub struct Kept {
     /// The first error in writing. A result that cannot be kept ends the audit, since the disk is full.
     flaw: Mutex<Option<Error>>,
 }
+
+/// The error that a line is not the result of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("the line is not what an audit has written; delete the file, and the same runs are made again")]
+pub struct ForeignLine;
+
+impl Reason for ForeignLine {}
 
 /// A line of the file.
 #[derive(Serialize, Deserialize)]
@@ -64,7 +71,7 @@ impl Kept {
             let line: Option<Line<serde_json::Value>> = serde_json::from_slice(line).ok();
             let line = line.map(|Line { key, result, hash }| (key, result.to_string(), hash));
             let line = line.filter(|(key, result, hash)| *hash == of_line(key, result));
-            let flaw = || Error::in_file(&path, Some(index + 1), AuditFolderFlaw::Run);
+            let flaw = || Error::in_file(&path, Some(index + 1), ForeignLine);
             let (key, result, _) = line.ok_or_else(flaw)?;
             known.insert(key, result);
         }

@@ -25,7 +25,7 @@ pub use better::Better;
 pub use bout::{Found, Kill, Noticed, Tried};
 pub use folder::{AuditFolder, AuditFolderFlaw};
 pub use holes::{Holes, RowHole};
-pub use kept::Kept;
+pub use kept::{ForeignLine, Kept};
 pub use runs::Runs;
 pub use score::{Estimate, KindScore, Score, Share, SizeScore};
 pub use screen::Screen;
