@@ -24,7 +24,7 @@ impl PointSets {
         self.sets.get(&(dims, points)).map_or(0, Vec::len)
     }
 
-    /// Returns the dimensions and the numbers of points of which there are sets.
+    /// Returns each size of which there is a set: the number of dimensions and the number of points.
     pub fn sizes(&self) -> impl Iterator<Item = (usize, usize)> {
         self.sets.keys().copied()
     }

@@ -16,8 +16,8 @@ pub fn picture(space: &Space, suite: &Suite, audited: &Audited) -> Option<Pictur
     slices(space, suite, audited).map(Picture::of_slices)
 }
 
-/// Returns the slices of the largest hole of an audited suite; `None` if the space has fewer than two continuous parameters, or if no hole is left. A cross
-/// is the test that the witness fails, if the witness does not brake in this hole.
+/// Returns the slices of the largest hole of an audited suite; `None` if the space has fewer than two continuous parameters, or if no hole
+/// is left. If the witness does not brake in this hole, a cross marks the test in which it fails.
 pub fn slices(space: &Space, suite: &Suite, audited: &Audited) -> Option<Slices> {
     let hole = audited.holes.hole.as_ref().filter(|hole| hole.volume.lower > 0.0)?;
     let axes: Vec<Coordinate> = space.continuous().collect();

@@ -92,11 +92,7 @@ impl AuditFolder {
         if let Err(TryLockError::WouldBlock) = log.try_lock() {
             return Err(InUse { folder: path.to_owned(), holder: None }.into());
         }
-        let there = match fs::read_to_string(&file) {
-            Ok(text) => Some(text),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(error) => return Err(Error::io("read", &file)(error)),
-        };
+        let there = read_settings(&file)?;
         let mut known = Vec::new();
         let mut text = String::new();
         log.read_to_string(&mut text).map_err(Error::io("read", &tried))?;
@@ -111,8 +107,6 @@ impl AuditFolder {
                 )?;
             }
             Some(there) => {
-                let there: Value = serde_json::from_str(&there)
-                    .map_err(|_| Error::in_file(&file, None, AuditFolderFlaw::NoSettings))?;
                 if let Some(key) = differing_key(&there, &settings) {
                     let (path, key) = (path.to_owned(), key.to_owned());
                     return Err(AuditFolderFlaw::Other { path, key }.into());
@@ -143,13 +137,7 @@ impl AuditFolder {
     /// The folder holds such an audit, or its file cannot be read.
     pub fn check_same(path: &Path, audit: &Audit) -> Result<(), Error> {
         let file = path.join(SETTINGS);
-        let text = match fs::read_to_string(&file) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(error) => return Err(Error::io("read", &file)(error)),
-        };
-        let there: Value =
-            serde_json::from_str(&text).map_err(|_| Error::in_file(&file, None, AuditFolderFlaw::NoSettings))?;
+        let Some(there) = read_settings(&file)? else { return Ok(()) };
         let here = serde_json::to_value(audit.settings()).expect("what is audited is always JSON");
         match ["study", "suites"].into_iter().find(|key| there.get(key) != here.get(key)) {
             Some(key) => Err(AuditFolderFlaw::Other { path: path.to_owned(), key: key.to_owned() }.into()),
@@ -189,6 +177,18 @@ impl Audit<'_> {
     fn tries(&self, index: usize, one: &Tried) -> bool {
         self.tried_mutants().get(index).is_some_and(|noticed| noticed.mutant == one.mutant)
             && one.kills.len() == self.suites.len()
+    }
+}
+
+/// Reads the file that says what is audited; `None` if there is no such file.
+fn read_settings(file: &Path) -> Result<Option<Value>, Error> {
+    match fs::read_to_string(file) {
+        Ok(text) => {
+            let flaw = |_| Error::in_file(file, None, AuditFolderFlaw::NoSettings);
+            serde_json::from_str(&text).map(Some).map_err(flaw)
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Error::io("read", file)(error)),
     }
 }
 

@@ -97,7 +97,7 @@ impl Kept {
         }
     }
 
-    /// Returns the result of some work: the kept one, or that of the work. `is_sure` says if a result is worth keeping.
+    /// Returns the kept result. If there is none, this does the work, and keeps its result if `is_sure` says so.
     ///
     /// # Errors
     /// The work fails.
