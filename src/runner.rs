@@ -66,9 +66,9 @@ pub struct Report {
     pub plausible: Option<Plausible>,
     /// The impact speeds of the tests with a contact, or `None` if no test has one.
     pub impacts: Option<Impacts>,
-    /// The points of Euro NCAP, or `None` if no test is on a grid of the protocol.
+    /// The points of Euro NCAP, or `None` if the scenario runs no tests of a grid of the protocol.
     pub points: Option<Points>,
-    /// The failure map, or `None` if fewer than two continuous parameters are open.
+    /// The failure map, or `None` if fewer than two continuous parameters are open, or if no test has a result.
     pub map: Option<FailureMap>,
     /// The combinations of discrete values that only failing tests have, or `None` if the search was not possible. The
     /// search needs an open discrete parameter, a failing test and a passing test.
@@ -113,6 +113,7 @@ impl Report {
         put(&self.coverage)?;
         self.map.iter().try_for_each(|map| put(&MapFiles::Failures(map)))?;
         put(&self.modes)?;
+        self.points.iter().try_for_each(|points| put(points))?;
         self.perceived.iter().try_for_each(|perceived| put(perceived))?;
         self.explanation.iter().try_for_each(|explanation| put(explanation))?;
         self.effects.iter().try_for_each(|effects| put(effects))?;
@@ -122,7 +123,9 @@ impl Report {
 
     fn of(log: Log, finish: Finish, summary: Summary) -> Result<Self, Error> {
         let coverage = Coverage::of(&log.test_set()?, &Measure::all().collect::<Vec<_>>(), None, Limit::USUAL)?;
-        let map = explanation::axes(&log, [None, None])?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
+        let has_results = log.trials().iter().any(Trial::covers);
+        let axes = if has_results { explanation::axes(&log, [None, None])? } else { None };
+        let map = axes.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
         let has_levels = !log.study().space().levels().is_empty();
         Ok(Self {
             coverage,

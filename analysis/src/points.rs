@@ -5,8 +5,8 @@
 //! drives real cars, checks predictions of the manufacturer, and adds the points of further scenarios to a rating in stars. A simulation
 //! cannot do that: these are points on one grid.
 
-use paracosm_campaign::{Log, Study};
-use paracosm_space::{Value, Values};
+use paracosm_campaign::{JsonArtefact, Log, Study};
+use paracosm_space::{Value, Values, plural};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -85,8 +85,8 @@ pub struct Points {
 }
 
 impl Points {
-    /// Looks at the trials of a campaign. `None` if no test of the campaign is on a grid of the protocol: another scenario, other values,
-    /// or a perceiver on trial. If two tests are at the same place of the grid, the worse one counts.
+    /// Looks at the trials of a campaign. `None` if the scenario runs no tests of a grid of the protocol, or if a perceiver is on trial. If
+    /// two tests are at the same place of the grid, the worse one counts.
     pub fn of(log: &Log) -> Option<Self> {
         let study = log.study();
         if study.perceiver().is_some() {
@@ -111,16 +111,25 @@ impl Points {
         let is_whole = ran == cells && without_situation == 0;
         let points = is_whole.then(|| grid.points * shares.values().sum::<f64>() / cells as f64);
         let (protocol, name, of) = (PROTOCOL, grid.name, grid.points);
-        (ran + without_situation > 0).then_some(Self {
-            protocol,
-            grid: name,
-            cells,
-            ran,
-            without_situation,
-            points,
-            of,
-        })
+        Some(Self { protocol, grid: name, cells, ran, without_situation, points, of })
     }
+
+    /// Describes the points in words, or why there are none.
+    pub fn in_words(&self) -> String {
+        let Self { grid, cells, ran, without_situation, points, of, .. } = self;
+        match points {
+            Some(points) => format!("{points:.3} of {of:.3}: {grid}, {}", plural(*cells, "test")),
+            None if *without_situation > 0 => {
+                let missed = plural(*without_situation, "test");
+                format!("none: in {missed} of {grid}, the situation never came about")
+            }
+            None => format!("none: {ran} of the {cells} tests of {grid} have run"),
+        }
+    }
+}
+
+impl JsonArtefact for Points {
+    const FILE: &'static str = "points.json";
 }
 
 impl Grid {

@@ -26,7 +26,7 @@ pub(crate) const EXTENDED: &str = "extended.csv";
 /// The names of the files about the programs that a campaign starts.
 const OF_PROGRAMS: [&str; 4] = [run_in::FILE, "driver.log", "perceiver.log", "system.log"];
 /// The names of the files that hold results derived from the trials of a campaign.
-pub const DERIVED: [&str; 17] = [
+pub const DERIVED: [&str; 18] = [
     "effects.json",
     "trials.csv",
     "coverage.json",
@@ -34,6 +34,7 @@ pub const DERIVED: [&str; 17] = [
     "failure-map.png",
     "failure-map.csv",
     "modes.json",
+    "points.json",
     "perception.json",
     "explanation.json",
     "located.json",

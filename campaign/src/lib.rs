@@ -115,8 +115,8 @@ pub mod reasons {
     pub use crate::space_file::SpaceFileFlaw;
     pub use crate::study::{
         AppearanceFlaw, DriverFlaw, EntryFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario,
-        OddFlaw, ParameterMisuse, PerceiverFlaw, RateFlaw, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw,
-        Untrusted, UntrustedAddress, WithoutCameras,
+        NoSuchCommand, OddFlaw, ParameterMisuse, PerceiverFlaw, RateFlaw, RequirementFlaw, SamplingFlaw, SpecFlaw,
+        TomlFlaw, Untrusted, UntrustedAddress, WithoutCameras,
     };
     pub use crate::study_file::FormatFlaw;
     pub use crate::test_set::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};

@@ -69,6 +69,14 @@ impl Log {
         Self { study: self.study.trusting(&trust), ..self }
     }
 
+    /// Returns a copy of the log with another command in the study, as [`Study::with_command`] describes.
+    ///
+    /// # Errors
+    /// The study names no command for the option, or the new command is invalid.
+    pub fn with_command(&self, option: &'static str, command: &str) -> Result<Self, Error> {
+        Ok(Self { study: self.study.with_command(option, command)?, ..self.clone() })
+    }
+
     /// Returns the folder in which the commands of the campaign ran; `None` if the study runs no commands, or if the folder is not known.
     pub fn run_in(&self) -> Option<&Path> {
         self.run_in.as_deref().filter(|_| !self.study.commands().is_empty())

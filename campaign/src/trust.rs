@@ -43,6 +43,11 @@ impl Trust {
         self.all
     }
 
+    /// Returns the commands that the user gave.
+    pub(crate) fn given(&self) -> &[String] {
+        &self.commands
+    }
+
     /// Returns `true` if a command may be run.
     pub(crate) fn covers(&self, command: &str) -> bool {
         self.all || self.commands.iter().any(|trusted| trusted == command)

@@ -73,6 +73,11 @@ impl Options {
         changes(&mut table, "new failures", &difference.new_failures, &difference.new_modes, 1);
         changes(&mut table, "mended", &difference.mended, &difference.mended_modes, 0);
         table.row("fail in both", &difference.still_failing.to_string());
+        if let Some([before, after]) = &difference.points {
+            table.row("points before", &before.in_words());
+            table.row("points after", &after.in_words());
+            table.row("  protocol", before.protocol);
+        }
         table.row("McNemar's test", &format!("p = {}", digits(difference.mcnemar_p)));
         for (i, margin) in difference.margins.iter().enumerate() {
             table.row(if i == 0 { "margins" } else { "" }, &in_words(margin));
@@ -87,11 +92,15 @@ fn changes(table: &mut Table, label: &str, changed: &[Changed], modes: &[ModeCou
     let example = first.map(|index| format!(", such as test {index}")).unwrap_or_default();
     table.row(label, &format!("{}{}", changed.len(), if modes.is_empty() { example.as_str() } else { "" }));
     for mode in modes.iter().take(MODES_SHOWN) {
-        let tests = match mode.tests[..] {
-            [one] => format!("test {one}"),
-            _ => format!("{}, such as test {}", plural(mode.tests.len(), "test"), mode.tests[0]),
+        // The sentence has the ranges of all tests with this mode.
+        let tests = match (&mode.tests[..], mode.of) {
+            ([one], 1) => format!("test {one}"),
+            ([one], of) => format!("test {one}, one of {of} in which"),
+            (tests, of) if tests.len() == of => format!("{}, such as test {}", plural(of, "test"), tests[0]),
+            (tests, of) => format!("{} (such as test {}) of {of} in which", plural(tests.len(), "test"), tests[0]),
         };
-        table.row("", &format!("{tests}: {}", mode.words));
+        let colon = if tests.ends_with("which") { "" } else { ":" };
+        table.row("", &format!("{tests}{colon} {}", mode.words));
     }
     if modes.len() > MODES_SHOWN {
         table.row("", &format!("and {} in --format json", plural(modes.len() - MODES_SHOWN, "more mode")));

@@ -66,7 +66,7 @@ impl Reason for ExportFlaw {}
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = trust::read_log(&self.dir, catalogue, &self.trust.trust(), verbosity)?;
+        let (log, _) = self.trust.read(&self.dir, catalogue, verbosity)?;
         let (study, logged) = (log.study(), logged(&self.dir, &log, self.index)?);
         let stem = self.out.file_name().and_then(|name| name.to_str()).unwrap_or(SCENARIO);
         let files = [self.out.join(format!("{stem}.{XOSC}")), self.out.join(ROADS)];

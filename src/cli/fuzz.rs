@@ -47,8 +47,8 @@ Examples:
   paracosm-fuzz list
       scenarios, strategies, drivers
 
-Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input or a failed \
-    run.";
+Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input, a failed run, \
+    or a test that ended in an error (with --fail-on-violation).";
 
 const REPLAYS: &str = "\
 Examples:
@@ -69,7 +69,8 @@ A regression file says how its test should end. `shrink --save` writes `\"expect
 
 Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with --fail-on-violation), or \
     did not end as expected (with --fail-on-unexpected); 2 a file cannot be run, a test broke, or a test that should \
-    fail had another trace than the trace that the same version of the software recorded.";
+    fail had another trace than the trace that the same version of the software recorded, without a driver in a process of \
+    its own.";
 
 /// Tests a driver over the open parameters of a scenario.
 #[derive(Debug, Parser)]

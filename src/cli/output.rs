@@ -91,7 +91,7 @@ impl Table {
         let is_part = coverage.continuous.as_ref().is_some_and(|continuous| continuous.valid_share.is_some());
         let bracket = |found: &Bracket| if is_part { bracket_of_part(found) } else { bracket(found) };
         if let Some(continuous) = &coverage.continuous {
-            self.continuous(continuous);
+            self.continuous(continuous, coverage.tests);
         }
         if let Some(Some(discrete)) = &coverage.discrete {
             self.discrete(discrete);
@@ -122,7 +122,7 @@ impl Table {
         }
     }
 
-    fn continuous(&mut self, measured: &Continuous) {
+    fn continuous(&mut self, measured: &Continuous, tests: usize) {
         if let Some(share) = &measured.valid_share {
             self.row("valid share", &format!("{} of the box of the continuous parameters", short_bracket(share)));
         }
@@ -130,7 +130,8 @@ impl Table {
             let label = measure.descriptor().label;
             match result {
                 Measured::Number(number) => {
-                    self.row(label, &number.map_or(format!("unknown: no tests, or {CUT_SHORT}"), digits));
+                    let why = if tests == 0 { "no tests" } else { CUT_SHORT };
+                    self.row(label, &number.map_or(format!("unknown: {why}"), digits));
                 }
                 Measured::Bracket(found) => self.row(label, &bracket(found)),
                 Measured::Hole(hole) => {

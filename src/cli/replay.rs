@@ -49,6 +49,12 @@ pub(super) struct Options {
     /// The name of the camera for --camera [default: the first by name]
     #[arg(long, value_name = "NAME", requires = "camera")]
     through: Option<String>,
+    /// Show the test also if it ends in another way than in the log
+    ///
+    /// This is for a driver, a system or a perceiver that was changed since the campaign. The logged results stand beside the new
+    /// results. With a command that differs from the command of the campaign, this is the default.
+    #[arg(long)]
+    changed: bool,
     /// The expected end of the tests in regression files, instead of the expectation in the files
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
@@ -86,8 +92,8 @@ impl Options {
                 let message = format!("{} is a folder: expected the index of a test after it", dir.display());
                 return Err(usage(message).into());
             }
-            _ if self.trace.is_some() || self.draw.is_some() || self.camera.is_some() => {
-                let message = "--trace, --draw and --camera are for a test of a campaign: replay DIR INDEX";
+            _ if self.trace.is_some() || self.draw.is_some() || self.camera.is_some() || self.changed => {
+                let message = "--trace, --draw, --camera and --changed are for a test of a campaign: replay DIR INDEX";
                 return Err(usage(message.into()).into());
             }
             files => {
@@ -121,7 +127,7 @@ impl Options {
             let message = format!("{option} is for regression files; for a test of a campaign the log has the verdict");
             return Err(usage(message).into());
         }
-        let log = trust::read_log(dir, catalogue, &self.trust.trust(), verbosity)?;
+        let (log, has_other_command) = self.trust.read(dir, catalogue, verbosity)?;
         let (study, logged) = (log.study(), logged(dir, &log, index)?);
         let inputs: Vec<&Path> = self.cameras.as_deref().into_iter().collect();
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Gif];
@@ -156,7 +162,7 @@ impl Options {
             return Err(Error::Interrupted.into());
         }
         // A file from a test that differs from the log would mislead.
-        if !trial.repeats(logged) {
+        if !trial.repeats(logged) && !self.changed && !has_other_command {
             return Err(difference(&worker, logged, &trial).into());
         }
         if let Some(clip) = clip {
@@ -169,7 +175,7 @@ impl Options {
             };
             clip.until(stop)
                 .in_look(look)
-                .write(&mut worker, logged, &cameras)?
+                .write(&mut worker, &trial, &cameras)?
                 .iter()
                 .for_each(|line| verbosity.note(line));
         }
@@ -180,10 +186,14 @@ impl Options {
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
         print(&match self.form.format {
-            Format::Table => table(study, &trial),
+            Format::Table => table(study, &trial, logged),
             Format::Json => json(&trial),
         })?;
-        Ok(if trial.is_failure() { Status::Violation } else { Status::Nothing })
+        match trial.error() {
+            Some(error) if self.fail_on_violation => Err(format!("test {index} ended in an error: {error}").into()),
+            _ if trial.is_failure() => Ok(Status::Violation),
+            _ => Ok(Status::Nothing),
+        }
     }
 }
 
@@ -272,46 +282,78 @@ pub(super) fn draw(record: &MotionRecord, kind: FileKind, caption: &str) -> Resu
     }
 }
 
-/// Describes the differences between the replay and the log.
+/// Describes the differences between the replay and the log, with what may have caused them.
 fn difference(worker: &Worker, logged: &Trial, trial: &Trial) -> String {
-    let fields = |trial: &Trial| serde_json::to_value(trial).expect("a trial is always JSON");
-    let (logged, found) = (fields(logged), fields(trial));
-    let keys = found.as_object().into_iter().flatten().map(|(key, _)| key);
-    let keys = keys.filter(|key| logged.get(key) != found.get(key));
-    let differ: Vec<String> = keys.map(|key| format!("{key} {}, logged {}", found[key], logged[key])).collect();
-    let mut message = format!("test {} differs from the log: {}", trial.index, differ.join("; "));
-    if !worker.study().is_of_this_software() {
-        message.push_str("; the campaign was run by another version of this software");
+    let study = worker.study();
+    let (rows, before) = (results(study, trial), results(study, logged));
+    let mut message = format!("test {} differs from the log", trial.index);
+    for (name, value) in &rows {
+        let logged = before.iter().find(|(other, _)| other == name).map_or("nothing", |(_, logged)| logged);
+        if logged != value {
+            message.push_str(&format!("\n  {name}: {value}, logged {logged}"));
+        }
+    }
+    if rows == before {
+        message.push_str(" by less than the digits that `replay` shows");
+    }
+    if !study.is_of_this_software() {
+        message.push_str("\n  the campaign was run by another version of this software");
     }
     if worker.darkroom().is_some() {
-        message.push_str("; its driver has cameras, and images are the same only on the same graphics adapter");
+        message.push_str("\n  the driver has cameras, and images are the same only on the same graphics adapter");
+    }
+    if let Some(other) = study.commands().first().map(|named| named.command).or(study.address()) {
+        message.push_str(&format!(
+            "\n  `{other}` runs in a process of its own: it was changed since the campaign, or it does not answer the same \
+             questions in the same way; --changed shows the test as it ends now"
+        ));
     }
     message
 }
 
-/// The trial in words.
-fn table(study: &Study, trial: &Trial) -> String {
-    let mut table = Table::default();
-    table.heading(&format!("test {}: {}", trial.index, trial.verdict));
-    for (parameter, (name, value)) in study.space().parameters().iter().zip(trial.test.iter()) {
-        table.row(name, &format!("{} {}", value_words(value), parameter.unit.as_deref().unwrap_or_default()));
-    }
+/// Returns the names and the values of all results of a trial in words.
+fn results(study: &Study, trial: &Trial) -> Vec<(String, String)> {
+    let mut rows = vec![("verdict".to_owned(), trial.verdict.to_string())];
     for id in trial.requirements() {
         let unit = study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
         let value = trial.robustness(id);
-        table.row(id, &value.map_or("undecided".to_owned(), |value| format!("{} {unit}", digits(value))));
+        let value =
+            value.map_or("undecided".to_owned(), |value| format!("{} {unit}", digits(value)).trim_end().to_owned());
+        rows.push((id.to_owned(), value));
     }
     for (name, metric) in trial.metrics() {
         let metric = match metric {
-            Metric::Number(number) => digits(number),
+            Metric::Number(number) => format!("{} {}", digits(number), Metric::unit(&name)).trim_end().to_owned(),
             Metric::Flag(flag) => (if flag { "yes" } else { "no" }).to_owned(),
             Metric::Word(word) => word.unwrap_or_else(|| "none".to_owned()),
         };
-        table.row(&name, &metric);
+        rows.push((name, metric));
     }
     if let Some(error) = trial.error() {
-        table.row("error", error);
+        rows.push(("error".to_owned(), error.to_owned()));
     }
-    table.row("trace hash", &format!("{}, as logged", trial.trace_hash.as_deref().unwrap_or("none")));
+    let hash = trial.trace_hash.as_deref().unwrap_or("none");
+    rows.push(("trace hash".to_owned(), hash.to_owned()));
+    rows
+}
+
+/// Describes the trial in words, with logged values beside values that differ.
+fn table(study: &Study, trial: &Trial, logged: &Trial) -> String {
+    let (rows, before) = (results(study, trial), results(study, logged));
+    let mut table = Table::default();
+    let was = if trial.verdict == logged.verdict { String::new() } else { format!(", logged {}", logged.verdict) };
+    table.heading(&format!("test {}: {}{was}", trial.index, trial.verdict));
+    for (parameter, (name, value)) in study.space().parameters().iter().zip(trial.test.iter()) {
+        table.row(name, &format!("{} {}", value_words(value), parameter.unit.as_deref().unwrap_or_default()));
+    }
+    for (name, value) in &rows[1..] {
+        let other = before.iter().find(|(other, _)| other == name).filter(|(_, logged)| logged != value);
+        let hash = name == "trace hash";
+        match other {
+            None if hash => table.row(name, &format!("{value}, as logged")),
+            None => table.row(name, value),
+            Some((_, logged)) => table.row(name, &format!("{value}, logged {logged}")),
+        }
+    }
     table.finish()
 }

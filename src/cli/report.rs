@@ -7,7 +7,7 @@ use crate::Report;
 use crate::engine::Violation;
 use crate::oracles::Verdict;
 use crate::space::Value;
-use paracosm_analysis::{Effects, Inconclusive, Judged, Modes, Plausible, Points, RangeRecall, Segmented, Worst};
+use paracosm_analysis::{Effects, Inconclusive, Judged, Modes, Plausible, RangeRecall, Segmented, Worst};
 use paracosm_campaign::{Artefact, Extension, ExtensionRecord, Finish, Number, Study, Trial};
 use paracosm_report::plot::MapFiles;
 use paracosm_report::{command_option, shell_word};
@@ -40,6 +40,10 @@ impl Printed<'_> {
                 let share = percent(count as f64 / summary.tests().max(1) as f64);
                 let meaning = meaning(verdict);
                 table.row(&verdict.to_string(), &format!("{count:<6}{share}{meaning}"));
+                let first = self.report.log.trials().iter().find(|trial| trial.verdict == verdict);
+                if let Some((index, problem)) = first.and_then(|trial| Some((trial.index, trial.error()?))) {
+                    table.row("", &format!("such as test {index}: {}", problem.lines().next().unwrap_or_default()));
+                }
             }
         }
         for (i, judged) in summary.requirements().iter().enumerate() {
@@ -59,7 +63,14 @@ impl Printed<'_> {
             table.row("impact speed", &impacts_in_words(impacts));
         }
         if let Some(points) = &self.report.points {
-            show_points(&mut table, points);
+            table.row("points on this grid", &points.in_words());
+            if points.points.is_none() {
+                let (program, scenario) =
+                    (self.program, study.subject().scenario().map_or("", |simulation| simulation.scenario()));
+                let how = format!("`{} describe {scenario}` has the options of the whole grid", shell_word(program));
+                table.row("", &how);
+            }
+            table.row("  protocol", points.protocol);
         }
         self.show_modes(&mut table);
         if let Some(explanation) = &self.report.explanation {
@@ -92,7 +103,10 @@ impl Printed<'_> {
                 &format!("{} of {}; the coverage counts them", plural(known.tests, "test"), known.name),
             );
         }
-        table.coverage(&self.report.coverage);
+        match self.report.coverage.tests {
+            0 => table.row("coverage", "nothing is covered, because no test has a result"),
+            _ => table.coverage(&self.report.coverage),
+        }
         if let Some(promise) = &self.report.promise {
             table.row("random rows", &format!("{}, {} of them different", promise.rows, self.different_rows()));
             table.row("  guaranteed", &promise.words());
@@ -313,21 +327,6 @@ impl Printed<'_> {
         let (program, out) = (shell_word(self.program), shell_word(&self.out.to_string_lossy()));
         format!("{program} {verb} {out} {index}{}", command_option(self.study()))
     }
-}
-
-/// Adds the points of Euro NCAP to the table.
-fn show_points(table: &mut Table, Points { protocol, grid, cells, ran, without_situation, points, of }: &Points) {
-    match points {
-        Some(points) => {
-            table.row("points on this grid", &format!("{points:.3} of {of:.3}: {grid}, {}", plural(*cells, "test")));
-        }
-        None if *without_situation > 0 => {
-            let missed = plural(*without_situation, "test");
-            table.row("points on this grid", &format!("none: in {missed} of {grid}, the situation never came about"));
-        }
-        None => table.row("points on this grid", &format!("none: {ran} of the {cells} tests of {grid} have run")),
-    }
-    table.row("  protocol", protocol);
 }
 
 /// Explains a verdict that is neither pass nor fail.

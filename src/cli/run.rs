@@ -12,7 +12,9 @@ use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
-use paracosm_campaign::{Catalogue, Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder, Supervision};
+use paracosm_campaign::{
+    Catalogue, Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder, Supervision, Trial,
+};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -84,7 +86,7 @@ pub(super) struct Options {
     stop_at_first: bool,
     /// Exit with status 1 if a test fails
     ///
-    /// A test fails if it violates a requirement.
+    /// A test fails if it violates a requirement. If a test ends in an error, so that nobody knows whether it fails, the status is 2.
     #[arg(long, help_heading = OUTPUT)]
     fail_on_violation: bool,
     /// Also write junit.xml, for CI systems
@@ -158,7 +160,18 @@ impl Options {
         }
         if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
             let first = log.trials()[0].error().unwrap_or_default();
-            return Err(format!("every test ended in an error; the first error: {first}").into());
+            let more = self.output_of_programs();
+            return Err(format!("every test ended in an error; the first error: {first}{more}").into());
+        }
+        // A gate that says yes although some tests have no result would be false assurance.
+        if let Some(trial) = log.trials().iter().find(|trial| self.fail_on_violation && trial.verdict == Verdict::Error)
+        {
+            let (errors, tests) = (summary.count(Verdict::Error), plural(summary.tests(), "test"));
+            let (index, first) = (trial.index, trial.error().unwrap_or_default());
+            let message = format!(
+                "{errors} of {tests} ended in an error, so they have no verdict; the first, test {index}: {first}"
+            );
+            return Err(message.into());
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
         let found = if violated { Status::Violation } else { Status::Nothing };
@@ -200,7 +213,7 @@ impl Options {
         if ran < self.budget && report.finish != Finish::Stopped && (ran > 0 || extension.is_some()) {
             verbosity.note(self.shortfall(report, extension));
         }
-        if report.map.is_none() {
+        if report.map.is_none() && report.log.trials().iter().any(Trial::covers) {
             verbosity.note("no failure map: a map needs two open continuous parameters");
         }
     }
@@ -228,6 +241,13 @@ impl Options {
             None => String::new(),
         };
         format!("the campaign ended before its budget: {why}{more}")
+    }
+
+    /// Says where the output of the campaign's programs is, if they have printed anything.
+    fn output_of_programs(&self) -> String {
+        let logs = ["driver.log", "perceiver.log", "system.log"].map(|name| self.out.join(name));
+        let there = logs.iter().filter(|log| log.exists()).map(|log| log.display().to_string()).collect::<Vec<_>>();
+        if there.is_empty() { String::new() } else { format!("\n  the output is in {}", there.join(", ")) }
     }
 
     /// Checks that the scenario to resume is not the name of a folder.

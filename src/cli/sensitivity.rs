@@ -53,7 +53,7 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = trust::read_log(&self.dir, catalogue, &self.trust.trust(), verbosity)?;
+        let (log, _) = self.trust.read(&self.dir, catalogue, verbosity)?;
         let sensitivity = match self.budget {
             Some(budget) => self.of_tests(&log, budget, verbosity)?,
             None => of_model(&log, self.seed)?,

@@ -34,7 +34,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         self.save.as_deref().map_or(Ok(()), Regression::check_path)?;
-        let log = trust::read_log(&self.dir, catalogue, &self.trust.trust(), verbosity)?;
+        let (log, _) = self.trust.read(&self.dir, catalogue, verbosity)?;
         let study = log.study();
         let same = if self.same_mode { Sameness::Mode } else { Sameness::Requirements };
         let shrunk = Shrunk::of(&log, logged(&self.dir, &log, self.index)?, same, self.budget)?;

@@ -2,7 +2,7 @@
 
 use super::Verbosity;
 use clap::Args;
-use paracosm_campaign::{Catalogue, Log, Trust};
+use paracosm_campaign::{Catalogue, Log, NamedCommand, Trust};
 use std::path::Path;
 
 /// The options of the commands that run tests of a folder or a file again.
@@ -10,7 +10,7 @@ use std::path::Path;
 pub(super) struct Options {
     #[command(flatten)]
     drives: OfDrivers,
-    /// Run this command, if the folder or the file names it as the command of its perceiver
+    /// Run this command as the perceiver, if the folder or the file names one
     #[arg(long, value_name = "COMMAND")]
     perceiver_command: Option<String>,
 }
@@ -18,10 +18,13 @@ pub(super) struct Options {
 /// The options of the commands that run tests again, but not with a perceiver.
 #[derive(Debug, Args)]
 pub(super) struct OfDrivers {
-    /// Run this command, if the folder or the file names it as its system
+    /// Run this command as the system, if the folder or the file names one
     #[arg(long, value_name = "COMMAND")]
     system: Option<String>,
-    /// Run this command, if the folder or the file names it as the command of its driver
+    /// Run this command as the driver, if the folder or the file names one
+    ///
+    /// In a file, and for `blame`, the command has to be exactly the command of the file or of the folder. Otherwise another command
+    /// takes its place, for example if the driver has moved.
     #[arg(long, value_name = "COMMAND")]
     driver_command: Option<String>,
     /// Run the commands that the folder or the file names
@@ -51,6 +54,36 @@ pub(super) fn read_log(
 }
 
 impl Options {
+    /// Reads the log of a campaign with the trust that the options state. A command of the options takes the place of the command of
+    /// the campaign; `true` is returned beside the log if it is another command.
+    ///
+    /// # Errors
+    /// The folder holds no campaign, or one of its files is broken; or the campaign has no command of this kind.
+    pub fn read(
+        &self,
+        dir: &Path,
+        catalogue: &Catalogue,
+        verbosity: Verbosity,
+    ) -> Result<(Log, bool), paracosm_campaign::Error> {
+        let mut log = read_log(dir, catalogue, &self.trust(), verbosity)?;
+        let OfDrivers { system, driver_command, .. } = &self.drives;
+        let given = [
+            (NamedCommand::SYSTEM, system),
+            (NamedCommand::DRIVER, driver_command),
+            (NamedCommand::PERCEIVER, &self.perceiver_command),
+        ];
+        let mut is_other = false;
+        for (option, command) in given.into_iter().filter_map(|(option, command)| Some((option, command.as_ref()?))) {
+            let named = log.study().commands().into_iter().find(|named| named.option == option);
+            if let Some(other) = named.filter(|named| named.command != command) {
+                verbosity.note(format_args!("the campaign ran `{}`; now `{command}` runs in its place", other.command));
+                is_other = true;
+            }
+            log = log.with_command(option, command)?;
+        }
+        Ok((log, is_other))
+    }
+
     /// Returns the trust that the options state.
     pub fn trust(&self) -> Trust {
         self.perceiver_command.iter().fold(self.drives.trust(), Trust::command)

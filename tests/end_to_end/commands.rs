@@ -259,6 +259,26 @@ fn exit_status_1_says_that_a_violation_was_found_and_only_where_asked() {
     assert_eq!(replay.status.code(), Some(1), "{}", stderr(&replay));
 }
 
+/// A system that cannot run its second test.
+const BREAKS: &str = r#"while read -r line; do i=${line#*:}; i=${i%%,*}
+if [ $i = 1 ]; then echo "{\"index\":$i,\"error\":\"no licence\"}"; else echo "{\"index\":$i,\"robustness\":{\"a\":1}}"; fi; done"#;
+
+#[test]
+fn a_gate_does_not_open_if_a_test_has_no_verdict() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("system.sh"), BREAKS).unwrap();
+    fs::write(dir.path().join("SPACE.toml"), "parameter = [{ name = \"x\", interval = [-1, 1] }]\n").unwrap();
+    let system = ["--system", "sh system.sh", "--space", "SPACE.toml", "--budget", "4", "-q", "--out"];
+    succeeds(fuzz(dir.path(), &[&system[..], &["open"]].concat()));
+    let gate = fuzz(dir.path(), &[&system[..], &["gate", "--fail-on-violation"]].concat());
+    crate::common::refused(&gate, &["1 of 4 tests ended in an error", "the first, test 1: ", "no licence"]);
+    assert!(stdout(&gate).contains("error"), "the summary is printed all the same");
+    let replay = ["replay", "gate", "1", "--trust"];
+    succeeds(fuzz(dir.path(), &replay));
+    let replayed = fuzz(dir.path(), &[&replay[..], &["--fail-on-violation"]].concat());
+    crate::common::refused(&replayed, &["test 1 ended in an error", "no licence"]);
+}
+
 #[test]
 fn open_and_set_change_the_space_and_the_rest() {
     let dir = tempfile::tempdir().unwrap();

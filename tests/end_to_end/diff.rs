@@ -58,6 +58,8 @@ fn tests_of_one_campaign_alone_are_named_and_campaigns_without_a_pair_are_refuse
     succeeds(fuzz(dir, &["cut-in", "--budget", "20", "--seed", "3", "--out", "c", "-q"]));
     refused(&fuzz(dir, &["diff", "a", "c"]), &["no test in common", "same strategy, seed and budget"]);
     succeeds(fuzz(dir, &["--budget", "20", "--out", "d", "-q"]));
-    refused(&fuzz(dir, &["diff", "a", "d"]), &["`ego_speed` is open in the first campaign"]);
+    refused(&fuzz(dir, &["diff", "a", "d"]), &["first campaign is on `cut-in`, the second on `pedestrian-crossing`"]);
+    succeeds(fuzz(dir, &["cut-in", "--set", "gap=20", "--budget", "20", "--out", "e", "-q"]));
+    refused(&fuzz(dir, &["diff", "a", "e"]), &["`gap` is open in the first campaign"]);
     refused(&fuzz(dir, &["diff", "a", "nowhere"]), &["nowhere/campaign.json"]);
 }

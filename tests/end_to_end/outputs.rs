@@ -184,7 +184,7 @@ fn a_replay_that_differs_from_the_log_leaves_nothing_behind() {
     fs::write(&log, text.replace(hash, &"0".repeat(hash.len()))).unwrap();
     let before = fs::read_dir(dir.path().join("camp")).unwrap().count();
     let replay = ["replay", "camp", "0", "--draw", "run.svg", "--trace", "run.csv"];
-    refused(&fuzz(dir.path(), &replay), &["test 0 differs from the log: trace_hash"]);
+    refused(&fuzz(dir.path(), &replay), &["test 0 differs from the log", "trace hash: "]);
     refused(&fuzz(dir.path(), &["replay", "camp", "0"]), &["differs from the log"]);
     assert!(!dir.path().join("run.svg").exists() && !dir.path().join("run.csv").exists());
     assert_eq!(fs::read_dir(dir.path().join("camp")).unwrap().count(), before);

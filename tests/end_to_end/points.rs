@@ -106,8 +106,22 @@ fn a_part_of_the_grid_or_another_world_gives_no_points() {
     let whole: Vec<&str> = whole.iter().map(String::as_str).collect();
     for (driver, other) in [("rss", "--set=friction=0.4"), ("cc", "--set=fog=0.5")] {
         let printed = campaign(dir.path(), "ncap-cpfa", driver, &[&whole[..], &[other]].concat());
-        assert_eq!(printed["points"], Value::Null, "{other}");
+        assert_eq!((&printed["points"]["ran"], &printed["points"]["points"]), (&json!(0), &Value::Null), "{other}");
     }
+    // The points stand in a file, and a comparison has them if both campaigns ran the whole grid.
+    for (driver, out) in [("cruise", "before"), ("planner", "after")] {
+        succeeds(fuzz(dir.path(), &[&["ncap-cpfa", "--driver", driver, "--out", out], &whole[..]].concat()));
+    }
+    let compared = stdout(&succeeds(fuzz(dir.path(), &["diff", "before", "after", "--format", "json"])));
+    let compared: Value = serde_json::from_str(&compared).unwrap();
+    for (i, folder) in ["before", "after"].iter().enumerate() {
+        let kept = fs::read_to_string(dir.path().join(folder).join("points.json")).unwrap();
+        let kept: Value = serde_json::from_str(&kept).unwrap();
+        assert_eq!(compared["points"][i], kept, "{folder}");
+        assert!(kept["points"].is_number(), "{kept}");
+    }
+    let compared = stdout(&succeeds(fuzz(dir.path(), &["diff", "before", "after"])));
+    assert!(compared.contains("points before") && compared.contains("0.500: CPFA day, 6 tests"), "{compared}");
     // A car that brakes before anything happens avoids nothing.
     let settings =
         ["ttc=10", "field_of_view=180", "clear_ttc=20", "margin=2"].map(|setting| format!("--set=driver.{setting}"));

@@ -55,6 +55,45 @@ fn last_y(dir: &Path, out: &str) -> f64 {
     text.lines().last().unwrap().split(',').nth(column.expect("it says where the car is")).unwrap().parse().unwrap()
 }
 
+/// Prints the classes of the README's table with their fields.
+const FIELDS: &str = "import paracosm as p, dataclasses
+for name in ['Briefing', 'Observation', 'Way', 'Body', 'Control']:
+    print(name, *(field.name for field in dataclasses.fields(getattr(p, name))))";
+
+#[test]
+fn the_readme_has_every_field_of_an_observation() {
+    let dir = tempfile::tempdir().unwrap();
+    let script = dir.path().join("fields.py");
+    fs::write(&script, FIELDS).unwrap();
+    let Some(command) = python(&script) else { return };
+    let output = succeeds(Command::new("sh").args(["-c", &command]).output().unwrap());
+    let readme = fs::read_to_string(package().join("README.md")).unwrap();
+    let (mut class, mut table) = (String::new(), String::new());
+    for row in readme.lines().filter(|line| line.starts_with("| `") || line.starts_with("| | `")) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        if !cells[1].is_empty() {
+            class = cells[1].trim_matches('`').to_owned();
+            table.push_str(&format!("\n{class}"));
+        }
+        cells[2].split(", ").for_each(|field| table.push_str(&format!(" {}", field.trim_matches('`'))));
+    }
+    assert!(!class.is_empty());
+    assert_eq!(table.trim(), stdout(&output).trim());
+}
+
+#[test]
+fn the_example_that_brakes_for_others_hits_fewer_than_a_car_that_does_not_brake() {
+    let Some(command) = python(&package().join("examples/brake.py")) else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let failing = |driver: [&str; 2]| {
+        let options = ["pedestrian-crossing", "--budget", "100", "--format", "json", "--out", driver[1]];
+        let out = stdout(&succeeds(fuzz(dir.path(), &[&driver[..], &options].concat())));
+        serde_json::from_str::<Value>(&out).unwrap()["verdicts"]["fail"].as_u64().unwrap()
+    };
+    let [brakes, cruises] = [failing(["--driver-command", &command]), failing(["--driver", "cruise"])];
+    assert!(2 * brakes < cruises, "{brakes} and {cruises} tests fail");
+}
+
 #[test]
 fn thirty_lines_of_numpy_keep_a_car_in_its_lane_by_what_they_see() {
     let Some(command) = python(&package().join("examples/lane_follow.py")) else { return };

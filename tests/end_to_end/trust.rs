@@ -33,12 +33,52 @@ fn has_run(dir: &Path) -> bool {
 fn a_command_in_a_file_is_shown_and_not_run() {
     let dir = campaign();
     for again in AGAIN {
-        for other in [&[] as &[&str], &["--system", "sh other.sh"], &["--driver-command", "sh system.sh ."]] {
-            let output = fuzz(dir.path(), &[again, other].concat());
-            refused(&output, &["the command `sh system.sh`", "add --system 'sh system.sh', or --trust"]);
-            assert!(!has_run(dir.path()), "{again:?}");
-        }
+        let output = fuzz(dir.path(), again);
+        refused(&output, &["the command `sh system.sh`", "add --system 'sh system.sh', or --trust"]);
+        assert!(!has_run(dir.path()), "{again:?}");
     }
+    let output = fuzz(dir.path(), &["replay", "one.json", "--system", "sh other.sh"]);
+    refused(&output, &["add --system 'sh system.sh', or --trust", "exactly the same, but you gave `sh other.sh`"]);
+    assert!(!has_run(dir.path()));
+}
+
+#[test]
+fn another_command_of_the_user_takes_the_place_of_the_command_of_a_folder() {
+    let dir = campaign();
+    // The system has moved, and no longer fails.
+    let mended =
+        r#"while read -r line; do i=${line#*:}; i=${i%%,*}; echo "{\"index\":$i,\"robustness\":{\"a\":2}}"; done"#;
+    fs::write(dir.path().join("other.sh"), mended).unwrap();
+    let replayed = succeeds(fuzz(dir.path(), &["replay", "camp", "1", "--system", "sh other.sh"]));
+    let note = stderr(&replayed);
+    assert!(note.contains("the campaign ran `sh system.sh`; now `sh other.sh` runs in its place"), "{note}");
+    let shown = stdout(&replayed);
+    assert!(shown.contains("test 1: pass, logged fail") && shown.contains("2, logged -1"), "{shown}");
+    assert!(!has_run(dir.path()));
+    // The same command with changed contents.
+    fs::rename(dir.path().join("other.sh"), dir.path().join("system.sh")).unwrap();
+    let same = ["replay", "camp", "1", "--system", "sh system.sh"];
+    let says = [
+        "test 1 differs from the log",
+        "verdict: pass, logged fail",
+        "a: 2, logged -1",
+        "`sh system.sh` runs",
+        "--changed",
+    ];
+    refused(&fuzz(dir.path(), &same), &says);
+    let changed = stdout(&succeeds(fuzz(dir.path(), &[&same[..], &["--changed"]].concat())));
+    assert!(changed.contains("test 1: pass, logged fail"), "{changed}");
+    // A mended failure is no broken test.
+    let regression = fuzz(dir.path(), &["replay", "one.json", "--system", "sh system.sh", "--fail-on-unexpected"]);
+    assert_eq!(regression.status.code(), Some(1), "{}", stderr(&regression));
+}
+
+#[test]
+fn a_command_for_which_the_campaign_has_no_place_is_refused() {
+    let dir = campaign();
+    let output = fuzz(dir.path(), &["replay", "camp", "1", "--driver-command", "sh system.sh"]);
+    refused(&output, &["--driver-command 'sh system.sh'", "tests system sh system.sh", "leave --driver-command out"]);
+    assert!(!has_run(dir.path()));
 }
 
 #[test]

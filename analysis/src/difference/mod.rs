@@ -8,6 +8,7 @@
 mod tests;
 
 use crate::modes::Modes;
+use crate::points::Points;
 use crate::statistics::{mcnemar_p, quantile};
 use paracosm_campaign::{Error, Log, Reason, Study, Trial};
 use paracosm_oracles::Verdict;
@@ -26,6 +27,9 @@ pub struct Difference {
     pub tests: usize,
     /// The numbers of tests of each campaign that have no pair. A pair counts once, however often a campaign repeats its test.
     pub unpaired: [usize; 2],
+    /// The points of Euro NCAP of both campaigns, if both have points on the same grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<[Points; 2]>,
     /// The numbers of failing tests among the pairs.
     pub failing: [usize; 2],
     /// The number of pairs in which both tests fail.
@@ -67,6 +71,8 @@ pub struct ModeCount {
     pub words: String,
     /// The indices of the changed tests in the campaign of the mode.
     pub tests: Vec<usize>,
+    /// The number of all tests of the campaign with this mode, which the sentence describes.
+    pub of: usize,
 }
 
 /// The changes of the robustness for one requirement, over the pairs in which both campaigns have a finite one.
@@ -102,6 +108,16 @@ pub struct Loss {
 /// The reason why two campaigns cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum DifferenceFlaw {
+    /// The campaigns are on scenarios with different parameters.
+    #[error(
+        "the first campaign is on `{first}`, the second on `{second}`: only campaigns over the same parameters of a scenario have the same tests"
+    )]
+    Scenarios {
+        /// The scenario of the first campaign.
+        first: String,
+        /// The scenario of the second campaign.
+        second: String,
+    },
     /// A campaign has an open parameter that the other one does not have.
     #[error(
         "parameter `{name}` is open in the {has} campaign and not in the {lacks} one{}: only campaigns over the same parameters have the same tests",
@@ -177,6 +193,7 @@ impl Difference {
             titles: [first, second].map(|log| log.study().title()),
             tests: pairs.len(),
             unpaired: [first, second].map(|log| log.trials().len() - pairs.len()),
+            points: points(first, second),
             failing: [0, 1].map(|of| pairs.iter().filter(|pair| pair[of].is_failure()).count()),
             still_failing: pairs.iter().filter(|pair| pair.iter().all(|trial| trial.is_failure())).count(),
             new_modes: modes(second, new_failures.iter().map(|changed| changed.index[1])),
@@ -200,6 +217,12 @@ impl Changed {
     }
 }
 
+/// Returns the points of two campaigns that ran the same grid of Euro NCAP.
+fn points(first: &Log, second: &Log) -> Option<[Points; 2]> {
+    let both = [Points::of(first)?, Points::of(second)?];
+    (both[0].grid == both[1].grid && both.iter().all(|points| points.points.is_some())).then_some(both)
+}
+
 fn in_words<S: serde::Serializer>(verdicts: &[Verdict; 2], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(verdicts.iter().map(ToString::to_string))
 }
@@ -219,6 +242,12 @@ fn same_parameters(first: &Log, second: &Log) -> Result<(), DifferenceFlaw> {
         [(Which::First, Which::Second, &ours, &theirs), (Which::Second, Which::First, &theirs, &ours)]
     {
         if let Some(name) = these.iter().find(|name| !others.contains(name)) {
+            let scenario = |log: &Log| log.study().subject().scenario().ok().map(|found| found.scenario().to_owned());
+            if let (Some(first), Some(second)) = (scenario(first), scenario(second))
+                && first != second
+            {
+                return Err(DifferenceFlaw::Scenarios { first, second });
+            }
             let nearest = nearest(name, others.iter().map(String::as_str)).map(str::to_owned);
             return Err(DifferenceFlaw::Parameter { name: name.clone(), has, lacks, nearest });
         }
@@ -232,7 +261,7 @@ fn modes(log: &Log, tests: impl Iterator<Item = usize>) -> Vec<ModeCount> {
     let all = Modes::of(log).modes.into_iter();
     let counts = all.map(|mode| {
         let tests = tests.iter().copied().filter(|index| mode.trials.contains(index)).collect();
-        ModeCount { name: mode.name, words: mode.words, tests }
+        ModeCount { name: mode.name, words: mode.words, tests, of: mode.trials.len() }
     });
     let mut counts: Vec<ModeCount> = counts.filter(|mode| !mode.tests.is_empty()).collect();
     // A stable sort: modes with as many tests keep their order.

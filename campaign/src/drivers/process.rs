@@ -97,6 +97,12 @@ impl Running {
                 Ok(session) => return Ok(session),
                 Err(OpenError::Unreachable) if !self.is_alive() => {
                     let how = self.post_mortem("before it listened at PARACOSM_ADDRESS", "");
+                    let how = match self.with(Process::status).is_some_and(|status| status.success()) {
+                        true => format!(
+                            "{how}; a driver listens until it is ended: in Python, its last line is `MyDriver().serve()`"
+                        ),
+                        false => how,
+                    };
                     return Err(Problem::new(ProblemKind::Process, how));
                 }
                 Err(OpenError::Unreachable) if stop.load(Ordering::Relaxed) => {

@@ -11,6 +11,7 @@ use paracosm_rpc::{Address, AddressError, CONNECTS, OpenError, Terms};
 use paracosm_space::{Record, did_you_mean, nearest};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
@@ -128,6 +129,17 @@ pub enum DriverFlaw {
         /// The most similar name of a driver; `None` if no name is similar.
         nearest: Option<&'static str>,
     },
+    /// The name is that of a file, which a command would have to start.
+    #[error(
+        "no driver is called `{name}`, which is the name of a file: --driver-command starts a driver of your own, for example \
+         --driver-command {}", shell_words::quote(.command)
+    )]
+    File {
+        /// The name of the file.
+        name: String,
+        /// A command that may start the driver.
+        command: String,
+    },
     /// The driver has no setting with the given name, or the value of the setting is out of range.
     #[error("{0}; `paracosm-fuzz list` shows all drivers with their settings")]
     Setting(DriverError),
@@ -207,6 +219,10 @@ impl Reason for DriverFlaw {}
 impl From<DriverError> for DriverFlaw {
     fn from(error: DriverError) -> Self {
         match error {
+            DriverError::Unknown { name, nearest: None } if name.ends_with(".py") || Path::new(&name).is_file() => {
+                let command = if name.ends_with(".py") { format!("python3 {name}") } else { format!("./{name}") };
+                Self::File { name, command }
+            }
             DriverError::Unknown { name, nearest: None } => {
                 let nearest = nearest(&name, [CLONED]);
                 Self::Unknown { name, nearest }
@@ -288,6 +304,15 @@ impl DriverChoice {
             }
         };
         Ok(Self { name: name.to_owned(), settings, source: Source::External(External { by, timeout, origin }) })
+    }
+
+    /// Returns the choice with another command in place of the command that starts the driver.
+    pub(super) fn with_command(&self, command: &str) -> Result<Self, DriverFlaw> {
+        let timeout = match &self.source {
+            Source::External(external) => Some(external.timeout),
+            _ => None,
+        };
+        Self::external(command, By::Command, self.settings.clone(), timeout)
     }
 
     /// Returns the name of the driver, or the address or the command of a driver in an external process.

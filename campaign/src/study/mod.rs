@@ -28,7 +28,7 @@ mod toml_file;
 pub use actors::AppearanceFlaw;
 pub use appearance::{Appearances, ModelFlaw, WithoutCameras};
 pub use builder::StudyBuilder;
-pub use command::{NamedCommand, Untrusted, UntrustedAddress};
+pub use command::{NamedCommand, NoSuchCommand, Untrusted, UntrustedAddress};
 pub use driver::{DriverChoice, DriverFlaw, Origin};
 pub use entries::EntryFlaw;
 pub(crate) use entries::check_scale;

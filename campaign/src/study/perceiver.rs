@@ -205,6 +205,15 @@ impl PerceiverChoice {
         self.command.as_ref().map(|command| command.command.as_str())
     }
 
+    /// Sets another command in place of the command that starts the perceiver.
+    pub(super) fn set_command(&mut self, command: &str) -> Result<(), PerceiverFlaw> {
+        if let Some(seeing) = &mut self.command {
+            command.clone_into(&mut seeing.command);
+            command.clone_into(&mut self.name);
+        }
+        self.check()
+    }
+
     /// Returns the name of the perceiver.
     pub fn name(&self) -> &str {
         &self.name

@@ -25,6 +25,18 @@ pub enum Metric {
     Word(Option<String>),
 }
 
+impl Metric {
+    /// Returns the unit of the metric with the given name; the text is empty if the metric has no unit.
+    pub fn unit(name: &str) -> &'static str {
+        match name.split('.').next().unwrap_or_default() {
+            "travelled" | "critical_travelled" => "m",
+            "impact_speed" | "other_speed" | "critical_speed" => "m/s",
+            "critical_time" => "s",
+            _ => "",
+        }
+    }
+}
+
 impl Display for Metric {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
