@@ -52,8 +52,10 @@ The audit writes audit.json, mutants.jsonl, which has a line for each mutant, an
 /// The number of rows with the largest holes in the table.
 const ROWS: usize = 5;
 
-/// The options of `audit`.
+/// The options of `audit`. An audit mutates the driver, which therefore runs in this process.
 #[derive(Debug, Args)]
+#[command(mut_arg("driver_command", |option| option.hide(true)), mut_arg("system", |option| option.hide(true)))]
+#[command(mut_arg("space", |option| option.hide(true)))]
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,

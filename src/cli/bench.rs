@@ -63,7 +63,7 @@ pub(super) struct Options {
     /// Each is NAME, or NAME+PARAMETER+.. to open parameters.
     #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"], help_heading = COMPARED)]
     scenarios: Vec<String>,
-    /// The strategies
+    /// The strategies, or NAME=FILES for points of others
     ///
     /// `paracosm-fuzz list` shows them all [default: random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto].
     /// NAME=FILES takes sets of points in [0,1], a set of --budget points in each file: mine=folder/*.csv. The set of the seed 1 is in the

@@ -76,7 +76,8 @@ impl Target {
         let what = match self.kind {
             FileKind::Csv => "table",
             FileKind::Xodr => "road network",
-            FileKind::Svg | FileKind::Png | FileKind::Gif => "picture",
+            FileKind::Gif => "film",
+            FileKind::Svg | FileKind::Png => "picture",
         };
         Ok(format!("{what} of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
     }

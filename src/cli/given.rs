@@ -2,7 +2,7 @@
 
 use super::usage;
 use crate::generators::{Look, MarkShape, PointSets, Strategy};
-use paracosm_campaign::{Error, read_tests};
+use paracosm_campaign::{Error, TestSet};
 use std::path::{Path, PathBuf};
 
 /// The looks of such strategies in figures, one after the other.
@@ -54,7 +54,7 @@ fn read(name: &str, pattern: &str) -> Result<PointSets, Error> {
     }
     let mut sets = PointSets::default();
     for file in &files {
-        let tests = read_tests(file, None)?;
+        let tests = TestSet::read_points(file)?;
         if tests.points.is_empty() {
             return Err(wrong(format!("{} has no points", file.display())));
         }

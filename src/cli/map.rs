@@ -95,8 +95,8 @@ impl Options {
                 for file in files.files() {
                     write_whole_here(&self.dir.join(file), &files.contents(file)?)?;
                 }
-                let svg = files.files().into_iter().next().unwrap_or_default();
-                verbosity.note(format_args!("written to {}", self.dir.join(svg).display()));
+                let written = files.files().into_iter().map(|file| self.dir.join(file).display().to_string());
+                verbosity.note(format_args!("written to {}", written.collect::<Vec<_>>().join(", ")));
             }
         }
         let without = effects.iter().flat_map(Effects::without_effect);

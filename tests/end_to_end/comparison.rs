@@ -85,6 +85,16 @@ fn points_in_files_are_compared_like_those_of_a_strategy() {
         ["compare", "--strategies", "one=alone.csv,halton", "--dims", "2", "--budgets", "24", "--baseline", "one"];
     let alone = succeeds(cover(dir.path(), &[&alone[..], &["--seeds", "3", "--out", "alone"]].concat()));
     assert!(stderr(&alone).contains("one has 1 set at d = 2, n = 24, too few for a comparison"), "{}", stderr(&alone));
+    assert!(stdout(&alone).contains("order unknown"), "{}", stdout(&alone));
+    // Without --seeds, there are as many seeds as sets.
+    let shared =
+        ["compare", "--strategies", "halton,mine=sets/*.txt", "--dims", "2", "--budgets", "24", "--out", "shared"];
+    let shared = stdout(&succeeds(cover(dir.path(), &shared)));
+    assert!(shared.contains("median over 3 seeds") && !shared.contains("median over 30"), "{shared}");
+    fs::write(dir.path().join("outside.csv"), "x,y\n0.1,0.2\n1.5,0.3\n").unwrap();
+    let outside = cover(dir.path(), &["compare", "--strategies", "halton,mine=outside.csv", "--out", "no"]);
+    refused(&outside, &["outside.csv, line 3: parameter `x`: found 1.5, expected a number in [0, 1]"]);
+    assert!(!stderr(&outside).contains("--space"), "compare has no such option: {}", stderr(&outside));
     for (strategies, says) in [
         ("halton=sets/*.txt", "a strategy is called `halton` already"),
         ("mine=nowhere/*.csv", "mine=nowhere/*.csv: found no file"),

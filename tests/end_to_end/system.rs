@@ -92,7 +92,10 @@ fn robustness_is_judged_by_its_sign_and_shown_in_every_file() {
     assert!(stderr(&replay).contains("no trace to write") && !dir.path().join("trace.csv").exists());
     // A system that answers otherwise by now.
     script(dir.path(), &ROBUSTNESS.replace('2', "3"));
-    refused(&fuzz(dir.path(), &["replay", "out", "7", "--trust"]), &["test 7 differs from the log", "far: 3, logged 2"]);
+    refused(
+        &fuzz(dir.path(), &["replay", "out", "7", "--trust"]),
+        &["test 7 differs from the log", "far: 3, logged 2"],
+    );
     let drawn = fuzz(dir.path(), &["replay", "out", "7", "--trust", "--draw", "test.svg"]);
     refused(&drawn, &["test.svg", "no world to draw"]);
 }

@@ -85,6 +85,14 @@ pub enum SuiteFlaw {
         /// The name of the strategy.
         strategy: String,
     },
+    /// The suite is the name of a strategy without a number of tests.
+    #[error(
+        "found the strategy `{strategy}` without a number of tests, expected for example `{strategy}:100`, or a file"
+    )]
+    NoNumber {
+        /// The name of the strategy.
+        strategy: String,
+    },
     /// The suite has no test that keeps the constraints.
     #[error("the suite `{name}` has no test that keeps the constraints of the scenario ({} left out)", plural(*left_out, "test"))]
     NoTest {
@@ -106,9 +114,16 @@ impl Reason for SuiteFlaw {}
 impl FromStr for Source {
     type Err = SuiteFlaw;
 
-    /// Reads `STRATEGY:N`, `grid:AxBxC`, or a path.
+    /// Reads `STRATEGY:N`, `grid:AxBxC`, or a path. The name of a strategy alone is a path if such a file exists.
     fn from_str(text: &str) -> Result<Self, SuiteFlaw> {
-        let Some((name, rest)) = text.split_once(':') else { return Ok(Self::Path(text.into())) };
+        let Some((name, rest)) = text.split_once(':') else {
+            let is_strategy = text.parse::<Strategy>().is_ok() && !Path::new(text).exists();
+            return if is_strategy {
+                Err(SuiteFlaw::NoNumber { strategy: text.to_owned() })
+            } else {
+                Ok(Self::Path(text.into()))
+            };
+        };
         if name == GRID {
             let sizes = rest.split('x').map(|size| size.parse().ok().filter(|size| *size >= 2));
             let sizes = sizes.collect::<Option<_>>().ok_or_else(|| SuiteFlaw::Sizes { found: rest.to_owned() })?;
@@ -282,6 +297,7 @@ mod tests {
         for (text, says) in [
             ("halton:0", "expected a number of tests such as halton:40"),
             ("grid:5x1", "such as grid:5x4x2"),
+            ("halton", "expected for example `halton:100`"),
             ("cmaes:40", "audit the folder of a campaign"),
         ] {
             let message = text.parse::<Source>().unwrap_err().to_string();

@@ -103,7 +103,7 @@ impl Reason for ComparisonFlaw {}
 
 impl SamplerComparison {
     /// Makes a comparison of these strategies with the default settings. These are 2, 3 and 5 dimensions, 50, 100 and
-    /// 500 points, and 30 seeds. The baseline is `halton` if it is among the strategies, and otherwise the first
+    /// 500 points, and 30 seeds, or as many as the given sets of a size if they are fewer. The baseline is `halton` if it is among the strategies, and otherwise the first
     /// strategy.
     ///
     /// # Errors
@@ -115,13 +115,20 @@ impl SamplerComparison {
             strategies: strategies.to_vec(),
             dims: vec![2, 3, 5],
             budgets: vec![50, 100, 500],
-            seeds: ENOUGH_SEEDS,
+            seeds: Self::usual_seeds(strategies),
             first_seed: 1,
             measures: None,
             k: 2,
             baseline,
             limit: Limit::LONG,
         })
+    }
+
+    /// Returns the number of seeds for which each of the given sets has a partner.
+    fn usual_seeds(strategies: &[Strategy]) -> usize {
+        let given = strategies.iter().filter_map(|strategy| strategy.given());
+        let counts = given.flat_map(|sets| sets.sizes().map(|(dims, points)| sets.count(dims, points)));
+        counts.min().map_or(ENOUGH_SEEDS, |fewest| fewest.clamp(2, ENOUGH_SEEDS))
     }
 
     /// Checks the comparison and plans its sets of points, with dimensions and budgets in ascending order.
@@ -237,7 +244,7 @@ impl SamplerComparison {
                     _ if count < self.seeds => {
                         let have = plural(count, "set");
                         notes.push(format!(
-                            "{strategy} has {have} {at}, too few for a comparison of pairs with the baseline"
+                            "{strategy} has {have} {at}, too few for a comparison of pairs with the baseline over {} seeds", self.seeds
                         ));
                     }
                     _ => {}

@@ -59,12 +59,17 @@ pub enum HeaderFlaw {
     #[error("the columns seem to be separated by `;`, expected `,`")]
     Semicolons,
     /// The file has no column for a coordinate of the space.
-    #[error("no column is called `{name}`{}", nearest.as_ref().map(|column| format!(" (is it `{column}`?)")).unwrap_or_default())]
+    #[error(
+        "no column is called `{name}`{}; the columns are {found}",
+        nearest.as_ref().map(|column| format!(" (is it `{column}`?)")).unwrap_or_default()
+    )]
     NoColumn {
         /// The name of the missing column.
         name: String,
         /// The most similar name of a column; `None` if no name is similar.
         nearest: Option<String>,
+        /// The names of all columns.
+        found: String,
     },
 }
 

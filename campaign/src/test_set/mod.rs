@@ -73,12 +73,15 @@ impl TestSet {
         space: Option<Space>,
         aliases: &Aliases,
     ) -> Result<Self, Error> {
-        let mut file = TestsFile::of(source, path, space, aliases)?;
-        let mut points = Vec::new();
-        while let Some((line, record)) = file.next(points.len())? {
-            points.push(file.test(line, &record)?.1);
-        }
-        Ok(Self::new(file.space, points))
+        TestsFile::of(source, path, space, aliases)?.all()
+    }
+
+    /// Reads points of the unit cube, whose coordinates are the columns of the file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or a value is not in `[0,1]`.
+    pub fn read_points(path: &Path) -> Result<Self, Error> {
+        TestsFile { is_made_up: false, ..TestsFile::open(path, None, &Aliases::default())? }.all()
     }
 
     /// Reads tests whose cells may be empty from a CSV file, for a space without continuous parameters. An empty cell
@@ -169,7 +172,7 @@ struct TestsFile<'p> {
     columns: Vec<usize>,
     /// The index of the column of a campaign's verdicts.
     verdict: Option<usize>,
-    /// True if the space was made from the columns.
+    /// True if the space was made from the columns, so that the tests may belong to another one.
     is_made_up: bool,
 }
 
@@ -208,6 +211,15 @@ impl<'p> TestsFile<'p> {
         };
         let texts = space.parameters().iter().filter_map(texts).collect();
         Ok(Self { path, aliases, texts, reader, header, space, columns, verdict, is_made_up })
+    }
+
+    /// Reads all tests of the file.
+    fn all(mut self) -> Result<TestSet, Error> {
+        let mut points = Vec::new();
+        while let Some((line, record)) = self.next(points.len())? {
+            points.push(self.test(line, &record)?.1);
+        }
+        Ok(TestSet::new(self.space, points))
     }
 
     /// Returns the next record with its line; `known` is the number of tests that were read before. Skips tests of a
@@ -332,7 +344,15 @@ fn columns(path: &Path, space: &Space, header: &csv::StringRecord) -> Result<Vec
     let column = |name: &str| {
         header.iter().position(|column| column == name).ok_or_else(|| {
             let nearest = nearest(name, header).map(str::to_owned);
-            Error::in_file(path, 1, HeaderFlaw::NoColumn { name: name.to_owned(), nearest })
+            Error::in_file(
+                path,
+                1,
+                HeaderFlaw::NoColumn {
+                    name: name.to_owned(),
+                    nearest,
+                    found: header.iter().collect::<Vec<_>>().join(", "),
+                },
+            )
         })
     };
     space.coordinates().map(|coordinate| column(&coordinate.name())).collect()

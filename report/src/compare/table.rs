@@ -42,8 +42,13 @@ fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) 
         }
         let slope = compared.slope(measure, dims, strategy).map_or("-".into(), |slope| format!("{:.2}", slope.slope));
         let versus = compared.cell(measure, dims, most, strategy).and_then(|cell| cell.versus.as_ref());
-        let none = if strategy == compared.comparison.baseline { "the baseline" } else { "order unknown" };
-        let versus = versus.map_or(none.into(), |versus| {
+        let sets = compared.cell(measure, dims, most, strategy).map_or(seeds, |cell| cell.seeds);
+        let none = match strategy == compared.comparison.baseline {
+            true => "the baseline".to_owned(),
+            false if sets < seeds => format!("order unknown: {} of {seeds}", plural(sets, "set")),
+            false => "order unknown".to_owned(),
+        };
+        let versus = versus.map_or(none, |versus| {
             let [low, high] = versus.interval.map(|end| format!("{end:.3}"));
             let ratio = format!("{:.3} ({low} to {high})", versus.ratio);
             format!("{ratio:<27}{:>6.2}  {:>9}", versus.better, p_value(versus.p_holm))

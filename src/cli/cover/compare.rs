@@ -32,9 +32,9 @@ Every strategy makes a set of points for every dimension, budget and seed; those
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct Options {
-    /// The strategies; `paracosm-fuzz list` shows them all
+    /// The strategies, or NAME=FILES for points of others
     ///
-    /// NAME=FILES takes the sets of points of other programs, a set in each file: mine=folder/*.csv. The columns of a file are in
+    /// `paracosm-fuzz list strategies` shows all strategies. NAME=FILES takes the sets of points of other programs, a set in each file: mine=folder/*.csv. The columns of a file are in
     /// [0,1], as `estimate` reads them. The sets of a size count as the seeds 1, 2 and so on, in the order of the names of their files.
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     strategies: Vec<String>,
@@ -45,8 +45,10 @@ pub(super) struct Options {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "50,100,500")]
     budgets: Vec<usize>,
     /// The number of seeds of each strategy
-    #[arg(long, value_name = "N", default_value_t = 30)]
-    seeds: usize,
+    ///
+    /// [default: 30; with NAME=FILES at most the number of their sets of a size]
+    #[arg(long, value_name = "N")]
+    seeds: Option<usize>,
     /// The first seed; the others follow it
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -121,7 +123,7 @@ impl Options {
         Ok(SamplerComparison {
             dims: self.dims.clone(),
             budgets: self.budgets.clone(),
-            seeds: self.seeds,
+            seeds: self.seeds.unwrap_or(defaults.seeds),
             first_seed: self.seed,
             measures: (!self.measures.is_empty()).then(|| self.measures.clone()),
             k: self.k,
