@@ -147,6 +147,14 @@ pub enum WorldFlaw {
         /// The name that both requirements have.
         id: String,
     },
+    /// The scale of a requirement is not a number above 0.
+    #[error("the scale of requirement `{id}` is {scale}, expected a number above 0")]
+    Scale {
+        /// The name of the requirement.
+        id: String,
+        /// The wrong scale.
+        scale: f64,
+    },
     /// Two streams that requirements refer to have the same name.
     #[error("two streams of requirements are called `{stream}`: give them different names by `named`")]
     SameName {

@@ -300,6 +300,10 @@ impl Program {
             if requirements[..i].iter().any(|other| other.requirement.id == *id) {
                 flaws.push(WorldFlaw::RequirementTwice { id: id.clone() });
             }
+            let scale = stated.requirement.scale;
+            if !(scale > 0.0 && scale.is_finite()) {
+                flaws.push(WorldFlaw::Scale { id: id.clone(), scale });
+            }
             for signal in &stated.signals {
                 let name = signal.to_string();
                 let others = requirements[..=i].iter().flat_map(|other| &other.signals);

@@ -59,7 +59,38 @@ fn an_actor_that_changes_lanes_faces_where_it_goes() {
     });
     assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.judgements);
     let y = signal(&outcome, "other.y");
-    assert!((y[0] + 5.25).abs() < 1e-9 && (y.last().unwrap() + 1.75).abs() < 1e-9);
+    assert!((y[0] + 5.24).abs() < 1e-9 && (y.last().unwrap() + 1.75).abs() < 1e-9);
+}
+
+#[test]
+fn an_actor_starts_at_the_first_value_of_its_offset_and_does_not_jump() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        let other = s.place(Mover::bicycle(road.path(2)).starting(50.0).speed(3.5).offset(-1.0));
+        // It is beside the car's lane from the first tick on.
+        s.place(Mover::car(road.path(1)).named("beside").starting(10.0).speed(10.0).offset(3.5));
+        s.require("steady", always(other.speed().below(3.6)));
+        s.require("clear", never(car.collides()));
+    });
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.judgements);
+    let y = signal(&outcome, "bicycle.y");
+    assert!(y.iter().all(|y| (y + 6.25).abs() < 1e-9), "{:?}", &y[..3]);
+    let speed = signal(&outcome, "bicycle.speed");
+    assert!(speed.iter().all(|speed| (speed - 3.5).abs() < 1e-9), "{:?}", &speed[..3]);
+    // Two lanes of 3.5 m, and the widths of both cars: the clearance of the first tick is that of the bodies where they start.
+    let clearance = signal(&outcome, "car.clearance");
+    assert!((clearance[0] - clearance[1]).abs() < 0.1 && clearance[0] > 0.5, "{:?}", &clearance[..3]);
+}
+
+#[test]
+fn actors_that_overlap_by_their_offsets_cannot_start() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        s.place(Mover::car(road.path(2)).starting(10.0).speed(10.0).offset(3.5));
+        s.require("clear", never(car.collides()));
+    });
+    assert_eq!(outcome.verdict(), Verdict::Invalid);
+    assert!(outcome.ending.message().unwrap().contains("overlap at the start"), "{:?}", outcome.ending.message());
 }
 
 #[test]
@@ -260,6 +291,12 @@ fn a_statement_of_several_streams_keeps_its_robustness() {
     assert!((robustness[0] - 3.0).abs() < 0.5 && (robustness[1] - 6.0).abs() < 0.5, "{robustness:?}");
 }
 
+/// A world with a requirement of this scale.
+fn slow(s: &mut Scenario, scale: f64) {
+    let (_, car) = rolling(s);
+    s.require("slow", always(car.speed().below(7.0))).scale(scale);
+}
+
 #[test]
 fn mistakes_are_named() {
     let twice = refusal(|s| {
@@ -279,6 +316,12 @@ fn mistakes_are_named() {
         "{beyond}"
     );
     assert!(beyond.contains("`road` has no lane 7; it has 1 to 2 and -1 to -2"), "{beyond}");
+    let scaled =
+        [(|s| slow(s, 0.0)) as fn(&mut Scenario), |s| slow(s, -5.0), |s| slow(s, f64::NAN), |s| slow(s, f64::INFINITY)];
+    for (build, scale) in scaled.into_iter().zip(["0", "-5", "NaN", "inf"]) {
+        let says = format!("the scale of requirement `slow` is {scale}, expected a number above 0");
+        assert!(refusal(build).contains(&says), "{}", refusal(build));
+    }
     let flat = refusal(|s| {
         let (road, _) = rolling(s);
         s.place(Fixture::new("sheet", Body::block(Class::Prop, 1.0, 0.0, 1.0), road.on_lane(2, 10.0)));

@@ -48,7 +48,7 @@ Examples:
       scenarios, strategies, drivers
 
 Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input, a failed run, \
-    or a test that ended in an error (with --fail-on-violation).";
+    or tests that show nothing (with --fail-on-violation).";
 
 const REPLAYS: &str = "\
 Examples:

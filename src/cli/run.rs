@@ -7,6 +7,7 @@ use super::sampling::Sampling;
 use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, report};
+use crate::analysis::Summary;
 use crate::generators::{Purpose, Strategy};
 use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
@@ -86,7 +87,8 @@ pub(super) struct Options {
     stop_at_first: bool,
     /// Exit with status 1 if a test fails
     ///
-    /// A test fails if it violates a requirement. If a test ends in an error, so that nobody knows whether it fails, the status is 2.
+    /// A test fails if it violates a requirement. The status is 2 if a test ends in an error, if no test passes or fails, or if there is no
+    /// requirement.
     #[arg(long, help_heading = OUTPUT)]
     fail_on_violation: bool,
     /// Also write junit.xml, for CI systems
@@ -172,6 +174,12 @@ impl Options {
                 "{errors} of {tests} ended in an error, so they have no verdict; the first, test {index}: {first}"
             );
             return Err(message.into());
+        }
+        if self.fail_on_violation
+            && summary.tests() > 0
+            && let Some(why) = untested(summary)
+        {
+            return Err(format!("the campaign does not show whether a requirement is violated: {why}").into());
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
         let found = if violated { Status::Violation } else { Status::Nothing };
@@ -285,6 +293,17 @@ impl Options {
             (None, None) => Strategy::usual(Purpose::Cover),
         })
     }
+}
+
+/// Returns the reason why the tests of a campaign show nothing; `None` if at least one test shows whether it passes.
+fn untested(summary: &Summary) -> Option<String> {
+    let judged = [Verdict::Pass, Verdict::Fail, Verdict::Unpreventable];
+    if judged.iter().all(|verdict| summary.count(*verdict) == 0) {
+        let counts = [Verdict::Inconclusive, Verdict::Invalid].map(|verdict| (summary.count(verdict), verdict));
+        let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, verdict)| format!("{count} {verdict}"));
+        return Some(format!("no test passed or failed ({})", words.collect::<Vec<_>>().join(", ")));
+    }
+    summary.requirements().is_empty().then(|| "there is no requirement; --spec or --requirements states one".to_owned())
 }
 
 /// Notes that there is one test, and how to vary parameters.

@@ -280,6 +280,19 @@ fn a_gate_does_not_open_if_a_test_has_no_verdict() {
 }
 
 #[test]
+fn a_gate_does_not_open_if_no_test_shows_anything() {
+    let dir = tempfile::tempdir().unwrap();
+    // The pedestrian waits behind the car, so that the situation never comes about.
+    let never = ["ncap-cpfa", "--driver", "aeb", "--set", "driver.ttc=10", "--set", "driver.field_of_view=180"];
+    let never = [&never[..], &["--set", "driver.clear_ttc=20", "--set", "driver.margin=2"]].concat();
+    let one = [&never[..], &["--set", "ego_speed=10", "--out", "one", "-q"]].concat();
+    let free = stdout(&succeeds(fuzz(dir.path(), &one)));
+    assert!(free.contains("inconclusive"), "{free}");
+    let gate = [&never[..], &["--set", "ego_speed=10", "--out", "gate", "--fail-on-violation"]].concat();
+    crate::common::refused(&fuzz(dir.path(), &gate), &["no test passed or failed (1 inconclusive)"]);
+}
+
+#[test]
 fn open_and_set_change_the_space_and_the_rest() {
     let dir = tempfile::tempdir().unwrap();
     let options = ["--open", "friction=0.3..0.8", "--open", "lanes", "--set", "speed=2", "--set", "driver.ttc=1.2"];

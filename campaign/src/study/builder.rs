@@ -136,7 +136,8 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets a function of this program that makes the driver under test. Only this program can replay its tests.
+    /// Sets a function of this program that makes the driver under test. Only this program can replay its tests, with
+    /// [`Study::driven_by_own`](super::Study::driven_by_own).
     pub fn own_driver(mut self, name: &str, make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static) -> Self {
         self.driver = Some(Wish::own(name, make));
         self

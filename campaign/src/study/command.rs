@@ -36,7 +36,7 @@ pub struct NoSuchCommand {
     pub option: &'static str,
     /// The command that the user gave.
     pub given: String,
-    /// What the campaign tests.
+    /// The title of the system or the driver that the campaign tests.
     pub subject: String,
 }
 

@@ -97,7 +97,8 @@ impl Mover {
         self
     }
 
-    /// Sets the distance to the left of the path in metres for lane changes; negative to the right, 0 by default.
+    /// Sets the distance to the left of the path in metres, for example for lane changes; negative to the right, 0 by default. The object
+    /// starts at the first value of the stream.
     pub fn offset(mut self, offset: impl Into<Stream<f64>>) -> Self {
         self.offset = offset.into();
         self
@@ -192,6 +193,8 @@ impl Geometric for Moving {
     }
 
     fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
+        self.offset = tick.number(&self.offset_input)?;
+        self.pose = self.path.beside(self.at, self.offset);
         self.speed = tick.speed(&self.speed_input)?;
         velocities[0] = self.pose.forward() * self.speed;
         Ok(())

@@ -118,11 +118,12 @@ pub enum InputError {
 /// The behaviour of an object that controls its own poses.
 pub trait Geometric: 'static {
     /// Writes the poses of the object's bodies, in the order of declaration; `None` for a body that is not in the world: it has
-    /// left, or it enters later. Before the first tick, only this difference counts, and bodies stand where they were declared.
+    /// left, or it enters later. Before the first tick, bodies stand where they were declared, unless [`Geometric::begin`] changes a pose.
     fn poses(&self, poses: &mut [Option<Pose>]);
 
     /// Writes the velocities of the object's bodies at the beginning of the run, in m/s over the ground, in the order
-    /// of declaration. By default they are at rest. The inputs are those of the first tick.
+    /// of declaration. By default they are at rest. The inputs are those of the first tick. If this call changes a pose of
+    /// [`Geometric::poses`], the body starts there.
     ///
     /// # Errors
     /// The same as of [`Geometric::step`].

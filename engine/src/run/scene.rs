@@ -121,6 +121,7 @@ impl Scene {
         graph.tick(clock);
         let inputs = self.wiring.slots(&graph);
         let friction = graph.value(friction).unwrap_or(f64::NAN);
+        let mut has_moved = false;
         for object in &mut self.objects {
             let (first, end) = object.own;
             let tick = Tick {
@@ -134,7 +135,20 @@ impl Scene {
             if let Behaviour::Geometric(behaviour) = &mut object.behaviour {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
+                let declared = vec![None; end - first];
+                let (mut before, mut after) = (declared.clone(), declared);
+                behaviour.poses(&mut before);
                 behaviour.begin(&tick, &mut self.velocities)?;
+                behaviour.poses(&mut after);
+                for (state, (before, after)) in self.previous[first..end].iter_mut().zip(before.iter().zip(&after)) {
+                    if let Some(pose) = after.filter(|_| before != after) {
+                        if !pose.is_finite() {
+                            return Err(Upset::Place { object: object.name.clone(), pose });
+                        }
+                        state.pose = pose;
+                        has_moved = true;
+                    }
+                }
                 for (state, velocity) in self.previous[first..end].iter_mut().zip(&self.velocities) {
                     if !velocity.iter().all(|speed| speed.is_finite()) {
                         return Err(Upset::Velocity { object: object.name.clone(), velocity: *velocity });
@@ -144,6 +158,17 @@ impl Scene {
             }
         }
         self.bodies.copy_from_slice(&self.previous);
+        if has_moved {
+            let mass = |object: &Object| match &object.behaviour {
+                Behaviour::Physical(mass, _) => Some((object.own.0, *mass)),
+                Behaviour::Geometric(_) => None,
+            };
+            let masses: Vec<(usize, f64)> = self.objects.iter().filter_map(mass).collect();
+            self.world = World::new(&self.bodies, &masses);
+            let clearance = self.world.clearance(&self.bodies);
+            self.contact = self.world.contact(&self.bodies, clearance);
+            self.clearance = self.world.clearance(&self.bodies[..self.told]);
+        }
         Ok(())
     }
 

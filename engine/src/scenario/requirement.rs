@@ -176,6 +176,7 @@ impl RequirementDraft {
     }
 
     /// Sets the scale of the requirement, which is the robustness in its unit that counts as large. The default is 1.
+    /// A scale that is not a number above 0 is a mistake, which the scenario reports.
     pub fn scale(self, scale: f64) -> Self {
         self.change(|requirement| requirement.scale = scale)
     }

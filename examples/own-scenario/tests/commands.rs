@@ -12,14 +12,6 @@ fn run(dir: &Path, arguments: &[&str]) -> String {
 }
 
 #[test]
-fn the_scenario_is_that_of_the_readme() {
-    let readme = include_str!("../../../README.md");
-    let scenario = include_str!("../src/jogger.rs");
-    let (_, function) = scenario.split_once("pub fn").expect("a function");
-    assert!(readme.contains(&format!("fn{function}")));
-}
-
-#[test]
 fn the_scenario_has_the_commands_of_paracosm() {
     let dir = tempfile::tempdir().expect("a folder");
     let run = |arguments: &[&str]| run(dir.path(), arguments);
