@@ -85,7 +85,7 @@ fn what_cannot_be_generated_is_refused_with_the_reason() {
         ),
         (
             &["--dims", "3", "--extend", "tests.csv"],
-            "error: tests.csv, line 1: no column is called `x3` (is it `x2`?)\n",
+            "error: tests.csv, line 1: no column is called `x3` (is it `x2`?); the columns are x1, x2\n",
         ),
         (
             &["--space", "SPACE.toml", "--measure", "kwise-dispersion"],
