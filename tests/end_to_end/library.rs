@@ -43,6 +43,9 @@ fn every_file_of_a_campaign_is_its_own_and_every_name_of_its_own_is_written_by_s
     succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
     succeeds(fuzz(dir.path(), &["map", "out", "--show", "severity", "-q"]));
     let mut written = contents(&dir.path().join("out"));
+    // Points are those of scenarios on a grid of Euro NCAP.
+    succeeds(fuzz(dir.path(), &["ncap-cpfa", "--budget", "1", "--out", "ncap", "-q"]));
+    written.extend(contents(&dir.path().join("ncap")));
     let perceived = tempfile::tempdir().unwrap();
     if runs_blind(perceived.path()) {
         written.extend(contents(&perceived.path().join("out")));
