@@ -19,6 +19,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 mod lists;
+mod page;
 mod runner;
 
 pub use lists::Lists;

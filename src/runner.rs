@@ -5,9 +5,11 @@ use crate::analysis::{
     Promise, Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
-    Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Supervision, Trial,
+    Artefact, Campaign, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason, Study,
+    Supervision, Trial,
 };
 use crate::coverage::Measure;
+use crate::oracles::Verdict;
 use crate::report::{FailureMap, Junit, TrialTable, plot::MapFiles};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -121,11 +123,39 @@ impl Report {
         self.junit.iter().try_for_each(|junit| put(junit))
     }
 
+    /// Derives the results of a campaign again from its folder. Effects, blame and located combinations are those of the folder's files,
+    /// because they need further tests. A campaign that still runs has the results of its tests so far.
+    ///
+    /// # Errors
+    /// The folder holds no campaign, or one of its files is broken.
+    pub fn read(log: Log, folder: &Path) -> Result<Self, Error> {
+        let mut summary = Summary::default();
+        log.trials().iter().for_each(|trial| summary.add(trial));
+        let sampling = log.study().sampling();
+        let finish = match sampling.stop_at_first && summary.count(Verdict::Fail) > 0 {
+            true => Finish::Stopped,
+            false if log.trials().len() < sampling.budget => Finish::Exhausted,
+            false => Finish::Budget,
+        };
+        let mut report = Self::of(log, finish, summary)?;
+        report.effects = Effects::read(folder)?;
+        Ok(report)
+    }
+
+    /// Returns the names of the two continuous coordinates that explain the failures best; `None` if fewer are open, or if no test has a
+    /// result.
+    pub(crate) fn axes(&self) -> Result<Option<[String; 2]>, Error> {
+        Self::axes_of(&self.log)
+    }
+
+    fn axes_of(log: &Log) -> Result<Option<[String; 2]>, Error> {
+        let has_results = log.trials().iter().any(Trial::covers);
+        if has_results { explanation::axes(log, [None, None]) } else { Ok(None) }
+    }
+
     fn of(log: Log, finish: Finish, summary: Summary) -> Result<Self, Error> {
         let coverage = Coverage::of(&log.test_set()?, &Measure::all().collect::<Vec<_>>(), None, Limit::USUAL)?;
-        let has_results = log.trials().iter().any(Trial::covers);
-        let axes = if has_results { explanation::axes(&log, [None, None])? } else { None };
-        let map = axes.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
+        let map = Self::axes_of(&log)?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
         let has_levels = !log.study().space().levels().is_empty();
         Ok(Self {
             coverage,

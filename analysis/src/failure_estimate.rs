@@ -115,37 +115,7 @@ impl FailureEstimate {
     /// # Errors
     /// A trial does not fit into the study's space, or its constraints cannot be satisfied.
     pub fn of(log: &Log, axes: Axes) -> Result<Option<Self>, Error> {
-        let (study, trials) = (log.study(), log.trials());
-        let Some(model) = failure_model(log)? else {
-            return Ok(None);
-        };
-        let (others, samples) = others(study)?;
-        if others.is_empty() {
-            return Ok(None);
-        }
-        let nodes = if samples == 1 { FINE } else { COARSE };
-        let at = |axis: usize, node: usize| node as f64 / (nodes[axis] - 1) as f64;
-        let place = |other: &Point, x: f64, y: f64| {
-            let mut test = other.clone();
-            for (axis, u) in axes.into_iter().zip([x, y]) {
-                test.continuous[axis] = u.min(1.0_f64.next_down());
-            }
-            test
-        };
-        let grid = (0..nodes[1]).flat_map(|j| (0..nodes[0]).map(move |i| (i, j)));
-        let groups: Vec<Vec<Point>> =
-            grid.map(|(i, j)| others.iter().map(|other| place(other, at(0, i), at(1, j))).collect()).collect();
-        let coordinates: Vec<_> = study.space().continuous().collect();
-        let values = |axis: usize| {
-            let parameter = coordinates[axes[axis]].parameter;
-            (0..nodes[axis]).map(|i| parameter.value_at(at(axis, i))).collect()
-        };
-        let names = axes.map(|axis| coordinates[axis].name());
-        let groups = weighed(study, trials, groups)?;
-        let valid =
-            groups.iter().map(|group| group.iter().map(|test| test.1).sum::<f64>() / group.len() as f64).collect();
-        let estimate = Self { names, x: values(0), y: values(1), shares: model.shares(&groups, samples), valid };
-        Ok(if estimate.invalid() < 1.0 { Some(estimate) } else { None })
+        Ok(Estimator::of(log)?.over(axes))
     }
 
     /// Returns the estimated share of failing tests at a node of the grid; `None` if the node is invalid.
@@ -208,6 +178,72 @@ impl FailureEstimate {
     }
 }
 
+/// The models of a campaign from which the failure probability over any two coordinates is estimated.
+pub struct Estimator<'a> {
+    study: &'a Study,
+    /// The model of the failures; `None` if no test failed, no test passed, or no model can be fitted.
+    failures: Option<FailureModel>,
+    /// The model of the tests whose worlds cannot be built; `None` if all can be.
+    invalid: Option<FailureModel>,
+    /// Tests with values of the other coordinates.
+    others: Vec<Point>,
+    /// The number of samples among `others`.
+    samples: usize,
+}
+
+impl<'a> Estimator<'a> {
+    /// Fits the models to the trials of a campaign.
+    ///
+    /// # Errors
+    /// A trial does not fit into the study's space, or its constraints cannot be satisfied.
+    pub fn of(log: &'a Log) -> Result<Self, Error> {
+        let (study, trials) = (log.study(), log.trials());
+        let failures = failure_model(log)?;
+        let (others, samples) = if failures.is_some() { others(study)? } else { (Vec::new(), 1) };
+        let invalid = if failures.is_some() { invalid_model(study, trials)? } else { None };
+        Ok(Self { study, failures, invalid, others, samples })
+    }
+
+    /// Estimates the failure probability over two continuous coordinates; `None` if there is no model of the failures, or if every place is
+    /// invalid.
+    pub fn over(&self, axes: Axes) -> Option<FailureEstimate> {
+        let model = self.failures.as_ref()?;
+        if self.others.is_empty() {
+            return None;
+        }
+        let nodes = if self.samples == 1 { FINE } else { COARSE };
+        let at = |axis: usize, node: usize| node as f64 / (nodes[axis] - 1) as f64;
+        let place = |other: &Point, x: f64, y: f64| {
+            let mut test = other.clone();
+            for (axis, u) in axes.into_iter().zip([x, y]) {
+                test.continuous[axis] = u.min(1.0_f64.next_down());
+            }
+            test
+        };
+        let grid = (0..nodes[1]).flat_map(|j| (0..nodes[0]).map(move |i| (i, j)));
+        let groups: Vec<Vec<(Point, f64)>> = grid
+            .map(|(i, j)| self.weighed(self.others.iter().map(|other| place(other, at(0, i), at(1, j))).collect()))
+            .collect();
+        let coordinates: Vec<_> = self.study.space().continuous().collect();
+        let values = |axis: usize| {
+            let parameter = coordinates[axes[axis]].parameter;
+            (0..nodes[axis]).map(|i| parameter.value_at(at(axis, i))).collect()
+        };
+        let names = axes.map(|axis| coordinates[axis].name());
+        let valid =
+            groups.iter().map(|group| group.iter().map(|test| test.1).sum::<f64>() / group.len() as f64).collect();
+        let shares = model.shares(&groups, self.samples);
+        let estimate = FailureEstimate { names, x: values(0), y: values(1), shares, valid };
+        (estimate.invalid() < 1.0).then_some(estimate)
+    }
+
+    /// Returns the tests of a group, each with the probability that its world can be built.
+    fn weighed(&self, group: Vec<Point>) -> Vec<(Point, f64)> {
+        let invalid = self.invalid.as_ref().map_or_else(|| vec![0.0; group.len()], |model| model.probabilities(&group));
+        group.into_iter().zip(invalid).map(|(test, invalid)| (test, 1.0 - invalid)).collect()
+    }
+}
+
 /// Returns whether more than half of the tests fail; `None` if this is not known with 95 % certainty.
 pub fn decided(share: &FailingShare) -> Option<bool> {
     [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)]
@@ -240,21 +276,15 @@ fn points(study: &Study, trials: &[&Trial]) -> Result<Vec<Point>, Error> {
     Ok(trials.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?)
 }
 
-/// Returns the tests of the groups, each with the probability that its world can be built.
-fn weighed(study: &Study, trials: &[Trial], groups: Vec<Vec<Point>>) -> Result<Vec<Vec<(Point, f64)>>, Error> {
-    let model = if trials.iter().any(|trial| trial.verdict == Verdict::Invalid) {
-        let built: Vec<&Trial> = trials.iter().filter(|trial| trial.verdict != Verdict::Error).collect();
-        let side = |trial: &&Trial| if trial.verdict == Verdict::Invalid { -1.0 } else { 1.0 };
-        let sides: Vec<f64> = built.iter().map(side).collect();
-        FailureModel::fit(study.space(), &points(study, &built)?, &sides)
-    } else {
-        None
-    };
-    let weigh = |group: Vec<Point>| {
-        let invalid = model.as_ref().map_or_else(|| vec![0.0; group.len()], |model| model.probabilities(&group));
-        group.into_iter().zip(invalid).map(|(test, invalid)| (test, 1.0 - invalid)).collect()
-    };
-    Ok(groups.into_iter().map(weigh).collect())
+/// Returns a model of the tests whose worlds cannot be built; `None` if the worlds of all tests can be built, or if no model can be fitted.
+fn invalid_model(study: &Study, trials: &[Trial]) -> Result<Option<FailureModel>, Error> {
+    if !trials.iter().any(|trial| trial.verdict == Verdict::Invalid) {
+        return Ok(None);
+    }
+    let built: Vec<&Trial> = trials.iter().filter(|trial| trial.verdict != Verdict::Error).collect();
+    let side = |trial: &&Trial| if trial.verdict == Verdict::Invalid { -1.0 } else { 1.0 };
+    let sides: Vec<f64> = built.iter().map(side).collect();
+    Ok(FailureModel::fit(study.space(), &points(study, &built)?, &sides))
 }
 
 /// Returns tests with values of the other coordinates, and the number of their samples (1 without other coordinates).

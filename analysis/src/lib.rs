@@ -28,6 +28,7 @@ pub mod effects;
 pub mod estimate;
 pub mod explanation;
 pub mod failure_estimate;
+mod growth;
 mod impacts;
 pub mod likelihood;
 mod limit;
@@ -52,6 +53,7 @@ pub use estimate::{
 };
 pub use explanation::{Accuracy, Explanation, Inconclusive, Place, Rule};
 pub use failure_estimate::FailureEstimate;
+pub use growth::Growth;
 pub use impacts::Impacts;
 pub use limit::Limit;
 pub use live::LiveCoverage;

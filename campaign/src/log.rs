@@ -20,6 +20,8 @@ pub struct Log {
     scales: Scales,
     extension: Option<Extension>,
     trials: Vec<Trial>,
+    /// The hash of the study in the folder of the campaign; `None` if the log was not read from a folder.
+    hash: Option<String>,
     /// The folder in which the commands of the campaign ran, if the folder of the campaign says so.
     run_in: Option<PathBuf>,
 }
@@ -40,7 +42,7 @@ impl Log {
     pub fn new(study: Study, learned: Learned, extension: Option<Extension>, trials: Vec<Trial>) -> Self {
         let mut scales = Scales::of(&study, learned);
         scales.learn(&trials);
-        Self { study, scales, extension, trials, run_in: None }
+        Self { study, scales, extension, trials, hash: None, run_in: None }
     }
 
     /// Reads the log of a campaign from the campaign's folder.
@@ -57,7 +59,7 @@ impl Log {
         let log = path.join(TRIALS);
         let read = read_trials(&log, Lines::open_here(&log)?, &study, &hash)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
-        Ok(Self { run_in: run_in::read(path), ..Self::new(study, learned, extension, read.trials) })
+        Ok(Self { run_in: run_in::read(path), hash: Some(hash), ..Self::new(study, learned, extension, read.trials) })
     }
 
     /// Returns the log with the trust of the user in the command that its study names. Without trust, no test of a log
@@ -80,6 +82,11 @@ impl Log {
     /// Returns the folder in which the commands of the campaign ran; `None` if the study runs no commands, or if the folder is not known.
     pub fn run_in(&self) -> Option<&Path> {
         self.run_in.as_deref().filter(|_| !self.study.commands().is_empty())
+    }
+
+    /// Returns the hash of the study, which each line of `trials.jsonl` has; `None` if the log was not read from a folder.
+    pub fn hash(&self) -> Option<&str> {
+        self.hash.as_deref()
     }
 
     /// Returns the study of the campaign.

@@ -22,6 +22,7 @@ pub mod birds_eye;
 pub mod blame;
 pub mod compare;
 pub mod hole;
+pub mod html;
 pub mod junit;
 pub mod plot;
 #[cfg(feature = "camera")]

@@ -2,7 +2,7 @@
 
 use super::{
     Failure, Status, Verbosity, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map, monitor,
-    perceive, record, replay, roads, run, sensitivity, shrink, trace,
+    page, perceive, record, replay, roads, run, sensitivity, shrink, trace,
 };
 use clap::{Parser, Subcommand};
 use paracosm_campaign::Catalogue;
@@ -125,6 +125,11 @@ enum Verb {
     #[command(after_long_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
                             paracosm-fuzz map paracosm-out --x distance --y friction --out slippery.svg")]
     Map(map::Options),
+    /// Show a campaign as one HTML file, in which tests are played
+    ///
+    /// The file opens anywhere, without a server and without a network.
+    #[command(after_long_help = page::EXAMPLES)]
+    Report(page::Options),
     /// Run a logged test again, or run regression files
     ///
     /// The trace hash of a logged test is compared with the hash in the log.
@@ -194,6 +199,7 @@ impl Command {
             Some(Verb::List(options)) => options.execute(catalogue),
             Some(Verb::Describe(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Map(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Report(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Replay(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Export(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(catalogue, self.verbosity),

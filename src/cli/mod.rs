@@ -23,6 +23,7 @@ mod map;
 mod monitor;
 mod odd;
 mod output;
+mod page;
 mod paint;
 mod perceive;
 mod perceiver;

@@ -179,7 +179,10 @@ impl Options {
                 .iter()
                 .for_each(|line| verbosity.note(line));
         }
-        self.write_trace(dir, &trial, trace.as_ref(), verbosity)?;
+        // In the folder of the campaign, a trace of a test that differs from the log would mislead.
+        if self.trace.is_some() || trial.repeats(logged) {
+            self.write_trace(dir, &trial, trace.as_ref(), verbosity)?;
+        }
         if let Some(target) = &target {
             let caption =
                 format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);

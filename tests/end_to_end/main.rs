@@ -38,6 +38,7 @@ mod monitor;
 mod networks;
 #[cfg(unix)]
 mod outputs;
+mod page;
 mod pedestrian_study;
 mod perceivers;
 mod pict;

@@ -1,0 +1,219 @@
+// The dialog in which a run is played, with its signals and the bounds of its robustness.
+
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import type { Run } from "./data";
+import { colour, h } from "./dom";
+import { sign } from "./marks";
+import { Motion, Player } from "./player";
+import type { Store } from "./store";
+import { digits, withUnit } from "./words";
+
+const SPEEDS = [0.25, 0.5, 1, 2, 4];
+/** The signals that are drawn first, if a run has them. */
+const FIRST = ["car.speed", "car.clearance"];
+
+export class Film {
+  readonly dialog = h("dialog", { class: "film", "aria-label": "A test" });
+  private stop: () => void = () => {};
+  private asked = -1;
+
+  constructor(private readonly store: () => Store) {
+    this.dialog.addEventListener("close", () => this.stop());
+    this.dialog.addEventListener("click", (event) => {
+      if (event.target === this.dialog) this.dialog.close();
+    });
+  }
+
+  /** Opens the dialog for a test, and plays its run if there is one. */
+  async show(index: number) {
+    this.stop();
+    this.asked = index;
+    const store = this.store();
+    const row = store.rowOf(index);
+    const run = await store.run(index);
+    if (this.asked !== index) return;
+    this.dialog.replaceChildren(this.head(index, row));
+    if (run) this.play(run);
+    else this.dialog.append(h("p", { class: "note" }, this.without(index)));
+    this.dialog.append(this.about(index, row));
+    if (!this.dialog.open) this.dialog.showModal();
+  }
+
+  private head(index: number, row: number): HTMLElement {
+    const store = this.store();
+    const verdict = row < 0 ? "" : store.verdictName(row);
+    const steps = [[-1, "Previous failing test"], [1, "Next failing test"]] as const;
+    return h("header", {},
+      h("h2", {}, `Test ${index}: `, h("span", { class: `verdict ${verdict}` }, `${sign(verdict)} ${verdict}`)),
+      ...steps.map(([by, label]) => h("button", { type: "button", class: "quiet", "aria-label": label, title: label, click: () => this.step(index, by) }, by < 0 ? "◀ failing" : "failing ▶")),
+      h("button", { type: "button", class: "quiet", "aria-label": "Close", click: () => this.dialog.close() }, "Close"),
+    );
+  }
+
+  /** Goes to the next failing test with a run, in the order of the tests. */
+  private step(index: number, by: number) {
+    const store = this.store();
+    const fails = store.page.verdicts.findIndex(({ name }) => name === "fail");
+    for (let row = store.rowOf(index) + by; row >= 0 && row < store.tests.rows; row += by) {
+      if (store.tests.verdict[row] === fails && store.mask[row]) return void this.show(store.tests.index[row]);
+    }
+  }
+
+  private without(index: number): string {
+    const { runs, study } = this.store().page;
+    const why = runs.why ? ` (${runs.why})` : "";
+    return `This page does not have the run of test ${index}${why}. This command plays it: paracosm-fuzz replay ${study.folder} ${index} --draw test-${index}.gif${study.trusting}`;
+  }
+
+  private play(run: Run) {
+    const motion = new Motion(run);
+    const player = new Player(motion, `Test ${run.index} from above`);
+    const clock = h("output", { class: "clock" });
+    const scrub = h("input", { type: "range", min: 0, max: motion.duration, step: 0.01, value: 0, "aria-label": "Time", input: () => seek(Number(scrub.value)) });
+    const button = h("button", { type: "button", class: "play", click: () => (isPlaying ? pause() : start()) });
+    let speed = 1;
+    const speeds = h("select", { "aria-label": "Speed", change: () => (speed = Number(speeds.value)) }, ...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === 1 }, `${factor}×`)));
+    const view = h("select", { "aria-label": "View", change: () => {
+      player.follows = view.value === "car";
+      player.sheet.draw();
+    } }, h("option", { value: "car" }, "follow the car"), h("option", { value: "all" }, "whole way"));
+    const plots = this.plots(run, (time) => {
+      pause();
+      seek(time);
+    });
+    let [isPlaying, last, frame] = [false, 0, 0];
+    const seek = (time: number) => {
+      player.seek(time);
+      scrub.value = String(player.time);
+      clock.textContent = `${player.time.toFixed(2)} of ${motion.duration.toFixed(2)} s`;
+      plots.cursor(player.time);
+    };
+    const tick = (now: number) => {
+      if (!isPlaying) return;
+      seek(player.time + (speed * (now - last)) / 1000);
+      last = now;
+      if (player.isAtEnd) pause();
+      else frame = requestAnimationFrame(tick);
+    };
+    const start = () => {
+      if (player.isAtEnd) seek(0);
+      [isPlaying, last] = [true, performance.now()];
+      name();
+      frame = requestAnimationFrame(tick);
+    };
+    const pause = () => {
+      isPlaying = false;
+      cancelAnimationFrame(frame);
+      name();
+    };
+    const name = () => {
+      button.textContent = isPlaying ? "Pause" : "Play";
+      this.dialog.dataset.playing = String(isPlaying);
+    };
+    const keys = (event: KeyboardEvent) => {
+      if (event.target instanceof HTMLSelectElement || event.target instanceof HTMLInputElement) return;
+      if (event.key === " ") isPlaying ? pause() : start();
+      else if (event.key === "ArrowLeft" || event.key === "ArrowRight") seek(player.time + (event.key === "ArrowLeft" ? -0.1 : 0.1));
+      else return;
+      event.preventDefault();
+    };
+    this.dialog.addEventListener("keydown", keys);
+    this.stop = () => {
+      pause();
+      this.dialog.removeEventListener("keydown", keys);
+      plots.destroy();
+      this.stop = () => {};
+    };
+    this.dialog.append(h("div", { class: "stage" },
+      h("div", { class: "world" }, player.sheet.canvas, h("div", { class: "controls" }, button, scrub, clock, speeds, view)),
+      plots.element,
+    ));
+    seek(0);
+    start();
+  }
+
+  /** The plots of a run: the bounds of the robustness of each requirement, and signals. */
+  private plots(run: Run, seek: (time: number) => void) {
+    const all: uPlot[] = [];
+    const element = h("div", { class: "plots" });
+    const units = new Map(this.store().page.requirements.map(({ id, unit }) => [id, unit]));
+    const plot = (title: string, series: { label: string; values: (number | null)[]; stroke: string; dash?: number[] }[], zero: boolean) => {
+      const place = h("div", {});
+      const made = new uPlot({
+        width: 400, height: 118, title,
+        legend: { show: false },
+        cursor: { y: false, drag: { x: false, y: false } },
+        scales: { x: { time: false } },
+        axes: [
+          { stroke: () => colour("muted"), grid: { stroke: () => colour("grid"), width: 1 }, size: 24, font: "10px system-ui" },
+          { stroke: () => colour("muted"), grid: { stroke: () => colour("grid"), width: 1 }, size: 46, font: "10px system-ui" },
+        ],
+        series: [{}, ...series.map(({ label, stroke, dash }) => ({ label, stroke, dash, width: 1.5, points: { show: false } }))],
+        hooks: zero ? { draw: [(u: uPlot) => zeroLine(u)] } : {},
+      }, [run.times, ...series.map(({ values }) => values)] as uPlot.AlignedData, place);
+      made.over.addEventListener("click", () => {
+        if (made.cursor.left !== undefined && made.cursor.left !== null && made.cursor.left >= 0) seek(made.posToVal(made.cursor.left, "x"));
+      });
+      all.push(made);
+      element.append(place);
+      new ResizeObserver(() => place.clientWidth > 0 && made.setSize({ width: place.clientWidth, height: 118 })).observe(place);
+      return { made, place };
+    };
+    for (const { id, lower, upper } of run.robustness) {
+      const last = upper[upper.length - 1];
+      const isDecided = last !== null && last === lower[lower.length - 1];
+      plot(`robustness of ${id}: ${isDecided ? `${withUnit(last, units.get(id) ?? null)} at the end` : "undecided"}`, [
+        { label: "at most", values: upper, stroke: "#0072b2" },
+        { label: "at least", values: lower, stroke: "#0072b2", dash: [4, 4] },
+      ], true);
+    }
+    const shown = new Map<string, { made: uPlot; place: HTMLElement }>();
+    const toggle = (name: string, on: boolean) => {
+      const signal = run.signals.find((signal) => signal.name === name);
+      if (on && signal) shown.set(name, plot(name, [{ label: name, values: signal.values, stroke: "#d55e00" }], false));
+      else if (!on) {
+        const old = shown.get(name);
+        if (!old) return;
+        all.splice(all.indexOf(old.made), 1);
+        old.made.destroy();
+        old.place.remove();
+        shown.delete(name);
+      }
+    };
+    FIRST.forEach((name) => toggle(name, true));
+    const more = h("details", {}, h("summary", {}, "Signals"), h("div", { class: "choices" }, ...run.signals.map(({ name }) =>
+      h("label", {}, h("input", { type: "checkbox", checked: FIRST.includes(name), change: (event: Event) => toggle(name, (event.target as HTMLInputElement).checked) }), ` ${name}`))));
+    return {
+      element: h("div", { class: "beside" }, element, more),
+      cursor: (time: number) => all.forEach((made) => made.setCursor({ left: made.valToPos(time, "x"), top: -10 }, false)),
+      destroy: () => all.forEach((made) => made.destroy()),
+    };
+  }
+
+  private about(index: number, row: number): HTMLElement {
+    const store = this.store();
+    const { page, tests } = store;
+    if (row < 0) return h("p", { class: "note" }, "The table of this page does not have this test.");
+    const mode = tests.mode[row];
+    return h("div", { class: "about" },
+      h("dl", {}, ...store.valuesOf(row).flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
+        ...tests.robustness.flatMap(({ id, values }) => [h("dt", {}, `robustness of ${id}`), h("dd", {}, Number.isNaN(values[row]) ? "undecided" : digits(values[row]))])),
+      mode ? h("p", {}, page.modes.modes[mode - 1].words) : null,
+      h("p", { class: "command" }, h("code", {}, `paracosm-fuzz replay ${page.study.folder} ${index}${page.study.trusting}`)),
+    );
+  }
+}
+
+function zeroLine(u: uPlot) {
+  const y = u.valToPos(0, "y", true);
+  if (y < u.bbox.top || y > u.bbox.top + u.bbox.height) return;
+  u.ctx.save();
+  u.ctx.strokeStyle = colour("fail");
+  u.ctx.lineWidth = devicePixelRatio;
+  u.ctx.beginPath();
+  u.ctx.moveTo(u.bbox.left, y);
+  u.ctx.lineTo(u.bbox.left + u.bbox.width, y);
+  u.ctx.stroke();
+  u.ctx.restore();
+}

@@ -1,0 +1,373 @@
+// The failure map: tests as marks over two coordinates, on the estimated probability of failure.
+
+import { quadtree, type Quadtree } from "d3-quadtree";
+import { scaleLinear, type ScaleLinear } from "d3-scale";
+import { select } from "d3-selection";
+import { zoom, zoomIdentity, type ZoomTransform } from "d3-zoom";
+import { plain, type Grid } from "./data";
+import { colour, h, Sheet } from "./dom";
+import type { Store } from "./store";
+import { modeColour, mark, verdictColour } from "./marks";
+
+const MARGIN = { left: 62, right: 14, top: 12, bottom: 46 };
+/** The distance in pixels within which a test answers to the pointer. */
+const NEAR = 14;
+
+interface Facet {
+  title: string | null;
+  rows: Uint32Array;
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+  tree: Quadtree<number> | null;
+}
+
+export class MapView {
+  readonly element: HTMLElement;
+  private axes: [number, number];
+  private facetBy = -1;
+  private byMode = true;
+  private transform: ZoomTransform = zoomIdentity;
+  private facets: Facet[] = [];
+  private size = "";
+  private hovered: { row: number; x: number; y: number } | null = null;
+  private readonly sheet: Sheet;
+  private readonly overlay: Sheet;
+  private readonly tip = h("div", { class: "tip", hidden: true });
+  private readonly note = h("p", { class: "note" });
+  private readonly images = new Map<Grid, HTMLCanvasElement>();
+
+  constructor(private readonly store: Store) {
+    const { page } = store;
+    const continuous = page.coordinates.map((_, at) => at).filter((at) => page.coordinates[at].range);
+    this.axes = page.axes ?? [continuous[0], continuous[1] ?? continuous[0]];
+    this.sheet = new Sheet((context) => this.paint(context), "Failure map: the tests over two parameters. The table of tests below has the same tests.");
+    this.overlay = new Sheet((context) => this.highlight(context), "The test under the pointer");
+    this.overlay.canvas.setAttribute("aria-hidden", "true");
+    const choose = (axis: 0 | 1) => {
+      const options = continuous.map((at) => h("option", { value: at, selected: at === this.axes[axis] }, page.coordinates[at].label));
+      return h("select", { "aria-label": axis === 0 ? "Horizontal axis" : "Vertical axis", change: (event: Event) => {
+        this.axes[axis] = Number((event.target as HTMLSelectElement).value);
+        this.changed();
+      } }, ...options);
+    };
+    const discrete = page.coordinates.map((_, at) => at).filter((at) => page.coordinates[at].levels);
+    const controls = h("div", { class: "controls" },
+      h("label", {}, "across ", choose(0)),
+      h("label", {}, "up ", choose(1)),
+      discrete.length === 0 ? null : h("label", {}, "a map for each ", h("select", { "aria-label": "Facets", change: (event: Event) => {
+        this.facetBy = Number((event.target as HTMLSelectElement).value);
+        this.changed();
+      } }, h("option", { value: -1 }, "(none)"), ...discrete.map((at) => h("option", { value: at }, page.coordinates[at].name)))),
+      page.modes.modes.length < 2 ? null : h("label", {}, h("input", { type: "checkbox", checked: true, change: (event: Event) => {
+        this.byMode = (event.target as HTMLInputElement).checked;
+        this.sheet.draw();
+      } }), " failure modes"),
+      h("button", { type: "button", class: "quiet", click: () => this.reset() }, "Whole map"),
+    );
+    const canvases = h("div", { class: "canvases" }, this.sheet.canvas, this.overlay.canvas, this.tip);
+    this.element = h("div", { class: "map" }, controls, canvases, this.note);
+    store.onFilter(() => this.sheet.draw());
+    const area = select<HTMLCanvasElement, unknown>(this.overlay.canvas);
+    this.zooming = zoom<HTMLCanvasElement, unknown>().scaleExtent([1, 64]).on("zoom", (event: { transform: ZoomTransform }) => {
+      this.transform = event.transform;
+      this.hovered = null;
+      this.tip.hidden = true;
+      this.sheet.draw();
+      this.overlay.draw();
+    });
+    area.call(this.zooming).on("dblclick.zoom", null);
+    this.overlay.canvas.addEventListener("pointermove", (event) => this.hover(event));
+    this.overlay.canvas.addEventListener("pointerleave", () => this.leave());
+    this.overlay.canvas.addEventListener("click", () => {
+      if (this.hovered) store.show(store.tests.index[this.hovered.row]);
+    });
+    this.words();
+  }
+
+  private readonly zooming;
+
+  private reset() {
+    select<HTMLCanvasElement, unknown>(this.overlay.canvas).call(this.zooming.transform, zoomIdentity);
+  }
+
+  private changed() {
+    this.size = "";
+    this.reset();
+    this.words();
+    this.sheet.draw();
+  }
+
+  private words() {
+    const { page } = this.store;
+    const [x, y] = this.axes;
+    const grid = this.grid();
+    const hole = this.hole();
+    const isWhole = page.coordinates.length === 2;
+    const parts = [
+      grid ? "Shade: estimated probability of failure." : this.store.page.maps.length > 0 ? "The page has no estimate for this pair." : null,
+      hole ? (isWhole ? "Dashed: the largest empty box, which was never tested." : "Dashed: the largest empty box; other parameters bound it, too.") : null,
+      x === y ? "Both axes show the same parameter." : null,
+    ];
+    this.note.textContent = parts.filter(Boolean).join(" ");
+  }
+
+  private grid(): Grid | null {
+    const [x, y] = this.axes;
+    return this.store.page.maps.find(({ axes }) => (axes[0] === x && axes[1] === y) || (axes[0] === y && axes[1] === x)) ?? null;
+  }
+
+  private hole(): [[number, number], [number, number]] | null {
+    const { hole, coordinates } = this.store.page;
+    const [x, y] = this.axes.map((at) => coordinates[at].name);
+    return hole && hole[x] && hole[y] ? [hole[x], hole[y]] : null;
+  }
+
+  private base(facet: Facet): [ScaleLinear<number, number>, ScaleLinear<number, number>] {
+    const [x, y] = this.axes.map((at) => this.store.page.coordinates[at].range ?? [0, 1]);
+    return [scaleLinear(x, [facet.left, facet.left + facet.width]), scaleLinear(y, [facet.top + facet.height, facet.top])];
+  }
+
+  /** The scales of a facet, as they are zoomed. All facets zoom like the first. */
+  private scales(facet: Facet): [ScaleLinear<number, number>, ScaleLinear<number, number>] {
+    const first = this.base(this.facets[0]);
+    const [x, y] = this.base(facet);
+    return [x.domain(this.transform.rescaleX(first[0]).domain()), y.domain(this.transform.rescaleY(first[1]).domain())];
+  }
+
+  /** Lays the facets out, and sorts the tests into them. */
+  private arrange() {
+    const { width, height } = this.sheet;
+    const size = `${width}x${height}`;
+    if (size === this.size) return;
+    this.size = size;
+    const { tests, page } = this.store;
+    const levels = this.facetBy < 0 ? [null] : (page.coordinates[this.facetBy].levels ?? [null]);
+    const columns = Math.ceil(Math.sqrt(levels.length));
+    const rows = Math.ceil(levels.length / columns);
+    const title = this.facetBy < 0 ? 0 : 18;
+    const [w, hgt] = [width / columns, height / rows];
+    this.facets = levels.map((level, number) => {
+      const [column, row] = [number % columns, Math.floor(number / columns)];
+      const all = new Uint32Array(tests.rows);
+      let count = 0;
+      for (let i = 0; i < tests.rows; i++) if (this.facetBy < 0 || tests.coordinates[this.facetBy][i] === number) all[count++] = i;
+      return {
+        title: level === null ? null : `${page.coordinates[this.facetBy].name} ${level}`,
+        rows: all.slice(0, count),
+        left: column * w + MARGIN.left,
+        top: row * hgt + MARGIN.top + title,
+        width: Math.max(20, w - MARGIN.left - MARGIN.right),
+        height: Math.max(20, hgt - MARGIN.top - MARGIN.bottom - title),
+        tree: null,
+      };
+    });
+    const { left, top, width: inner, height: tall } = this.facets[0];
+    const box: [[number, number], [number, number]] = [[left, top], [left + inner, top + tall]];
+    this.zooming.extent(box).translateExtent(box);
+  }
+
+  private paint(context: CanvasRenderingContext2D) {
+    this.arrange();
+    for (const facet of this.facets) this.paintFacet(context, facet);
+  }
+
+  private paintFacet(context: CanvasRenderingContext2D, facet: Facet) {
+    const [x, y] = this.scales(facet);
+    const { left, top, width, height } = facet;
+    const { page, tests, mask } = this.store;
+    context.save();
+    context.beginPath();
+    context.rect(left, top, width, height);
+    context.clip();
+    context.fillStyle = colour("plot");
+    context.fillRect(left, top, width, height);
+    this.paintShade(context, x, y);
+    const [cx, cy] = this.axes.map((at) => tests.coordinates[at]);
+    // Tests that the filters leave out are faint, passing tests are below failing ones.
+    const fails = page.verdicts.findIndex(({ name }) => name === "fail");
+    const isDense = facet.rows.length > 5000;
+    for (const layer of [0, 1, 2]) {
+      for (const row of facet.rows) {
+        const isFailing = tests.verdict[row] === fails;
+        if (layer !== (mask[row] ? (isFailing ? 2 : 1) : 0)) continue;
+        const [px, py] = [x(cx[row]), y(cy[row])];
+        if (layer === 0) {
+          context.fillStyle = colour("faint");
+          context.fillRect(px - 1, py - 1, 2, 2);
+        } else if (isFailing) {
+          const mode = this.byMode ? tests.mode[row] : 1;
+          mark(context, this.byMode ? mode : 1, px, py, isDense ? 2.5 : 4, this.byMode ? modeColour(mode) : colour("fail"));
+        } else {
+          context.fillStyle = verdictColour(page.verdicts[tests.verdict[row]].name);
+          const r = isDense ? 1 : 2;
+          context.fillRect(px - r, py - r, 2 * r, 2 * r);
+        }
+      }
+    }
+    const hole = this.hole();
+    if (hole) {
+      const [[x0, x1], [y0, y1]] = hole;
+      context.strokeStyle = colour("ink");
+      context.lineWidth = 1.5;
+      context.setLineDash([6, 4]);
+      context.strokeRect(x(x0), y(y1), x(x1) - x(x0), y(y0) - y(y1));
+      context.setLineDash([]);
+      if (page.coordinates.length === 2 && x(x1) - x(x0) > 8) {
+        context.fillStyle = colour("ink");
+        context.font = "11px system-ui, sans-serif";
+        context.textAlign = "left";
+        context.textBaseline = "bottom";
+        context.fillText("never tested", Math.min(x(x0), left + width - 70), y(y1) - 3);
+      }
+    }
+    context.restore();
+    this.paintAxes(context, facet, x, y);
+  }
+
+  private paintShade(context: CanvasRenderingContext2D, x: ScaleLinear<number, number>, y: ScaleLinear<number, number>) {
+    const grid = this.grid();
+    if (!grid || this.axes[0] === this.axes[1]) return;
+    const image = this.image(grid);
+    const isTurned = grid.axes[0] !== this.axes[0];
+    const [nx, ny] = grid.size;
+    const [rx, ry] = this.axes.map((at) => this.store.page.coordinates[at].range ?? [0, 1]);
+    const [x0, x1, y0, y1] = [x(rx[0]), x(rx[1]), y(ry[1]), y(ry[0])];
+    context.save();
+    context.imageSmoothingEnabled = true;
+    // The places are at the edges of the map, so that half a pixel of the image lies outside.
+    if (isTurned) {
+      context.setTransform(context.getTransform().multiply(new DOMMatrix([0, y0 - y1, x1 - x0, 0, x0, y1])));
+    } else {
+      context.setTransform(context.getTransform().multiply(new DOMMatrix([x1 - x0, 0, 0, y0 - y1, x0, y1])));
+    }
+    context.drawImage(image, -0.5 / (nx - 1), -0.5 / (ny - 1), nx / (nx - 1), ny / (ny - 1));
+    context.restore();
+  }
+
+  private image(grid: Grid): HTMLCanvasElement {
+    let canvas = this.images.get(grid);
+    if (!canvas) {
+      const [nx, ny] = grid.size;
+      canvas = h("canvas", { width: nx, height: ny });
+      const context = canvas.getContext("2d")!;
+      const image = context.createImageData(nx, ny);
+      plain(grid.percent).forEach((share, place) => {
+        // The shade lies over the ground of the theme: the more opaque, the more tests fail.
+        image.data.set([0xd5, 0x5e, 0x00, share === 255 ? 0 : Math.round(1.7 * share)], 4 * place);
+      });
+      context.putImageData(image, 0, 0);
+      this.images.set(grid, canvas);
+    }
+    return canvas;
+  }
+
+  private paintAxes(context: CanvasRenderingContext2D, facet: Facet, x: ScaleLinear<number, number>, y: ScaleLinear<number, number>) {
+    const { left, top, width, height, title } = facet;
+    const { coordinates } = this.store.page;
+    context.strokeStyle = colour("line");
+    context.fillStyle = colour("muted");
+    context.lineWidth = 1;
+    context.strokeRect(left - 0.5, top - 0.5, width + 1, height + 1);
+    context.font = "11px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    const xs = x.ticks(Math.max(2, width / 90));
+    const ys = y.ticks(Math.max(2, height / 50));
+    for (const tick of xs) {
+      context.fillRect(Math.round(x(tick)), top + height, 1, 4);
+      context.fillText(String(tick), x(tick), top + height + 7);
+    }
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const tick of ys) {
+      context.fillRect(left - 4, Math.round(y(tick)), 4, 1);
+      context.fillText(String(tick), left - 7, y(tick));
+    }
+    context.fillStyle = colour("ink");
+    context.font = "12px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    context.fillText(coordinates[this.axes[0]].label, left + width / 2, top + height + 25, width);
+    context.save();
+    context.translate(left - 50, top + height / 2);
+    context.rotate(-Math.PI / 2);
+    context.fillText(coordinates[this.axes[1]].label, 0, 0, height);
+    context.restore();
+    if (title) {
+      context.textBaseline = "bottom";
+      context.fillText(title, left + width / 2, top - 4, width);
+    }
+  }
+
+  private hover(event: PointerEvent) {
+    const { offsetX: px, offsetY: py } = event;
+    const facet = this.facets.find(({ left, top, width, height }) => px >= left && px <= left + width && py >= top && py <= top + height);
+    const found = facet && this.nearest(facet, px, py);
+    if (!found) return this.leave();
+    this.hovered = found;
+    this.overlay.draw();
+    this.overlay.canvas.style.cursor = "pointer";
+    const { store } = this;
+    const row = found.row;
+    const values = store.valuesOf(row).map(([name, value]) => h("div", {}, `${name} ${value}`));
+    const mode = store.tests.mode[row];
+    this.tip.replaceChildren(
+      h("strong", {}, `test ${store.tests.index[row]}: ${store.verdictName(row)}`),
+      ...values.slice(0, 10),
+      ...(mode ? [h("div", {}, store.page.modes.modes[mode - 1].words)] : []),
+      ...this.chance(facet, px, py),
+    );
+    this.tip.hidden = false;
+    const right = px > this.overlay.width / 2;
+    this.tip.style.left = right ? "auto" : `${px + 16}px`;
+    this.tip.style.right = right ? `${this.overlay.width - px + 16}px` : "auto";
+    this.tip.style.top = `${Math.min(py, this.overlay.height - 140)}px`;
+  }
+
+  /** The estimate at a place in words. */
+  private chance(facet: Facet, px: number, py: number): HTMLElement[] {
+    const grid = this.grid();
+    if (!grid) return [];
+    const [x, y] = this.scales(facet);
+    const at: [number, number] = [x.invert(px), y.invert(py)];
+    const place = grid.axes.map((axis, i) => {
+      const [lo, hi] = this.store.page.coordinates[axis].range ?? [0, 1];
+      const value = axis === this.axes[0] ? at[0] : at[1];
+      return Math.round(Math.min(1, Math.max(0, (value - lo) / (hi - lo))) * (grid.size[i] - 1));
+    });
+    const number = place[1] * grid.size[0] + place[0];
+    const share = plain(grid.percent)[number];
+    if (share === 255) return [];
+    const sure = ["", ", surely more than half", ", surely fewer than half"][plain(grid.decided)[number]];
+    return [h("div", { class: "muted" }, `estimate here: ${share} % fail${sure}`)];
+  }
+
+  private nearest(facet: Facet, px: number, py: number): { row: number; x: number; y: number } | null {
+    const { tests, mask } = this.store;
+    const [bx, by] = this.base(facet);
+    const [cx, cy] = this.axes.map((at) => tests.coordinates[at]);
+    facet.tree ??= quadtree<number>([...facet.rows], (row) => bx(cx[row]), (row) => by(cy[row]));
+    // On the map as it was before it was zoomed.
+    const [x, y] = this.scales(facet);
+    const found = facet.tree.find(bx(x.invert(px)), by(y.invert(py)), NEAR / this.transform.k);
+    return found === undefined || !mask[found] ? null : { row: found, x: x(cx[found]), y: y(cy[found]) };
+  }
+
+  private leave() {
+    this.hovered = null;
+    this.tip.hidden = true;
+    this.overlay.canvas.style.cursor = "crosshair";
+    this.overlay.draw();
+  }
+
+  private highlight(context: CanvasRenderingContext2D) {
+    if (!this.hovered) return;
+    context.strokeStyle = colour("ink");
+    context.lineWidth = 2;
+    context.beginPath();
+    context.arc(this.hovered.x, this.hovered.y, 8, 0, 2 * Math.PI);
+    context.stroke();
+  }
+}

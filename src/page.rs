@@ -1,0 +1,70 @@
+//! Shows the results of a campaign as one HTML page.
+
+use crate::Report;
+use crate::analysis::{Difference, Effects, Growth, Inconclusive, Modes};
+use crate::campaign::{Error, JsonArtefact};
+use crate::report::html::{Finding, Page};
+use serde_json::{Map, Value};
+use std::path::Path;
+
+/// The files of results that other commands write into the folder of a campaign.
+const BESIDE: [&str; 2] = ["blame.json", "located.json"];
+
+impl Report {
+    /// Makes the page of the campaign in a folder. `changes` compares an earlier campaign with this one.
+    ///
+    /// # Errors
+    /// A test does not belong to the space.
+    pub fn page(&self, folder: &Path, changes: Option<&Difference>) -> Result<Page<'_>, Error> {
+        let mut results = Map::new();
+        self.artefacts(|artefact| {
+            let of_json = |file: &&str| file.ends_with(".json") && *file != Modes::FILE;
+            for file in artefact.files().into_iter().filter(of_json) {
+                let contents = artefact.contents(file)?;
+                results.insert(file.to_owned(), serde_json::from_slice(&contents).unwrap_or_default());
+            }
+            Ok(())
+        })?;
+        for file in BESIDE {
+            if let Some(value) =
+                std::fs::read(folder.join(file)).ok().and_then(|text| serde_json::from_slice(&text).ok())
+            {
+                results.insert(file.to_owned(), value);
+            }
+        }
+        Ok(Page {
+            log: &self.log,
+            folder: folder.display().to_string(),
+            summary: &self.summary,
+            plausible: self.plausible.as_ref(),
+            coverage: &self.coverage,
+            growth: Growth::of(&self.log)?,
+            modes: &self.modes,
+            effects: self.effects.as_ref(),
+            axes: self.axes()?,
+            findings: self.findings(),
+            results,
+            changes: changes.map(|changes| serde_json::to_value(changes).unwrap_or(Value::Null)),
+        })
+    }
+
+    /// Returns the results in words.
+    fn findings(&self) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        let mut found = |label: &'static str, lines: Vec<String>| {
+            if !lines.is_empty() {
+                findings.push(Finding { label, lines });
+            }
+        };
+        let explanation = self
+            .explanation
+            .iter()
+            .flat_map(|explanation| explanation.rules_in_words().into_iter().chain([explanation.trust_in_words()]));
+        found("explanation", explanation.collect());
+        found("inconclusive", self.inconclusive.iter().flat_map(Inconclusive::in_words).collect());
+        found("no effect", self.effects.iter().flat_map(Effects::in_words).collect());
+        let points = self.points.iter().map(|points| format!("{} ({})", points.in_words(), points.protocol));
+        found("points on this grid", points.collect());
+        findings
+    }
+}

@@ -1,0 +1,171 @@
+//! The report page, in a real browser.
+
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What a browser sees on a page; `None` if there is no browser, with a note.
+fn seen(page: &Path, task: &str) -> Option<Value> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let modules = root.join("target/npm");
+    let browser = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].into_iter().find(|path| Path::new(path).exists());
+    let (Some(browser), true) = (browser, modules.join("node_modules/playwright-core").exists()) else {
+        eprintln!("SKIPPED: no Chromium, or no playwright-core in target/npm");
+        return None;
+    };
+    let output = Command::new("node")
+        .arg(root.join("tests/end_to_end/page.mjs"))
+        .args([modules.as_path(), Path::new(browser), page])
+        .arg(task)
+        .output()
+        .expect("node starts");
+    assert!(output.status.success(), "{}", stderr(&output));
+    Some(serde_json::from_slice(&output.stdout).expect("the script prints JSON"))
+}
+
+/// Writes the page of a campaign, and returns its path.
+fn report(dir: &Path, options: &[&str]) -> PathBuf {
+    let printed = stdout(&succeeds(fuzz(dir, &[&["report", "out", "--out", "page.html"], options].concat())));
+    assert_eq!(printed, "page.html\n");
+    dir.join("page.html")
+}
+
+#[test]
+fn a_page_opens_without_any_request_and_plays_the_worst_test() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--strategy", "halton", "--budget", "500", "--out", "out", "-q"]));
+    let page = report(dir.path(), &[]);
+    let size = fs::metadata(&page).unwrap().len();
+    assert!(size < 1_500_000, "the page of 500 tests has {size} bytes");
+    let text = fs::read_to_string(&page).unwrap();
+    assert!(text.contains("default-src 'none'"), "the page forbids requests");
+    let again = fs::read(report(dir.path(), &[])).unwrap();
+    assert!(again == text.as_bytes(), "the same campaign has the same page");
+    let Some(seen) = seen(&page, "use") else { return };
+    assert_eq!(seen["requests"].as_array().unwrap().len(), 1, "only the page itself: {}", seen["requests"]);
+    assert_eq!((&seen["errors"], &seen["dialogs"]), (&serde_json::json!([]), &serde_json::json!(0)));
+    assert_eq!(seen["headline"], "✗ 65 of 500 tests fail (13.0 %), 435 pass.");
+    let summary = stdout(&succeeds(fuzz(dir.path(), &["map", "out", "--format", "json", "-q"])));
+    assert_eq!(serde_json::from_str::<Value>(&summary).unwrap()["tests"], 500);
+    assert_eq!(seen["plays"], true);
+    assert!(seen["test"].as_str().unwrap().contains("fail"), "{}", seen["test"]);
+    assert!(seen["contact"].as_u64().unwrap() > 40, "the contact is marked: {}", seen["contact"]);
+    assert!(seen["plots"].as_u64().unwrap() >= 3, "{}", seen["plots"]);
+    assert_eq!((&seen["changes"], &seen["returns"]), (&true.into(), &true.into()), "axes change the map");
+    assert_eq!((&seen["all"], &seen["cleared"]), (&"500 tests".into(), &"500 tests".into()));
+    let brushed = seen["brushed"].as_str().unwrap();
+    assert!(brushed.ends_with("of 500 tests") && !brushed.starts_with("500"), "{brushed}");
+    assert_eq!(seen["failing"], "65 of 500 tests");
+    assert!(seen["byKeyboard"].as_str().unwrap().contains("fail"), "{}", seen["byKeyboard"]);
+}
+
+#[test]
+fn names_of_strangers_are_text_on_the_page() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(
+        dir.path().join("system.sh"),
+        r#"while read -r line; do i=${line#*:}; i=${i%%,*}; echo "{\"index\":$i,\"robustness\":{\"a\":-1}}"; done"#,
+    )
+    .unwrap();
+    let hostile = "</script><img src=x onerror=alert(1)><b>\u{202e}\"'&";
+    let unit = serde_json::to_string(&hostile).unwrap();
+    let space = format!(
+        "parameter = [{{ name = \"x\", interval = [-1, 1], unit = {unit} }}, {{ name = \"y\", interval = [0, 1] }}]\n"
+    );
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let command = format!("sh system.sh '{}'", hostile.replace('\'', ""));
+    let system = ["--system", &command, "--space", "SPACE.toml", "--budget", "8", "--out", "out", "-q"];
+    succeeds(fuzz(dir.path(), &system));
+    let page = report(dir.path(), &[]);
+    let text = fs::read_to_string(&page).unwrap();
+    assert!(!text.contains("<img"), "the page has the name as an element");
+    let Some(seen) = seen(&page, "look") else { return };
+    assert_eq!((&seen["dialogs"], &seen["elements"]), (&0.into(), &0.into()), "{seen}");
+    assert_eq!(seen["errors"], serde_json::json!([]));
+    assert!(seen["text"].as_str().unwrap().contains("<img src=x onerror=alert(1)>"), "{}", seen["text"]);
+    assert!(seen["headline"].as_str().unwrap().contains("8 of 8 tests fail"), "{}", seen["headline"]);
+}
+
+#[test]
+fn a_page_keeps_to_its_size_and_says_what_is_left_out() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--strategy", "halton", "--budget", "1500", "--out", "out", "-q"]));
+    for megabytes in ["0.22", "0.3", "1"] {
+        let page = report(dir.path(), &["--max-mb", megabytes]);
+        let size = fs::metadata(&page).unwrap().len() as f64;
+        assert!(size <= 1e6 * megabytes.parse::<f64>().unwrap(), "{megabytes} MB: {size} bytes");
+    }
+    report(dir.path(), &["--max-mb", "0.25"]);
+    if let Some(seen) = seen(&dir.path().join("page.html"), "look") {
+        assert!(seen["text"].as_str().unwrap().contains("left out"), "{}", seen["text"]);
+    }
+    let small = fuzz(dir.path(), &["report", "out", "--out", "small.html", "--max-mb", "0.01"]);
+    refused(&small, &["the page needs at least", "allow more with --max-mb"]);
+    assert!(!dir.path().join("small.html").exists());
+    refused(&fuzz(dir.path(), &["report", "out", "--out", "page.txt"]), &["--out page.txt: expected FILE.html"]);
+    refused(&fuzz(dir.path(), &["report", "out", "--max-mb", "0"]), &["--max-mb is 0, expected a number above 0"]);
+}
+
+#[test]
+fn a_page_shows_what_changed_since_a_baseline() {
+    let dir = tempfile::tempdir().unwrap();
+    for (driver, out) in [("aeb", "before"), ("planner", "out")] {
+        succeeds(fuzz(dir.path(), &["--driver", driver, "--budget", "100", "--out", out, "-q"]));
+    }
+    let page = report(dir.path(), &["--baseline", "before"]);
+    let Some(seen) = seen(&page, "look") else { return };
+    let text = seen["text"].as_str().unwrap();
+    assert!(text.contains("new failures: 1") && text.contains("mended: 7"), "{text}");
+}
+
+#[test]
+fn a_page_of_an_untrusted_driver_has_no_runs_and_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "40", "--out", "out", "-q"]));
+    let file = dir.path().join("out/campaign.json");
+    let mut study: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    study["driver"] = serde_json::json!({"name": "touch ran", "settings": {},
+        "external": {"by": "command", "timeout": 5.0}});
+    fs::write(&file, study.to_string()).unwrap();
+    let log = dir.path().join("out/trials.jsonl");
+    fs::write(&log, crate::common::without_study(&fs::read_to_string(&log).unwrap())).unwrap();
+    let written = succeeds(fuzz(dir.path(), &["report", "out", "--out", "page.html"]));
+    assert!(
+        stderr(&written).contains("the page has no runs: the file names the command `touch ran`"),
+        "{}",
+        stderr(&written)
+    );
+    assert!(!dir.path().join("ran").exists());
+    let Some(seen) = seen(&dir.path().join("page.html"), "look") else { return };
+    assert!(seen["text"].as_str().unwrap().contains("There are none: the file names the command"), "{}", seen["text"]);
+}
+
+/// The sources of the page's program and its build, which the repository has. Without npm they cannot be compared.
+#[test]
+fn the_bundle_is_what_its_sources_give() {
+    let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("report/web");
+    let copy = tempfile::tempdir().unwrap();
+    for file in ["package.json", "package-lock.json", "tsconfig.json", "vite.config.ts", "hash.mjs", ".npmrc"] {
+        fs::copy(web.join(file), copy.path().join(file)).unwrap();
+    }
+    fs::create_dir(copy.path().join("src")).unwrap();
+    for file in fs::read_dir(web.join("src")).unwrap() {
+        let file = file.unwrap().path();
+        fs::copy(&file, copy.path().join("src").join(file.file_name().unwrap())).unwrap();
+    }
+    let npm = |arguments: &[&str]| Command::new("npm").args(arguments).current_dir(copy.path()).output();
+    let installed = npm(&["ci", "--no-audit", "--no-fund", "--silent"]);
+    if !installed.is_ok_and(|output| output.status.success()) {
+        eprintln!("SKIPPED: npm does not install what the page is built with");
+        return;
+    }
+    let built = npm(&["run", "build"]).unwrap();
+    assert!(built.status.success(), "{}{}", stdout(&built), stderr(&built));
+    for file in ["page.js", "page.css", "page.js.sha256", "page.css.sha256"] {
+        let [ours, theirs] =
+            [web.as_path(), copy.path()].map(|folder| fs::read(folder.join("dist").join(file)).unwrap());
+        assert!(ours == theirs, "report/web/dist/{file} is not what `npm run build` gives");
+    }
+}
