@@ -5,6 +5,7 @@ use crate::analysis::{Difference, Effects, Growth, Inconclusive, Modes};
 use crate::campaign::{Error, JsonArtefact};
 use crate::report::html::{Finding, Page};
 use serde_json::{Map, Value};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The files of results that other commands write into the folder of a campaign.
@@ -14,7 +15,7 @@ impl Report {
     /// Makes the page of the campaign in a folder. `changes` compares an earlier campaign with this one.
     ///
     /// # Errors
-    /// A test does not belong to the space.
+    /// A test does not belong to the space, or a file of the folder cannot be read.
     pub fn page(&self, folder: &Path, changes: Option<&Difference>) -> Result<Page<'_>, Error> {
         let mut results = Map::new();
         self.artefacts(|artefact| {
@@ -26,10 +27,15 @@ impl Report {
             Ok(())
         })?;
         for file in BESIDE {
-            if let Some(value) =
-                std::fs::read(folder.join(file)).ok().and_then(|text| serde_json::from_slice(&text).ok())
-            {
-                results.insert(file.to_owned(), value);
+            let path = folder.join(file);
+            match std::fs::read(&path) {
+                Ok(text) => {
+                    let value =
+                        serde_json::from_slice(&text).map_err(|error| Error::io("read", &path)(error.into()))?;
+                    results.insert(file.to_owned(), value);
+                }
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                Err(error) => return Err(Error::io("read", &path)(error)),
             }
         }
         Ok(Page {

@@ -123,7 +123,7 @@ impl Report {
         self.junit.iter().try_for_each(|junit| put(junit))
     }
 
-    /// Derives the results of a campaign again from its folder. Effects, blame and located combinations are those of the folder's files,
+    /// Derives the results of a campaign again from its folder. The effects are those of the folder's file,
     /// because they need further tests. A campaign that still runs has the results of its tests so far.
     ///
     /// # Errors

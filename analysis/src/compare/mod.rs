@@ -103,8 +103,8 @@ impl Reason for ComparisonFlaw {}
 
 impl SamplerComparison {
     /// Makes a comparison of these strategies with the default settings. These are 2, 3 and 5 dimensions, 50, 100 and
-    /// 500 points, and 30 seeds, or as many as the given sets of a size if they are fewer. The baseline is `halton` if it is among the strategies, and otherwise the first
-    /// strategy.
+    /// 500 points, and 30 seeds, or as many as the given sets of a size if they are fewer. The baseline is `halton` if it is
+    /// among the strategies, and otherwise the first strategy.
     ///
     /// # Errors
     /// There are no strategies.

@@ -129,7 +129,7 @@ pub enum DriverFlaw {
         /// The most similar name of a driver; `None` if no name is similar.
         nearest: Option<&'static str>,
     },
-    /// The name is that of a file, which a command would have to start.
+    /// The given name of the driver is the name of a file. A command has to start such a driver.
     #[error(
         "no driver is called `{name}`, which is the name of a file: --driver-command starts a driver of your own, for example \
          --driver-command {}", shell_words::quote(.command)

@@ -54,7 +54,6 @@ pub(super) struct Document {
 struct About {
     title: String,
     scenario: Option<String>,
-    tested: String,
     strategy: String,
     seed: Option<u64>,
     budget: usize,
@@ -193,7 +192,6 @@ impl About {
         Self {
             title: study.title(),
             scenario: simulation.map(|simulation| simulation.scenario().to_owned()),
-            tested: study.title().rsplit_once(", ").map_or_else(|| study.title(), |(_, tested)| tested.to_owned()),
             strategy: study.sampling().strategy.to_string(),
             seed: study.sampling().seed,
             budget: study.sampling().budget,

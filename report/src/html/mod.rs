@@ -74,7 +74,8 @@ impl Reason for TooSmall {}
 
 impl Page<'_> {
     /// Returns the text of the HTML file, with at most this number of megabytes. Tests and runs that do not fit are left out, and the page
-    /// says so: first runs of passing tests, then of failing tests, then passing tests of the table.
+    /// says so. The table of tests takes at most three quarters of the room, and leaves failing tests out last. Runs of a sample of passing tests
+    /// are left out before runs of failing tests.
     ///
     /// # Errors
     /// A model of the failures cannot be fitted, or not even the results fit.

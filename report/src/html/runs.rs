@@ -24,9 +24,11 @@ pub struct Runs {
     all: Vec<(usize, usize, String)>,
     /// The roads of the runs, in the form of the page. Runs in the same place share their roads.
     roads: Vec<String>,
-    /// The number of runs that were wanted.
-    wanted: usize,
-    /// The reason why there are no runs, or fewer.
+    /// The number of tests that did not end as in the log.
+    differing: usize,
+    /// The number of failing tests that were not run again, because there are too many.
+    beyond: usize,
+    /// The reason why there are no runs.
     why: Option<String>,
 }
 
@@ -35,9 +37,9 @@ pub struct Runs {
 pub(super) struct Described {
     /// For each test with a run, the number of its roads.
     pub roads: BTreeMap<usize, usize>,
-    /// The number of failing tests that were wanted and that are left out.
+    /// The number of runs that are left out.
     left_out: usize,
-    /// The reason in words.
+    /// The reasons in words, or the reason why there are no runs.
     why: Option<String>,
 }
 
@@ -66,8 +68,10 @@ impl Runs {
         let wanted = wanted(page);
         let mut worker = Worker::until(log.study(), supervision.clone())?;
         worker.start()?;
-        let mut runs = Self { wanted: wanted.len(), ..Self::default() };
-        let (mut places, mut differing) = (HashMap::<Vec<Ground>, usize>::new(), 0);
+        let failing = log.trials().iter().filter(|trial| trial.is_failure()).count();
+        let beyond = failing - wanted.iter().filter(|trial| trial.is_failure()).count();
+        let mut runs = Self { beyond, ..Self::default() };
+        let mut places = HashMap::<Vec<Ground>, usize>::new();
         for (number, trial) in wanted.iter().copied().enumerate() {
             done(number, wanted.len());
             let mut recorder = Recorder::default();
@@ -76,7 +80,7 @@ impl Runs {
                 return Err(Error::Interrupted);
             }
             if !again.repeats(trial) {
-                differing += 1;
+                runs.differing += 1;
                 continue;
             }
             let Some(mut record) = recorder.record(log.study(), trial.index, trial.verdict.to_string(), trace.as_ref())
@@ -93,9 +97,6 @@ impl Runs {
                 }
             };
             runs.all.push((trial.index, place, packed(&record)));
-        }
-        if differing > 0 {
-            runs.why = Some(format!("{differing} did not end as in the log, so that they are not shown"));
         }
         Ok(runs)
     }
@@ -118,7 +119,16 @@ impl Runs {
             texts.push((format!("run-{index}"), record.clone()));
             roads.insert(*index, *place);
         }
-        let described = Described { left_out: self.wanted - roads.len(), roads, why: self.why.clone() };
+        let reasons = [
+            (self.all.len() - roads.len(), "do not fit into the size of the page"),
+            (self.differing, "did not end as in the log"),
+            (self.beyond, "were not run again, because many tests fail"),
+        ];
+        let left_out = reasons.iter().map(|(count, _)| count).sum();
+        let words = reasons.iter().filter(|(count, _)| *count > 0).map(|(count, reason)| format!("{count} {reason}"));
+        let words = words.collect::<Vec<_>>().join(", ");
+        let why = self.why.clone().or_else(|| (!words.is_empty()).then_some(words));
+        let described = Described { left_out, roads, why };
         Kept { described, texts }
     }
 }

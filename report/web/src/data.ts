@@ -76,7 +76,6 @@ export interface Document {
   study: {
     title: string;
     scenario: string | null;
-    tested: string;
     strategy: string;
     seed: number | null;
     budget: number;
