@@ -67,6 +67,16 @@ pub struct UnknownScenario {
     pub nearest: Option<String>,
 }
 
+/// The error that two scenarios have the requested name.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error("two scenarios are called `{name}`: \"{}\" and \"{}\"; give one of them another name", about[0], about[1])]
+pub struct AmbiguousScenario {
+    /// The name of the scenarios.
+    pub name: String,
+    /// The descriptions of the first two scenarios of the name.
+    pub about: [String; 2],
+}
+
 /// The error that the file of a campaign's scenario is not there.
 #[derive(Debug, Error, PartialEq, Eq)]
 #[error(
@@ -81,6 +91,7 @@ pub struct NoScenarioFile {
 }
 
 impl Reason for UnknownScenario {}
+impl Reason for AmbiguousScenario {}
 impl Reason for NoScenarioFile {}
 
 impl Catalogue {
@@ -89,9 +100,9 @@ impl Catalogue {
         Self { programs: programs.iter().copied().cloned().collect(), ..Self::default() }
     }
 
-    /// Adds the program of a scenario to the catalogue. The program replaces a program of the same name.
+    /// Adds the program of a scenario to the catalogue. If two programs have the same name, [`find`](Self::find) returns an error for
+    /// this name.
     pub fn with(mut self, program: Program) -> Self {
-        self.programs.retain(|other| other.name() != program.name());
         self.programs.push(program);
         self
     }
@@ -146,10 +157,17 @@ impl Catalogue {
     /// Returns the program of the scenario with the given name, or the program in the file with the given path.
     ///
     /// # Errors
-    /// No scenario has the name; the error suggests the nearest name. Or a reader cannot make a program from the file.
+    /// No scenario has the name; the error suggests the nearest name. Two scenarios have the name. Or a reader cannot make a program from
+    /// the file.
     pub fn find(&self, name: &str) -> Result<Program, Error> {
-        if let Some(program) = self.programs.iter().find(|program| program.name() == name) {
-            return Ok(program.clone());
+        let mut named = self.programs.iter().filter(|program| program.name() == name);
+        match (named.next(), named.next()) {
+            (Some(program), None) => return Ok(program.clone()),
+            (Some(one), Some(other)) => {
+                let about = [one, other].map(|program| program.about().to_owned());
+                return Err(AmbiguousScenario { name: name.to_owned(), about }.into());
+            }
+            (None, _) => {}
         }
         if let Some(reader) = self.reader_of(name) {
             return (reader.read)(&self.file(name)?);
@@ -162,6 +180,17 @@ impl Catalogue {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_scenarios_of_one_name_are_an_error_that_shows_both() {
+        let program = |about| Program::of("jogger", about, |_| ());
+        let catalogue = Catalogue::default().with(program("a jogger crosses")).with(program("a jogger stands"));
+        let error = catalogue.find("jogger").expect_err("the name is ambiguous").to_string();
+        assert_eq!(
+            error,
+            "two scenarios are called `jogger`: \"a jogger crosses\" and \"a jogger stands\"; give one of them another name"
+        );
+    }
 
     #[test]
     fn a_reader_makes_programs_of_the_files_with_its_ending_and_of_no_others() {

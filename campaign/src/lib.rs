@@ -97,7 +97,7 @@ pub mod reasons {
     #[cfg(feature = "camera")]
     pub use crate::cameras::CameraFileFlaw;
     pub use crate::campaign::ForeignTrial;
-    pub use crate::catalogue::{NoScenarioFile, UnknownScenario};
+    pub use crate::catalogue::{AmbiguousScenario, NoScenarioFile, UnknownScenario};
     pub use crate::concrete::{NoConcrete, NoFileOfScenario};
     pub use crate::conversation::NotStarted;
     pub use crate::darkroom::Blind;

@@ -7,8 +7,10 @@ use crate::stream::Sketch;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
 use paracosm_space::{Space, SpaceError, Values};
+use std::any::Any;
 use std::borrow::Cow;
 use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -116,10 +118,24 @@ pub enum ProgramError {
         /// The parameters that only the program or only the test has.
         names: Vec<String>,
     },
+    /// The program panicked when it built its world with nominal values.
+    #[error("scenario `{program}` panicked with nominal values: {message}")]
+    Panicked {
+        /// The name of the scenario.
+        program: String,
+        /// The message of the panic.
+        message: String,
+    },
 }
 
 fn joined(flaws: &[WorldFlaw]) -> String {
     flaws.iter().map(WorldFlaw::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the message of a panic.
+fn message(panic: &(dyn Any + Send)) -> &str {
+    let owned = panic.downcast_ref::<String>().map(String::as_str);
+    owned.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
 }
 
 /// The most ticks that a run may have: three hours at 1 kHz. A trace is kept in memory.
@@ -198,9 +214,11 @@ impl Program {
     /// Runs the program without a test and returns its parameters and requirements.
     ///
     /// # Errors
-    /// The parameters form no space, or the world cannot be built with nominal values.
+    /// The parameters form no space, or the world cannot be built with nominal values: it has flaws, or the program panics.
     pub fn declare(&self) -> Result<Declaration, ProgramError> {
-        let scenario = self.built(None)?;
+        let scenario = catch_unwind(AssertUnwindSafe(|| self.built(None))).unwrap_or_else(|panic| {
+            Err(ProgramError::Panicked { program: self.name().to_owned(), message: message(&*panic).to_owned() })
+        })?;
         let parameters = scenario.parameters.borrow().clone();
         Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())
             .map_err(|source| ProgramError::Parameters { program: self.name().to_owned(), source })?;

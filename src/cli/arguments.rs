@@ -1,10 +1,10 @@
 //! Reads the arguments with clap, and explains in words for people that a number was expected.
 
-use super::{complain, output_error};
+use super::{complain, output_error, paint, program};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, Parser};
 use std::error::Error;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
 use std::process;
 
@@ -31,7 +31,7 @@ pub(super) fn parse<C: Parser>() -> C {
         }
         None => {
             // Help and the version go to the standard output, which may be full or closed.
-            let printed = error.print().and_then(|()| io::stdout().flush());
+            let printed = shown(&error).and_then(|()| io::stdout().flush());
             process::exit(match printed.map_err(output_error) {
                 Err(problem) if problem.kind() != io::ErrorKind::BrokenPipe => {
                     complain(&format_args!("error: {problem}"));
@@ -41,6 +41,23 @@ pub(super) fn parse<C: Parser>() -> C {
             })
         }
     })
+}
+
+/// Prints help, an error or the version. A program of a user's own has its own name in help and errors. The version is the version of
+/// this software.
+fn shown(error: &clap::Error) -> io::Result<()> {
+    if program::is_usual() || error.kind() == ErrorKind::DisplayVersion {
+        return error.print();
+    }
+    let rendered = error.render();
+    let text = |is_coloured: bool| {
+        program::help(&if is_coloured { rendered.ansi().to_string() } else { rendered.to_string() })
+    };
+    if error.use_stderr() {
+        io::stderr().write_all(text(io::stderr().is_terminal()).as_bytes())
+    } else {
+        io::stdout().write_all(text(paint::is_wanted()).as_bytes())
+    }
 }
 
 /// Reads `-1` as a value and not as an option, so that the error can say which value was expected. The short help of a command with

@@ -5,7 +5,7 @@ use super::given;
 use super::output::{Format, FormatOption, json, plural};
 use super::subject::Subject;
 use super::usage;
-use super::{Failure, Status, Verbosity, on_interrupt, print};
+use super::{Failure, Status, Verbosity, on_interrupt, print, program};
 use crate::generators::Strategy;
 use crate::generators::functions::Function;
 use crate::space::{did_you_mean, nearest};
@@ -244,7 +244,7 @@ impl Options {
 /// Returns the command line, which is kept in the files that the command writes.
 fn command() -> String {
     let arguments: Vec<String> = std::env::args().skip(1).map(|word| shell_word(&word)).collect();
-    format!("paracosm-fuzz {}", arguments.join(" "))
+    format!("{} {}", program::name(), arguments.join(" "))
 }
 
 /// Makes a progress bar for `of` things; `--quiet` hides the bar.

@@ -1,10 +1,10 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Status, Verbosity, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map, monitor,
-    page, perceive, record, replay, roads, run, sensitivity, shrink, trace,
+    Failure, Status, Verbosity, arguments, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map,
+    monitor, page, perceive, record, replay, roads, run, sensitivity, shrink, trace, usage,
 };
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use paracosm_campaign::Catalogue;
 
 const EXAMPLES: &str = "\
@@ -189,6 +189,24 @@ enum Verb {
 }
 
 impl Command {
+    /// Reads the arguments of the program. Ends the program if they are wrong, or if only help was asked for.
+    ///
+    /// # Errors
+    /// A scenario of the catalogue has the name of a command, so that nobody could test it by its name.
+    pub fn of(catalogue: &Catalogue) -> Result<Self, Failure> {
+        let commands = <Self as CommandFactory>::command();
+        let is_command = |name: &str| name == "help" || commands.find_subcommand(name).is_some();
+        match catalogue.programs().iter().find(|program| is_command(program.name())) {
+            Some(program) => Err(usage(format!(
+                "scenario `{0}` (\"{1}\") has the name of the command `{0}`; give the scenario another name",
+                program.name(),
+                program.about()
+            ))
+            .into()),
+            None => Ok(arguments::parse()),
+        }
+    }
+
     pub fn execute(self, catalogue: &Catalogue) -> Result<Status, Failure> {
         match self.verb {
             None => self.run.execute(catalogue, self.verbosity),
@@ -212,6 +230,26 @@ impl Command {
             Some(Verb::Perceive(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Roads(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paracosm_engine::Program;
+
+    #[test]
+    fn a_scenario_with_the_name_of_a_command_is_refused() {
+        for name in ["replay", "help", "run"] {
+            let catalogue = Catalogue::default().with(Program::of(name, "a car follows a log", |_| ()));
+            let error = Command::of(&catalogue).expect_err("the name is taken").to_string();
+            assert_eq!(
+                error,
+                format!(
+                    "scenario `{name}` (\"a car follows a log\") has the name of the command `{name}`; give the scenario another name"
+                )
+            );
         }
     }
 }

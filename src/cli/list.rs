@@ -122,7 +122,14 @@ fn key(kind: ListKind) -> String {
 fn scenarios(lists: &Lists, text: &mut String) -> Result<(), Failure> {
     for program in &lists.scenarios {
         writeln!(text, "  {:<22}{}", program.name(), program.about())?;
-        let declaration = program.declare()?;
+        let declaration = match program.declare() {
+            Ok(declaration) => declaration,
+            // A wrong scenario must not hide the others.
+            Err(error) => {
+                writeln!(text, "    error: {error}")?;
+                continue;
+            }
+        };
         let widths = widths(&declaration);
         for declared in &declaration.parameters {
             let parameter = &declared.parameter;
@@ -180,7 +187,7 @@ fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failu
     let mut all = serde_json::Map::new();
     for kind in kinds {
         let list: Vec<serde_json::Value> = match kind {
-            ListKind::Scenarios => lists.scenarios.iter().map(scenario).collect::<Result<_, Failure>>()?,
+            ListKind::Scenarios => lists.scenarios.iter().map(scenario).collect(),
             ListKind::Drivers => lists.drivers.iter().map(driver).collect(),
             ListKind::Cameras => lists.cameras.iter().map(camera).collect(),
             ListKind::Strategies
@@ -197,16 +204,22 @@ fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failu
     Ok(all.into())
 }
 
-fn scenario(program: &Program) -> Result<serde_json::Value, Failure> {
-    let parameters = program.declare()?.parameters;
-    let parameters: Vec<_> = parameters
+fn scenario(program: &Program) -> serde_json::Value {
+    let declaration = match program.declare() {
+        Ok(declaration) => declaration,
+        Err(error) => {
+            return json!({"name": program.name(), "about": program.about(), "error": error.to_string()});
+        }
+    };
+    let parameters: Vec<_> = declaration
+        .parameters
         .iter()
         .map(|declared| {
             json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal(),
                 "opened": declared.opened(), "plausible": declared.plausible()})
         })
         .collect();
-    Ok(json!({"name": program.name(), "about": program.about(), "parameters": parameters}))
+    json!({"name": program.name(), "about": program.about(), "parameters": parameters})
 }
 
 fn camera(setting: &CameraSetting) -> serde_json::Value {

@@ -27,6 +27,7 @@ mod page;
 mod paint;
 mod perceive;
 mod perceiver;
+mod program;
 mod progress;
 mod record;
 mod regressions;
@@ -168,9 +169,10 @@ fn usage(message: String) -> Error {
 /// }
 /// ```
 pub fn fuzz(catalogue: &Catalogue) -> ExitCode {
+    program::takes_the_place();
     quiet_workers();
     interrupt::listen();
-    exit(arguments::parse::<fuzz::Command>().execute(catalogue))
+    exit(fuzz::Command::of(catalogue).and_then(|command| command.execute(catalogue)))
 }
 
 /// Runs the program `paracosm-cover` with the scenarios of a catalogue, whose spaces it can measure.
@@ -197,6 +199,7 @@ fn exit(result: Result<Status, Failure>) -> ExitCode {
 /// Prints a message to standard error. A closed standard error is no error.
 fn complain(message: &impl Display) {
     let text = message.to_string();
+    let text = program::message(&text);
     let lines = text.split('\n').map(shortened).collect::<Vec<_>>().join("\n");
     let _ = writeln!(io::stderr(), "{}", printable(&lines));
 }

@@ -3,7 +3,7 @@
 use super::draw::is_ours_to_write;
 use super::output::{Format, digits, json};
 use super::usage;
-use super::{Failure, Status, print};
+use super::{Failure, Status, print, program};
 use crate::oracles::Verdict;
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{Catalogue, Error, Expectation, Regression, Replayed, Study, Trial, Trust};
@@ -92,7 +92,7 @@ fn suite<'a>(
     (trial, (end, message)): (&'a Trial, (End, String)),
 ) -> (String, &'a Study, Case<'a>) {
     let name = file.to_string_lossy().into_owned();
-    let replay = format!("paracosm-fuzz replay {}{}", shell_word(&name), command_option(regression.study()));
+    let replay = format!("{} replay {}{}", program::name(), shell_word(&name), command_option(regression.study()));
     let expected = Some(if regression.expect == Expectation::Fail { "fail" } else { "pass" });
     let case = Case { name: name.clone(), trial, replay, end, message, expected };
     (name, regression.study(), case)

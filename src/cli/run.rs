@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::sampling::Sampling;
 use super::subject::Subject;
 use super::usage;
-use super::{Failure, Status, Verbosity, on_interrupt, print, report};
+use super::{Failure, Status, Verbosity, on_interrupt, print, program, report};
 use crate::analysis::Summary;
 use crate::generators::{Purpose, Strategy};
 use crate::oracles::Verdict;
@@ -128,7 +128,7 @@ impl Options {
         }
         note_outlasting(&study, verbosity)?;
         let supervision = Supervision::default();
-        let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
+        let program = program::called();
         let runner = self.runner(&study, extension.as_ref()).until(supervision.clone()).program(&program);
         let mut progress = Progress::new(&study, extension.as_ref(), verbosity)?;
         on_interrupt(supervision.stop.clone());

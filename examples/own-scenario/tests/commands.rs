@@ -15,6 +15,8 @@ fn run(dir: &Path, arguments: &[&str]) -> String {
 fn the_scenario_has_the_commands_of_paracosm() {
     let dir = tempfile::tempdir().expect("a folder");
     let run = |arguments: &[&str]| run(dir.path(), arguments);
+    // Help has the name of this program.
+    assert!(run(&["--help"]).contains("own-scenario replay paracosm-out 17"));
     assert!(run(&["list", "scenarios"]).contains("jogger"));
     assert!(run(&["describe", "jogger"]).contains("a jogger crosses the road"));
     let summary = run(&["jogger", "--budget", "60", "--strategy", "halton"]);

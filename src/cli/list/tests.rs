@@ -114,6 +114,28 @@ fn whatever_has_a_descriptor_is_in_the_tables_of_the_documents() {
     assert!(text.contains("| `scratch-driver` | `patience` | 1.5 s | 0 to 9 | a setting of this test |"), "{text}");
 }
 
+const WITHOUT_A_CAR: Program =
+    Program::new("scratch-empty", "a road without a car", |s: &mut Scenario| drop(s.place(RoadSegment::new(100.0))));
+
+const PANICKING: Program = Program::new("scratch-panic", "a scenario that panics", |_: &mut Scenario| {
+    panic!("a table of a test has no row 7");
+});
+
+#[test]
+fn a_wrong_scenario_shows_its_error_and_hides_no_other() {
+    let mut lists = with_scratch();
+    lists.scenarios.insert(0, WITHOUT_A_CAR);
+    lists.scenarios.insert(0, PANICKING);
+    let panicked = "scenario `scratch-panic` panicked with nominal values: a table of a test has no row 7";
+    let Ok(text) = table(&lists, &[ListKind::Scenarios]) else { panic!("the list is printed") };
+    assert!(text.contains(&format!("a scenario that panics\n    error: {panicked}\n  scratch-empty")), "{text}");
+    assert!(text.contains("a road without a car\n    error: scenario `scratch-empty`: "), "{text}");
+    assert!(text.contains("scratch_speed"), "{text}");
+    let Ok(all) = as_json(&lists, &[ListKind::Scenarios]) else { panic!("the list is printed") };
+    assert_eq!(all["scenarios"][0]["error"], panicked);
+    assert!(all["scenarios"][2]["error"].is_null() && all["scenarios"][2]["parameters"].is_array(), "{all}");
+}
+
 #[test]
 fn the_page_of_names_is_what_the_command_prints() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");

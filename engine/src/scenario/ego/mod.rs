@@ -117,7 +117,9 @@ impl AutonomousVehicle {
         self
     }
 
-    /// Sets the speed in m/s at which the car starts and that its driver is to keep.
+    /// Sets the speed in m/s at which the car starts and that its driver is to keep. The speed is a number, for example
+    /// [`Param::value`](crate::Param::value): the driver changes the speed later. A [`Mover`](crate::Mover) has no driver, so its speed is a
+    /// stream.
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
