@@ -2,7 +2,7 @@
 
 use super::{
     Failure, Status, Verbosity, arguments, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map,
-    monitor, page, perceive, record, replay, roads, run, sensitivity, shrink, trace, usage,
+    monitor, page, perceive, record, repeat, replay, roads, run, sensitivity, shrink, trace, usage,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use paracosm_campaign::Catalogue;
@@ -44,6 +44,8 @@ Examples:
       a perception network on trial
   paracosm-fuzz roads town.xodr --draw town.svg
       the roads of a file (ASAM OpenDRIVE)
+  paracosm-fuzz repeat paracosm-out --out again
+      run a whole campaign again: does every test end as before?
   paracosm-fuzz list
       scenarios, strategies, drivers
 
@@ -138,6 +140,9 @@ enum Verb {
     )]
     #[command(after_long_help = REPLAYS)]
     Replay(replay::Options),
+    /// Run a whole campaign again: does every test end as before?
+    #[command(after_long_help = repeat::EXAMPLES)]
+    Repeat(repeat::Options),
     /// Write a logged test as OpenSCENARIO and OpenDRIVE
     ///
     /// Other simulators play the scenario (ASAM OpenSCENARIO) on its roads (ASAM OpenDRIVE).
@@ -219,6 +224,7 @@ impl Command {
             Some(Verb::Map(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Report(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Replay(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Repeat(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Export(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Blame(options)) => options.execute(catalogue, self.verbosity),

@@ -31,6 +31,7 @@ mod program;
 mod progress;
 mod record;
 mod regressions;
+mod repeat;
 mod replay;
 mod report;
 mod roads;

@@ -48,6 +48,7 @@ mod points;
 mod python;
 mod races;
 mod reference_drivers;
+mod repeat;
 mod requirements;
 mod roads;
 mod scenario_chances;

@@ -110,6 +110,6 @@ fn place(trial: &Trial, coordinate: &Coordinate) -> Option<f64> {
     let value: &Value = coordinate.value(trial.test.get(&coordinate.parameter.name)?)?;
     match coordinate.parameter.levels() {
         None => value.number(),
-        Some(levels) => levels.iter().position(|level| level == value).map(|level| level as f64),
+        Some(_) => coordinate.parameter.level(value).map(|level| level as f64),
     }
 }

@@ -8,7 +8,7 @@ use crate::junit::{command_option, shell_word};
 use paracosm_analysis::estimate::Measured;
 use paracosm_analysis::failure_estimate::{Estimator, FailureEstimate, decided};
 use paracosm_analysis::{Growth, Judged, Summary};
-use paracosm_campaign::{Error, Study};
+use paracosm_campaign::{Error, Number, Study};
 use paracosm_coverage::Measure;
 use paracosm_generators::FailingShare;
 use paracosm_oracles::Verdict;
@@ -80,7 +80,7 @@ struct Stated {
     source: Option<String>,
     violated: usize,
     undecided: usize,
-    worst: Option<(usize, f64)>,
+    worst: Option<(usize, Number)>,
 }
 
 /// A coordinate of the tests.
@@ -118,7 +118,7 @@ struct NoEffect {
 struct WorstTest {
     index: usize,
     requirement: String,
-    robustness: Option<f64>,
+    robustness: Number,
     verdict: String,
 }
 
@@ -137,11 +137,10 @@ impl Document {
         let worst = |summary: &Summary| {
             let found = summary.worst(log.scales())?;
             let trial = &log.trials()[found.index];
-            let robustness = trial.robustness(&found.requirement);
             Some(WorstTest {
                 index: found.index,
+                robustness: Number(trial.robustness(&found.requirement)),
                 requirement: found.requirement,
-                robustness: robustness.filter(|robustness| robustness.is_finite()),
                 verdict: trial.verdict.to_string(),
             })
         };
@@ -215,10 +214,7 @@ fn stated(study: &Study, judged: &Judged) -> Stated {
         source: text(|stated| stated.source.clone()),
         violated: judged.violated,
         undecided: judged.undecided,
-        worst: judged
-            .worst
-            .filter(|(robustness, _)| robustness.is_finite())
-            .map(|(robustness, index)| (index, robustness)),
+        worst: judged.worst.map(|(robustness, index)| (index, Number(Some(robustness)))),
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::roads::{Ground, near};
 use super::whole::differences;
-use paracosm_campaign::Study;
+use paracosm_campaign::{Number, Study};
 use paracosm_engine::object::{Body, Class, Outline};
 use paracosm_engine::road::{Bounds, RoadNetwork};
 use paracosm_engine::{Pose, Run};
@@ -72,8 +72,11 @@ struct Curve {
 struct Margin {
     id: String,
     unit: String,
+    /// `None` while the bound is infinite.
     lower: Vec<Option<f32>>,
     upper: Vec<Option<f32>>,
+    /// The robustness of the whole run; null if it is undecided.
+    end: Number,
 }
 
 impl Recorder {
@@ -183,12 +186,14 @@ fn robustness(study: &Study, trace: &Trace, ticks: &[usize]) -> Vec<Margin> {
         }
         // At the end, the evaluation is exact, unless the run ended too early for the requirement.
         let end = monitor.finish(trace.is_complete());
-        if end.truth != Truth::Undecided {
+        let is_decided = end.truth != Truth::Undecided;
+        if is_decided {
             *bounds.last_mut()? = (end.robustness, end.robustness);
         }
         let of = |side: fn(&(f64, f64)) -> f64| ticks.iter().map(|tick| rounded(side(&bounds[*tick]))).collect();
         let (lower, upper) = (of(|bounds| bounds.0), of(|bounds| bounds.1));
-        Some(Margin { id: requirement.id.clone(), unit: requirement.unit.clone(), lower, upper })
+        let end = Number(is_decided.then_some(end.robustness));
+        Some(Margin { id: requirement.id.clone(), unit: requirement.unit.clone(), lower, upper, end })
     };
     study.requirements().iter().filter_map(margin).collect()
 }

@@ -15,10 +15,13 @@ export interface Grid {
   decided: string;
 }
 
+/** A number as JSON has it, which has no infinities. */
+export type Real = number | "inf" | "-inf" | null;
+
 export interface Worst {
   index: number;
   requirement: string;
-  robustness: number | null;
+  robustness: Real;
   verdict: string;
 }
 
@@ -40,7 +43,7 @@ export interface Requirement {
   source: string | null;
   violated: number;
   undecided: number;
-  worst: [number, number] | null;
+  worst: [number, Real] | null;
 }
 
 export interface Growth {
@@ -60,9 +63,18 @@ export interface Changed {
   verdicts: [string, string];
 }
 
+/** Points of Euro NCAP. */
+export interface Points {
+  grid: string;
+  points: number | null;
+  of: number;
+}
+
 export interface Changes {
   titles: [string, string];
   tests: number;
+  unpaired: [number, number];
+  points?: [Points, Points];
   failing: [number, number];
   still_failing: number;
   new_failures: Changed[];
@@ -129,6 +141,7 @@ export interface Margin {
   unit: string;
   lower: (number | null)[];
   upper: (number | null)[];
+  end: Real;
 }
 
 export interface Run {

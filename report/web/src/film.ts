@@ -63,7 +63,9 @@ export class Film {
   private without(index: number): string {
     const { runs, study } = this.store().page;
     const why = runs.why ? ` (${runs.why})` : "";
-    return `This page does not have the run of test ${index}${why}. This command plays it: paracosm-fuzz replay ${study.folder} ${index} --draw test-${index}.gif${study.trusting}`;
+    // A system has no world to draw.
+    const command = study.scenario === null ? "" : ` This command draws it: paracosm-fuzz replay ${study.folder} ${index} --draw test-${index}.gif${study.trusting}`;
+    return `This page does not have the run of test ${index}${why}.${command}`;
   }
 
   private play(run: Run) {
@@ -160,10 +162,8 @@ export class Film {
       new ResizeObserver(() => place.clientWidth > 0 && made.setSize({ width: place.clientWidth, height: 118 })).observe(place);
       return { made, place };
     };
-    for (const { id, lower, upper } of run.robustness) {
-      const last = upper[upper.length - 1];
-      const isDecided = last !== null && last === lower[lower.length - 1];
-      plot(`robustness of ${id}: ${isDecided ? `${withUnit(last, units.get(id) ?? null)} at the end` : "undecided"}`, [
+    for (const { id, lower, upper, end } of run.robustness) {
+      plot(`robustness of ${id}: ${end === null ? "undecided" : `${withUnit(end, units.get(id) ?? null)} at the end`}`, [
         { label: "at most", values: upper, stroke: "#0072b2" },
         { label: "at least", values: lower, stroke: "#0072b2", dash: [4, 4] },
       ], true);

@@ -16,15 +16,15 @@ async function start(root: HTMLElement) {
   const film = new Film(() => store);
   const store: Store = new Store(page, tests, (index) => void film.show(index), (index) => readRun(page, index));
   const { study } = page;
-  const hasMap = page.axes !== null;
+  const map = page.axes === null ? null : new MapView(store);
   const effects = page.without_effect.map(({ name, why }) => h("li", {}, h("strong", {}, name), ` had no effect: ${why}`));
   root.replaceChildren(
     h("header", { class: "top" }, h("h1", {}, study.title), themeButton()),
     sections.verdict(page),
     effects.length > 0 ? h("ul", { class: "effects" }, ...effects) : h("span", { hidden: true }),
     h("div", { class: "first" },
-      ...[sections.worstCard(store), hasMap ? h("section", { class: "card" }, h("h2", {}, "Failure map"), new MapView(store).element) : null].filter((part) => part !== null)),
-    h("p", { class: "command muted" }, `study ${study.hash}, ${study.strategy}, ${page.tests.all} tests. `, (page.worst_plausible ?? page.worst) ? h("code", {}, `paracosm-fuzz replay ${study.folder} ${(page.worst_plausible ?? page.worst)!.index}${study.trusting}`) : null),
+      ...[sections.worstCard(store), map ? h("section", { class: "card" }, h("h2", {}, "Failure map"), map.element) : null].filter((part) => part !== null)),
+    h("p", { class: "command muted" }, `study ${study.hash}, ${study.strategy}, ${page.tests.all} tests. `, "This command repeats it: ", h("code", {}, `paracosm-fuzz repeat ${study.folder}${study.trusting}`)),
     film.dialog,
   );
   // The rest follows after the first picture.
@@ -43,6 +43,7 @@ async function start(root: HTMLElement) {
     ];
     root.append(...more.filter((part) => part !== null));
     root.dataset.ready = "true";
+    requestIdleCallback(() => map?.prepare(), { timeout: 2000 });
   }));
 }
 

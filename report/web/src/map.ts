@@ -7,12 +7,13 @@ import { zoom, zoomIdentity, type ZoomTransform } from "d3-zoom";
 import { plain, type Grid } from "./data";
 import { colour, h, Sheet } from "./dom";
 import type { Store } from "./store";
-import { modeColour, mark, verdictColour } from "./marks";
+import { type Line, MOST_MARKS, paintTests } from "./cloud";
 
 const MARGIN = { left: 62, right: 14, top: 12, bottom: 46 };
 /** The distance in pixels within which a test answers to the pointer. */
 const NEAR = 14;
 
+/** A map of the tests with one value of a discrete parameter, or of all tests. */
 interface Facet {
   title: string | null;
   rows: Uint32Array;
@@ -21,7 +22,13 @@ interface Facet {
   width: number;
   height: number;
   tree: Quadtree<number> | null;
+  /** The element over the map that hears of the pointer. */
+  pane: HTMLElement;
 }
+
+type Scale = ScaleLinear<number, number>;
+
+const line = (scale: Scale): Line => ({ scale: scale(1) - scale(0), offset: scale(0) });
 
 export class MapView {
   readonly element: HTMLElement;
@@ -31,7 +38,8 @@ export class MapView {
   private transform: ZoomTransform = zoomIdentity;
   private facets: Facet[] = [];
   private size = "";
-  private hovered: { row: number; x: number; y: number } | null = null;
+  private hovered: { facet: Facet; row: number; x: number; y: number } | null = null;
+  private readonly panes = h("div", { class: "panes" });
   private readonly sheet: Sheet;
   private readonly overlay: Sheet;
   private readonly tip = h("div", { class: "tip", hidden: true });
@@ -66,30 +74,33 @@ export class MapView {
       } }), " failure modes"),
       h("button", { type: "button", class: "quiet", click: () => this.reset() }, "Whole map"),
     );
-    const canvases = h("div", { class: "canvases" }, this.sheet.canvas, this.overlay.canvas, this.tip);
+    const canvases = h("div", { class: "canvases" }, this.sheet.canvas, this.overlay.canvas, this.panes, this.tip);
     this.element = h("div", { class: "map" }, controls, canvases, this.note);
     store.onFilter(() => this.sheet.draw());
-    const area = select<HTMLCanvasElement, unknown>(this.overlay.canvas);
-    this.zooming = zoom<HTMLCanvasElement, unknown>().scaleExtent([1, 64]).on("zoom", (event: { transform: ZoomTransform }) => {
+    let isFollowing = false;
+    this.zooming = zoom<HTMLElement, unknown>().scaleExtent([1, 64]).on("zoom", (event: { transform: ZoomTransform }) => {
+      if (isFollowing) return;
       this.transform = event.transform;
-      this.hovered = null;
-      this.tip.hidden = true;
+      // All maps show the same part.
+      isFollowing = true;
+      for (const { pane } of this.facets) select<HTMLElement, unknown>(pane).call(this.zooming.transform, event.transform);
+      isFollowing = false;
+      this.leave();
       this.sheet.draw();
-      this.overlay.draw();
-    });
-    area.call(this.zooming).on("dblclick.zoom", null);
-    this.overlay.canvas.addEventListener("pointermove", (event) => this.hover(event));
-    this.overlay.canvas.addEventListener("pointerleave", () => this.leave());
-    this.overlay.canvas.addEventListener("click", () => {
-      if (this.hovered) store.show(store.tests.index[this.hovered.row]);
     });
     this.words();
   }
 
   private readonly zooming;
 
+  /** Prepares the answers to the pointer, which takes a while if there are many tests. */
+  prepare() {
+    for (const facet of this.facets) this.treeOf(facet);
+  }
+
   private reset() {
-    select<HTMLCanvasElement, unknown>(this.overlay.canvas).call(this.zooming.transform, zoomIdentity);
+    const [first] = this.facets;
+    if (first) select<HTMLElement, unknown>(first.pane).call(this.zooming.transform, zoomIdentity);
   }
 
   private changed() {
@@ -109,6 +120,7 @@ export class MapView {
       grid ? "Shade: estimated probability of failure." : this.store.page.maps.length > 0 ? "The page has no estimate for this pair." : null,
       hole ? (isWhole ? "Dashed: the largest empty box, which was never tested." : "Dashed: the largest empty box; other parameters bound it, too.") : null,
       x === y ? "Both axes show the same parameter." : null,
+      this.store.tests.rows > MOST_MARKS && page.modes.modes.length > 1 ? "With so many tests, a failure mode is a colour; zoom in to see its marks." : null,
     ];
     this.note.textContent = parts.filter(Boolean).join(" ");
   }
@@ -124,16 +136,16 @@ export class MapView {
     return hole && hole[x] && hole[y] ? [hole[x], hole[y]] : null;
   }
 
-  private base(facet: Facet): [ScaleLinear<number, number>, ScaleLinear<number, number>] {
+  /** The scales of a map in pixels from its corner, before it is zoomed. */
+  private base(facet: Facet): [Scale, Scale] {
     const [x, y] = this.axes.map((at) => this.store.page.coordinates[at].range ?? [0, 1]);
-    return [scaleLinear(x, [facet.left, facet.left + facet.width]), scaleLinear(y, [facet.top + facet.height, facet.top])];
+    return [scaleLinear(x, [0, facet.width]), scaleLinear(y, [facet.height, 0])];
   }
 
-  /** The scales of a facet, as they are zoomed. All facets zoom like the first. */
-  private scales(facet: Facet): [ScaleLinear<number, number>, ScaleLinear<number, number>] {
-    const first = this.base(this.facets[0]);
+  /** The scales of a map as it is zoomed. */
+  private scales(facet: Facet): [Scale, Scale] {
     const [x, y] = this.base(facet);
-    return [x.domain(this.transform.rescaleX(first[0]).domain()), y.domain(this.transform.rescaleY(first[1]).domain())];
+    return [this.transform.rescaleX(x), this.transform.rescaleY(y)];
   }
 
   /** Lays the facets out, and sorts the tests into them. */
@@ -148,7 +160,9 @@ export class MapView {
     const rows = Math.ceil(levels.length / columns);
     const title = this.facetBy < 0 ? 0 : 18;
     const [w, hgt] = [width / columns, height / rows];
-    this.facets = levels.map((level, number) => {
+    this.transform = zoomIdentity;
+    this.hovered = null;
+    this.facets = levels.map((level, number): Facet => {
       const [column, row] = [number % columns, Math.floor(number / columns)];
       const all = new Uint32Array(tests.rows);
       let count = 0;
@@ -161,11 +175,22 @@ export class MapView {
         width: Math.max(20, w - MARGIN.left - MARGIN.right),
         height: Math.max(20, hgt - MARGIN.top - MARGIN.bottom - title),
         tree: null,
+        pane: h("div", { class: "pane" }),
       };
     });
-    const { left, top, width: inner, height: tall } = this.facets[0];
-    const box: [[number, number], [number, number]] = [[left, top], [left + inner, top + tall]];
-    this.zooming.extent(box).translateExtent(box);
+    const [{ width: inner, height: tall }] = this.facets;
+    this.zooming.extent([[0, 0], [inner, tall]]).translateExtent([[0, 0], [inner, tall]]);
+    for (const facet of this.facets) {
+      const { pane } = facet;
+      Object.assign(pane.style, { left: `${facet.left}px`, top: `${facet.top}px`, width: `${facet.width}px`, height: `${facet.height}px` });
+      pane.addEventListener("pointermove", (event) => this.hover(facet, event));
+      pane.addEventListener("pointerleave", () => this.leave());
+      pane.addEventListener("click", () => {
+        if (this.hovered) this.store.show(this.store.tests.index[this.hovered.row]);
+      });
+      select<HTMLElement, unknown>(pane).call(this.zooming).on("dblclick.zoom", null);
+    }
+    this.panes.replaceChildren(...this.facets.map(({ pane }) => pane));
   }
 
   private paint(context: CanvasRenderingContext2D) {
@@ -175,37 +200,16 @@ export class MapView {
 
   private paintFacet(context: CanvasRenderingContext2D, facet: Facet) {
     const [x, y] = this.scales(facet);
-    const { left, top, width, height } = facet;
-    const { page, tests, mask } = this.store;
+    const { left, top, width, height, rows } = facet;
     context.save();
+    context.translate(left, top);
     context.beginPath();
-    context.rect(left, top, width, height);
+    context.rect(0, 0, width, height);
     context.clip();
     context.fillStyle = colour("plot");
-    context.fillRect(left, top, width, height);
+    context.fillRect(0, 0, width, height);
     this.paintShade(context, x, y);
-    const [cx, cy] = this.axes.map((at) => tests.coordinates[at]);
-    // Tests that the filters leave out are faint, passing tests are below failing ones.
-    const fails = page.verdicts.findIndex(({ name }) => name === "fail");
-    const isDense = facet.rows.length > 5000;
-    for (const layer of [0, 1, 2]) {
-      for (const row of facet.rows) {
-        const isFailing = tests.verdict[row] === fails;
-        if (layer !== (mask[row] ? (isFailing ? 2 : 1) : 0)) continue;
-        const [px, py] = [x(cx[row]), y(cy[row])];
-        if (layer === 0) {
-          context.fillStyle = colour("faint");
-          context.fillRect(px - 1, py - 1, 2, 2);
-        } else if (isFailing) {
-          const mode = this.byMode ? tests.mode[row] : 1;
-          mark(context, this.byMode ? mode : 1, px, py, isDense ? 2.5 : 4, this.byMode ? modeColour(mode) : colour("fail"));
-        } else {
-          context.fillStyle = verdictColour(page.verdicts[tests.verdict[row]].name);
-          const r = isDense ? 1 : 2;
-          context.fillRect(px - r, py - r, 2 * r, 2 * r);
-        }
-      }
-    }
+    paintTests(context, this.store, { width, height, rows, x: line(x), y: line(y), axes: this.axes, byMode: this.byMode });
     const hole = this.hole();
     if (hole) {
       const [[x0, x1], [y0, y1]] = hole;
@@ -214,12 +218,12 @@ export class MapView {
       context.setLineDash([6, 4]);
       context.strokeRect(x(x0), y(y1), x(x1) - x(x0), y(y0) - y(y1));
       context.setLineDash([]);
-      if (page.coordinates.length === 2 && x(x1) - x(x0) > 8) {
+      if (this.store.page.coordinates.length === 2 && x(x1) - x(x0) > 8) {
         context.fillStyle = colour("ink");
         context.font = "11px system-ui, sans-serif";
         context.textAlign = "left";
         context.textBaseline = "bottom";
-        context.fillText("never tested", Math.min(x(x0), left + width - 70), y(y1) - 3);
+        context.fillText("never tested", Math.min(x(x0), width - 70), y(y1) - 3);
       }
     }
     context.restore();
@@ -266,49 +270,51 @@ export class MapView {
   private paintAxes(context: CanvasRenderingContext2D, facet: Facet, x: ScaleLinear<number, number>, y: ScaleLinear<number, number>) {
     const { left, top, width, height, title } = facet;
     const { coordinates } = this.store.page;
+    context.save();
+    context.translate(left, top);
     context.strokeStyle = colour("line");
     context.fillStyle = colour("muted");
     context.lineWidth = 1;
-    context.strokeRect(left - 0.5, top - 0.5, width + 1, height + 1);
+    context.strokeRect(-0.5, -0.5, width + 1, height + 1);
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "top";
     const xs = x.ticks(Math.max(2, width / 90));
     const ys = y.ticks(Math.max(2, height / 50));
     for (const tick of xs) {
-      context.fillRect(Math.round(x(tick)), top + height, 1, 4);
-      context.fillText(String(tick), x(tick), top + height + 7);
+      context.fillRect(Math.round(x(tick)), height, 1, 4);
+      context.fillText(String(tick), x(tick), height + 7);
     }
     context.textAlign = "right";
     context.textBaseline = "middle";
     for (const tick of ys) {
-      context.fillRect(left - 4, Math.round(y(tick)), 4, 1);
-      context.fillText(String(tick), left - 7, y(tick));
+      context.fillRect(-4, Math.round(y(tick)), 4, 1);
+      context.fillText(String(tick), -7, y(tick));
     }
     context.fillStyle = colour("ink");
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "top";
-    context.fillText(coordinates[this.axes[0]].label, left + width / 2, top + height + 25, width);
+    context.fillText(coordinates[this.axes[0]].label, width / 2, height + 25, width);
     context.save();
-    context.translate(left - 50, top + height / 2);
+    context.translate(-50, height / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(coordinates[this.axes[1]].label, 0, 0, height);
     context.restore();
     if (title) {
       context.textBaseline = "bottom";
-      context.fillText(title, left + width / 2, top - 4, width);
+      context.fillText(title, width / 2, -4, width);
     }
+    context.restore();
   }
 
-  private hover(event: PointerEvent) {
+  private hover(facet: Facet, event: PointerEvent) {
     const { offsetX: px, offsetY: py } = event;
-    const facet = this.facets.find(({ left, top, width, height }) => px >= left && px <= left + width && py >= top && py <= top + height);
-    const found = facet && this.nearest(facet, px, py);
+    const found = this.nearest(facet, px, py);
     if (!found) return this.leave();
     this.hovered = found;
     this.overlay.draw();
-    this.overlay.canvas.style.cursor = "pointer";
+    facet.pane.style.cursor = "pointer";
     const { store } = this;
     const row = found.row;
     const values = store.valuesOf(row).map(([name, value]) => h("div", {}, `${name} ${value}`));
@@ -320,10 +326,11 @@ export class MapView {
       ...this.chance(facet, px, py),
     );
     this.tip.hidden = false;
-    const right = px > this.overlay.width / 2;
-    this.tip.style.left = right ? "auto" : `${px + 16}px`;
-    this.tip.style.right = right ? `${this.overlay.width - px + 16}px` : "auto";
-    this.tip.style.top = `${Math.min(py, this.overlay.height - 140)}px`;
+    const [left, top] = [facet.left + px, facet.top + py];
+    const right = left > this.overlay.width / 2;
+    this.tip.style.left = right ? "auto" : `${left + 16}px`;
+    this.tip.style.right = right ? `${this.overlay.width - left + 16}px` : "auto";
+    this.tip.style.top = `${Math.min(top, this.overlay.height - 140)}px`;
   }
 
   /** The estimate at a place in words. */
@@ -344,30 +351,36 @@ export class MapView {
     return [h("div", { class: "muted" }, `estimate here: ${share} % fail${sure}`)];
   }
 
-  private nearest(facet: Facet, px: number, py: number): { row: number; x: number; y: number } | null {
+  private treeOf(facet: Facet): Quadtree<number> {
+    const [bx, by] = this.base(facet);
+    const [cx, cy] = this.axes.map((at) => this.store.tests.coordinates[at]);
+    return (facet.tree ??= quadtree<number>([...facet.rows], (row) => bx(cx[row]), (row) => by(cy[row])));
+  }
+
+  private nearest(facet: Facet, px: number, py: number): { facet: Facet; row: number; x: number; y: number } | null {
     const { tests, mask } = this.store;
     const [bx, by] = this.base(facet);
     const [cx, cy] = this.axes.map((at) => tests.coordinates[at]);
-    facet.tree ??= quadtree<number>([...facet.rows], (row) => bx(cx[row]), (row) => by(cy[row]));
     // On the map as it was before it was zoomed.
     const [x, y] = this.scales(facet);
-    const found = facet.tree.find(bx(x.invert(px)), by(y.invert(py)), NEAR / this.transform.k);
-    return found === undefined || !mask[found] ? null : { row: found, x: x(cx[found]), y: y(cy[found]) };
+    const row = this.treeOf(facet).find(bx(x.invert(px)), by(y.invert(py)), NEAR / this.transform.k);
+    return row === undefined || !mask[row] ? null : { facet, row, x: x(cx[row]), y: y(cy[row]) };
   }
 
   private leave() {
     this.hovered = null;
     this.tip.hidden = true;
-    this.overlay.canvas.style.cursor = "crosshair";
+    for (const { pane } of this.facets) pane.style.cursor = "crosshair";
     this.overlay.draw();
   }
 
   private highlight(context: CanvasRenderingContext2D) {
     if (!this.hovered) return;
+    const { facet, x, y } = this.hovered;
     context.strokeStyle = colour("ink");
     context.lineWidth = 2;
     context.beginPath();
-    context.arc(this.hovered.x, this.hovered.y, 8, 0, 2 * Math.PI);
+    context.arc(facet.left + x, facet.top + y, 8, 0, 2 * Math.PI);
     context.stroke();
   }
 }

@@ -10,13 +10,14 @@ const BOTTOM = 16;
 const SIDE = 48;
 /** With more tests, lines that lie close together are drawn as one. */
 const MOST_LINES = 4000;
-const BINS = 64;
+const BINS = 48;
 
 export class Parallel {
   readonly element: HTMLElement;
   private readonly sheet: Sheet;
   private drag: { axis: number; from: number; to: number } | null = null;
   private readonly count = h("output", { class: "count", "aria-live": "polite" });
+  private readonly bins: Uint8Array[] = [];
   private readonly inputs: { axis: number; lo: HTMLInputElement; hi: HTMLInputElement }[] = [];
 
   constructor(private readonly store: Store) {
@@ -118,15 +119,16 @@ export class Parallel {
       context.lineWidth = 1;
       const rows: number[] = [];
       for (let i = 0; i < tests.rows; i++) if (mask[i] && (tests.verdict[i] === fails) === isFailing) rows.push(i);
-      if (rows.length > MOST_LINES) this.paintBins(context, rows, scales);
+      if (rows.length > MOST_LINES && axes > 1) this.paintBins(context, rows);
       else {
         context.globalAlpha = Math.min(0.7, Math.max(0.06, 60 / Math.max(1, rows.length)));
         for (const row of rows) {
           context.beginPath();
           for (let axis = 0; axis < axes; axis++) {
             const [x, y] = [this.xOf(axis), scales[axis](tests.coordinates[axis][row])];
-            if (axis === 0) context.moveTo(x, y);
-            else context.lineTo(x, y);
+            // With a single axis, a test is a short line on it.
+            if (axis === 0) context.moveTo(axes === 1 ? x - 14 : x, y);
+            if (axis > 0 || axes === 1) context.lineTo(axes === 1 ? x + 14 : x, y);
           }
           context.stroke();
         }
@@ -136,18 +138,22 @@ export class Parallel {
     for (let axis = 0; axis < axes; axis++) this.paintAxis(context, axis, scales[axis]);
   }
 
+  /** The part of an axis in which each test lies, from its top. */
+  private binsOf(axis: number): Uint8Array {
+    const { range, levels } = this.store.page.coordinates[axis];
+    const [lo, hi] = range ?? [-0.5, (levels?.length ?? 1) - 0.5];
+    const bin = (value: number) => Math.min(BINS - 1, Math.max(0, Math.floor(((hi - value) / (hi - lo)) * BINS)));
+    return (this.bins[axis] ??= Uint8Array.from(this.store.tests.coordinates[axis], bin));
+  }
+
   /** Draws one line for all lines between the same two parts of neighbouring axes. */
-  private paintBins(context: CanvasRenderingContext2D, rows: number[], scales: ReturnType<Parallel["scale"]>[]) {
-    const { tests } = this.store;
+  private paintBins(context: CanvasRenderingContext2D, rows: number[]) {
     const span = this.sheet.height - BOTTOM - TOP;
-    for (let axis = 0; axis + 1 < scales.length; axis++) {
+    for (let axis = 0; axis + 1 < this.store.page.coordinates.length; axis++) {
       const counts = new Uint32Array(BINS * BINS);
-      const bin = (at: number, row: number) => Math.min(BINS - 1, Math.max(0, Math.floor(((scales[at](tests.coordinates[at][row]) - TOP) / span) * BINS)));
+      const [before, after] = [this.binsOf(axis), this.binsOf(axis + 1)];
       let most = 0;
-      for (const row of rows) {
-        const place = bin(axis, row) * BINS + bin(axis + 1, row);
-        most = Math.max(most, ++counts[place]);
-      }
+      for (const row of rows) most = Math.max(most, ++counts[before[row] * BINS + after[row]]);
       const [x0, x1] = [this.xOf(axis), this.xOf(axis + 1)];
       for (const level of [0.25, 0.5, 1]) {
         context.globalAlpha = 0.25 * level;

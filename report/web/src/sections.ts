@@ -41,24 +41,28 @@ export function thumbnail(store: Store, index: number, label: string): HTMLEleme
   return button;
 }
 
+/** The test that the first screen shows, with what it is: the worst plausible failure, or else the worst test. */
+export function worstTest({ worst, worst_plausible: plausible, plausible: ranges }: Document): [Worst, string] | null {
+  if (plausible?.verdict === "fail") return [plausible, ranges ? "Worst plausible failure" : "Worst failure"];
+  if (!worst) return null;
+  return [worst, worst.verdict === "fail" ? (ranges ? "Worst failure, not plausible" : "Worst failure") : "Nearest to a failure"];
+}
+
 export function worstCard(store: Store): HTMLElement | null {
   const { page } = store;
-  const card = (worst: Worst, title: string) => {
-    const row = store.rowOf(worst.index);
-    const unit = page.requirements.find(({ id }) => id === worst.requirement)?.unit ?? null;
-    const mode = row < 0 ? 0 : store.tests.mode[row];
-    return h("section", { class: "card worst" },
-      h("h2", {}, title),
-      thumbnail(store, worst.index, `test ${worst.index}`),
-      h("p", {}, `${worst.requirement}: robustness ${withUnit(worst.robustness, unit)}`),
-      mode ? h("p", {}, page.modes.modes[mode - 1].words) : null,
-      row < 0 ? null : h("p", { class: "muted" }, store.valuesOf(row).map(([name, value]) => `${name} ${value}`).join(", ")),
-    );
-  };
-  const { worst, worst_plausible: plausible } = page;
-  if (plausible?.verdict === "fail") return card(plausible, page.plausible ? "Worst plausible failure" : "Worst failure");
-  if (!worst) return null;
-  return card(worst, worst.verdict === "fail" ? (page.plausible ? "Worst failure, not plausible" : "Worst failure") : "Nearest to a failure");
+  const found = worstTest(page);
+  if (!found) return null;
+  const [worst, title] = found;
+  const row = store.rowOf(worst.index);
+  const unit = page.requirements.find(({ id }) => id === worst.requirement)?.unit ?? null;
+  const mode = row < 0 ? 0 : store.tests.mode[row];
+  return h("section", { class: "card worst" },
+    h("h2", {}, title),
+    thumbnail(store, worst.index, `test ${worst.index}`),
+    h("p", {}, `${worst.requirement}: robustness ${withUnit(worst.robustness, unit)}`),
+    mode ? h("p", {}, page.modes.modes[mode - 1].words) : null,
+    row < 0 ? null : h("p", { class: "muted" }, store.valuesOf(row).map(([name, value]) => `${name} ${value}`).join(", ")),
+  );
 }
 
 export function modes(store: Store): HTMLElement | null {
@@ -117,10 +121,13 @@ export function requirements(store: Store): HTMLElement {
 export function changes(store: Store): HTMLElement | null {
   const { changes } = store.page;
   if (!changes) return null;
-  const { titles, tests, failing, still_failing: still, new_failures: added, mended, mcnemar_p: p } = changes;
+  const { titles, tests, unpaired, points, failing, still_failing: still, new_failures: added, mended, mcnemar_p: p } = changes;
+  const alone = [0, 1].filter((at) => unpaired[at] > 0).map((at) => `${plural(unpaired[at], "test")} of ${titles[at]} (${at === 0 ? "before" : "after"})`);
   const list = (label: string, all: typeof added) => [h("dt", {}, `${label}: ${all.length}`), h("dd", {}, ...all.slice(0, 12).map(({ index }) => h("button", { type: "button", class: "quiet", click: () => store.show(index[1]) }, `test ${index[1]}`)), all.length > 12 ? " ..." : null)];
   return section("changes", "What changed",
     h("p", {}, `${titles[0]}: ${failing[0]} of ${plural(tests, "test")} fail. ${titles[1]}: ${failing[1]} fail, ${still} of them in both. McNemar's test: p = ${digits(p)}.`),
+    alone.length > 0 ? h("p", {}, `Without a pair, and not compared: ${alone.join(" and ")}.`) : null,
+    points ? h("p", {}, `Points on the grid ${points[0].grid}: ${digits(points[0].points)} before, ${digits(points[1].points)} after, of ${digits(points[0].of)}.`) : null,
     h("dl", { class: "findings" }, ...list("new failures", added), ...list("mended", mended)));
 }
 

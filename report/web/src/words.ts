@@ -1,8 +1,11 @@
 // Numbers and counts in words, as the program prints them.
 
+import type { Real } from "./data";
+
 /** A number with five significant digits and without zeros at its end. */
-export function digits(number: number | null | undefined): string {
-  if (number === null || number === undefined || Number.isNaN(number)) return "unknown";
+export function digits(real: Real | undefined): string {
+  if (real === null || real === undefined || Number.isNaN(real)) return "unknown";
+  const number = real === "inf" ? Infinity : real === "-inf" ? -Infinity : real;
   if (!Number.isFinite(number)) return number > 0 ? "infinite" : "-infinite";
   return String(Number(number.toPrecision(5)));
 }
@@ -15,6 +18,6 @@ export function percent(share: number): string {
   return `${(100 * share).toFixed(share > 0 && share < 0.01 ? 2 : 1)} %`;
 }
 
-export function withUnit(number: number | null | undefined, unit: string | null): string {
+export function withUnit(number: Real | undefined, unit: string | null): string {
   return unit ? `${digits(number)} ${unit}` : digits(number);
 }
