@@ -2,7 +2,7 @@
 
 use crate::Report;
 use crate::analysis::{Difference, Effects, Growth, Inconclusive, Modes};
-use crate::campaign::{Error, JsonArtefact};
+use crate::campaign::{Error, Folder, JsonArtefact};
 use crate::report::html::{Finding, Page};
 use serde_json::{Map, Value};
 use std::io::ErrorKind;
@@ -41,6 +41,7 @@ impl Report {
         Ok(Page {
             log: &self.log,
             folder: folder.display().to_string(),
+            unfinished: Folder::is_unfinished(folder, self.log.study(), self.log.trials().len()),
             summary: &self.summary,
             plausible: self.plausible.as_ref(),
             coverage: &self.coverage,

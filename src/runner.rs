@@ -139,7 +139,18 @@ impl Report {
         };
         let mut report = Self::of(log, finish, summary)?;
         report.effects = Effects::read(folder)?;
+        report.explain()?;
         Ok(report)
+    }
+
+    /// Explains the failures again if parameters are known to have no effect: a rule about such a parameter would be chance.
+    fn explain(&mut self) -> Result<bool, Error> {
+        let without: Vec<&str> =
+            self.effects.iter().flat_map(|effects| effects.without_effect().map(|(name, _)| name)).collect();
+        if !without.is_empty() && self.explanation.is_some() {
+            self.explanation = Explanation::without(&self.log, &without)?;
+        }
+        Ok(!without.is_empty())
     }
 
     /// Returns the names of the two continuous coordinates that explain the failures best; `None` if fewer are open, or if no test has a
@@ -270,6 +281,9 @@ impl<'a> Runner<'a> {
         // Further tests may fail, so the results of the campaign are written before.
         report.effects = Some(self.effects(&report.log)?);
         report.effects.iter().try_for_each(|effects| kept.put(effects))?;
+        if report.explain()? {
+            report.explanation.iter().try_for_each(|explanation| kept.put(explanation))?;
+        }
         // A map over a parameter without effect would mislead.
         if let (Some(map), Some(effects)) = (&report.map, &report.effects)
             && effects.without_effect().next().is_some()

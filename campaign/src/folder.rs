@@ -209,6 +209,13 @@ impl Folder {
         if is_there { Ok(()) } else { Err(Failure::Removed { path }.into()) }
     }
 
+    /// Returns `true` if the campaign of a study in a folder has not ended after this number of tests: it still runs, or it was
+    /// interrupted.
+    pub fn is_unfinished(folder: &Path, study: &Study, tests: usize) -> bool {
+        // A campaign writes its coverage once it has ended.
+        tests < study.sampling().budget && !folder.join("coverage.json").exists()
+    }
+
     /// Returns `true` if the campaign reserves the given file name for its own files.
     pub fn owns(name: &OsStr) -> bool {
         [STUDY, TRIALS, EXTENDED].into_iter().chain(OF_PROGRAMS).chain(DERIVED).any(|ours| ours == name)

@@ -86,7 +86,7 @@ pub use study::{NamedCommand, Sampling, StatedRequirement, Study, StudyBuilder, 
 pub use study_file::StudyFile;
 pub use supervision::{Output, Supervision};
 pub use test_set::{PartialRow, TestSet, tests_as_csv};
-pub use trace_file::{read_trace, write_trace};
+pub use trace_file::{Skipped, read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};
 pub use trust::Trust;
 pub use worker::Worker;

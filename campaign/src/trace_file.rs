@@ -43,7 +43,7 @@ pub fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
 ///
 /// With `every`, a period in seconds, the samples may have any ascending times, and the trace has samples every so many seconds from
 /// the first time on, which becomes 0. Between two samples of the file, a signal is a straight line. A signal with `true`
-/// or `false` keeps its value up to the next sample.
+/// or `false` keeps its value up to the next sample. The trace comes with the samples of the file that it skips.
 ///
 /// # Errors
 /// `goes_on` returns an error; or the source, called `path`, is not a valid table: the error says in which line and
@@ -53,7 +53,7 @@ pub fn read_trace(
     source: impl Read,
     every: Option<f64>,
     mut goes_on: impl FnMut(&Trace) -> Result<bool, Error>,
-) -> Result<Trace, Error> {
+) -> Result<(Trace, Skipped), Error> {
     let mut csv = csv::Reader::from_reader(source);
     let broken = |error: csv::Error| Error::in_csv(path, error);
     let header: Vec<String> = csv.headers().map_err(broken)?.iter().map(str::to_owned).collect();
@@ -65,14 +65,14 @@ pub fn read_trace(
         if let Some(trace) = &table.trace
             && !goes_on(trace)?
         {
-            return Ok(table.trace.expect("it was just seen"));
+            return Ok((table.trace.expect("it was just seen"), table.skipped));
         }
     }
     let samples = table.trace.as_ref().map_or(usize::from(table.before.is_some()), Trace::len);
     let enough = table.trace.filter(|trace| trace.len() > 1);
     let mut trace = enough.ok_or_else(|| Error::in_file(path, None, TraceFlaw::TooShort { samples }))?;
     trace.finish();
-    Ok(trace)
+    Ok((trace, table.skipped))
 }
 
 /// A flaw in the samples of a file, with the way to read a file whose times are not even.
@@ -96,6 +96,17 @@ impl FlawOfFile {
     }
 }
 
+/// The samples of a file that a trace with another period does not have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Skipped {
+    /// The number of samples that lie between the same two samples of the trace as the sample after them.
+    pub samples: usize,
+    /// The number of samples of the file.
+    pub of: usize,
+    /// The shortest time in seconds between two samples of the file.
+    pub shortest: f64,
+}
+
 /// A trace that is being read.
 struct Table {
     /// The index of the column of times, and the signals of the other columns.
@@ -110,6 +121,8 @@ struct Table {
     last: f64,
     /// The last sample, if it is needed for the next one.
     before: Option<Vec<f64>>,
+    /// The samples that the trace does not have so far.
+    skipped: Skipped,
     trace: Option<Trace>,
 }
 
@@ -125,7 +138,8 @@ impl Table {
         }
         TraceFlaw::check_names(signals.iter().map(String::as_str))?;
         let truths = vec![false; signals.len()];
-        Ok(Self { time, signals, every, truths, begun: 0.0, last: 0.0, before: None, trace: None })
+        let skipped = Skipped { samples: 0, of: 0, shortest: f64::INFINITY };
+        Ok(Self { time, signals, every, truths, begun: 0.0, last: 0.0, before: None, skipped, trace: None })
     }
 
     fn take<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), TraceFlaw> {
@@ -146,6 +160,7 @@ impl Table {
             Some(every) => self.sampled_again(every, time, row, sample)?,
             None => self.as_it_is(time, row, sample)?,
         }
+        self.skipped.of += 1;
         self.last = time;
         Ok(())
     }
@@ -190,6 +205,8 @@ impl Table {
         if samples * self.signals.len() as f64 > MOST_NUMBERS {
             return Err(TraceFlaw::TooLong { samples, signals: self.signals.len() });
         }
+        let sampled = trace.len();
+        self.skipped.shortest = self.skipped.shortest.min(time - self.last);
         loop {
             let next = self.begun + trace.len() as f64 * every;
             if next > time + ROUNDING * every {
@@ -203,6 +220,10 @@ impl Table {
             };
             trace.record(&(0..row.len()).map(value).collect::<Vec<f64>>());
         }
+        // No sample of the trace depends on the sample before if there is none between it and this one, and none at its time.
+        let at_last = (self.last - self.begun) / every;
+        let is_kept = (at_last - at_last.round()).abs() <= ROUNDING;
+        self.skipped.samples += usize::from(trace.len() == sampled && !is_kept);
         self.before = Some(row);
         Ok(())
     }
@@ -247,10 +268,25 @@ mod tests {
     }
 
     #[test]
+    fn samples_between_two_samples_of_the_new_period_are_counted() {
+        let skipped = |text: &str, every| read_trace(Path::new("t.csv"), text.as_bytes(), every, |_| Ok(true)).unwrap().1;
+        let spike = "time,x\n0,1\n0.33,1\n0.35,99\n0.37,1\n1,1\n";
+        let coarse = skipped(spike, Some(0.1));
+        assert_eq!((coarse.samples, coarse.of), (2, 5));
+        assert!((coarse.shortest - 0.02).abs() < 1e-9);
+        assert_eq!(skipped(spike, Some(coarse.shortest)).samples, 0);
+        let even = "time,x\n0,1\n0.1,5\n0.2,2\n0.3,4\n";
+        assert_eq!(skipped(even, Some(0.1)).samples, 0);
+        // Every other sample is on the new period.
+        assert_eq!(skipped(even, Some(0.2)).samples, 1);
+        assert_eq!(skipped(even, None).samples, 0);
+    }
+
+    #[test]
     fn samples_at_any_times_are_sampled_again_on_straight_lines() {
         let again = |text: &str, every| {
             let trace = read_trace(Path::new("t.csv"), text.as_bytes(), Some(every), |_| Ok(true));
-            trace.map(|trace| trace.rows().map(<[f64]>::to_vec).collect::<Vec<_>>()).map_err(|error| error.to_string())
+            trace.map(|(trace, _)| trace.rows().map(<[f64]>::to_vec).collect::<Vec<_>>()).map_err(|error| error.to_string())
         };
         // From 100 s on, with a gap; a truth keeps its value, and so does a number beside an infinite one.
         let text = "time,x,on,y\n100,0,true,1\n100.3,3,false,inf\n101,10,true,2\n";

@@ -153,18 +153,31 @@ impl Options {
                 "budget": bench.budget, "summary": benched.cells, "correlations": benched.correlations,
                 "standings": benched.standings, "notes": benched.notes, "out": self.out})),
         })?;
+        // Numbers of a system that never answered would look like a result.
+        if !benched.rows.is_empty() && benched.rows.iter().all(|row| row.tests > 0 && row.errors == row.tests) {
+            let message = "every test of every run ended in an error; a campaign with the same options (`paracosm-fuzz run`) shows the errors";
+            return Err(message.into());
+        }
         Ok(Status::Nothing)
     }
 
     fn bench(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Bench, Error> {
         let strategy = |name: &str| Ok(name.parse::<Strategy>()?);
-        let strategies: Vec<Strategy> = match self.strategies.as_slice() {
-            [] => USUAL.to_vec(),
-            names => given::strategies(names, strategy)?,
-        };
         let targets = match self.scenarios.as_slice() {
             [] => vec![Target::study(self.subject.name(), self.study(&self.subject, catalogue, verbosity)?)],
             names => names.iter().map(|name| self.target(name, catalogue, verbosity)).collect::<Result<_, _>>()?,
+        };
+        let strategies: Vec<Strategy> = match self.strategies.as_slice() {
+            [] => USUAL.to_vec(),
+            names => {
+                let continuous = |target: &Target| {
+                    let space = target.space();
+                    let names = space.coordinates().filter(|one| one.parameter.levels().is_none());
+                    names.map(|coordinate| coordinate.name()).collect()
+                };
+                let columns: Vec<Vec<String>> = targets.iter().map(continuous).collect();
+                given::strategies(names, &columns, strategy)?
+            }
         };
         let usual = Bench::of(&strategies, targets)?;
         let baseline = self.baseline.as_ref().map(|name| {

@@ -2,11 +2,12 @@
 
 use super::arguments::OUTPUT;
 use super::output::{Format, FormatOption, Table, digits, json, percent, plural};
+use super::trust::read_results;
 use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use paracosm_analysis::Difference;
 use paracosm_analysis::difference::{Changed, Loss, MarginChange, ModeCount};
-use paracosm_campaign::{Catalogue, Log};
+use paracosm_campaign::Catalogue;
 use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
@@ -42,7 +43,7 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
-        let [before, after] = [&self.before, &self.after].map(|folder| Log::read(folder, catalogue));
+        let [before, after] = [&self.before, &self.after].map(|folder| read_results(folder, catalogue, verbosity));
         let difference = Difference::of(&before?, &after?)?;
         let [only_before, only_after] = difference.unpaired;
         if only_before + only_after > 0 {
@@ -56,6 +57,14 @@ impl Options {
             Format::Table => self.table(&difference),
             Format::Json => json(&difference),
         })?;
+        // A gate that compares less than the first campaign has would be false assurance.
+        if self.fail_on_new_failure && (only_before > 0 || !difference.dropped.is_empty()) {
+            let what = match difference.dropped.as_slice() {
+                [] => format!("{} of {} have no pair", plural(only_before, "test"), self.before.display()),
+                dropped => format!("the requirement {} of {} is not the same in {}", dropped.join(", "), self.before.display(), self.after.display()),
+            };
+            return Err(format!("--fail-on-new-failure compares campaigns with the same tests and requirements, but {what}").into());
+        }
         let fails = self.fail_on_new_failure && !difference.new_failures.is_empty();
         Ok(if fails { Status::Violation } else { Status::Nothing })
     }
@@ -69,6 +78,9 @@ impl Options {
         {
             let share = percent(failing as f64 / difference.tests as f64);
             table.row(&folder.display().to_string(), &format!("{title}: {failing} fail ({share})"));
+        }
+        for (i, words) in difference.otherwise.iter().enumerate() {
+            table.row(if i == 0 { "also different" } else { "" }, words);
         }
         changes(&mut table, "new failures", &difference.new_failures, &difference.new_modes, 1);
         changes(&mut table, "mended", &difference.mended, &difference.mended_modes, 0);

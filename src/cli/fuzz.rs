@@ -230,7 +230,7 @@ impl Command {
             Some(Verb::Blame(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Sensitivity(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Diff(options)) => options.execute(catalogue, self.verbosity),
-            Some(Verb::Trace(options)) => options.execute(catalogue),
+            Some(Verb::Trace(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Monitor(options)) => options.execute(self.verbosity),
             Some(Verb::Record(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Perceive(options)) => options.execute(catalogue, self.verbosity),

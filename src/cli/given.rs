@@ -2,6 +2,7 @@
 
 use super::usage;
 use crate::generators::{Look, MarkShape, PointSets, Strategy};
+use crate::space::Point;
 use paracosm_campaign::{Error, TestSet};
 use std::path::{Path, PathBuf};
 
@@ -13,12 +14,14 @@ const LOOKS: [Look; 4] = [
     Look::hollow(0x66_6666, MarkShape::Triangle),
 ];
 
-/// Reads the strategies of a list. `strategy` reads the name of a strategy that comes with the software.
+/// Reads the strategies of a list. `strategy` reads the name of a strategy that comes with the software. `targets` has the names of the
+/// continuous coordinates of each target: if a file names its columns, the columns take the order of these names.
 ///
 /// # Errors
-/// A name is unknown, or a file does not hold points in the unit cube.
+/// A name is unknown, or a file does not hold points in the unit cube, or its columns have other names than every target.
 pub(super) fn strategies(
     names: &[String],
+    targets: &[Vec<String>],
     strategy: impl Fn(&str) -> Result<Strategy, Error>,
 ) -> Result<Vec<Strategy>, Error> {
     let mut looks = LOOKS.into_iter().cycle();
@@ -32,13 +35,13 @@ pub(super) fn strategies(
         Some((name, _)) if name.parse::<Strategy>().is_ok() => Err(usage(format!(
             "--strategies: a strategy is called `{name}` already; choose another name for the files"
         ))),
-        Some((name, files)) => Ok(Strategy::of_sets(name, looks.next().expect("they go on"), read(name, files)?)),
+        Some((name, files)) => Ok(Strategy::of_sets(name, looks.next().expect("they go on"), read(name, files, targets)?)),
     };
     names.iter().map(&mut one).collect()
 }
 
 /// Reads the sets of points in the files of a pattern, in the order of their names.
-fn read(name: &str, pattern: &str) -> Result<PointSets, Error> {
+fn read(name: &str, pattern: &str, targets: &[Vec<String>]) -> Result<PointSets, Error> {
     let wrong = |why: String| usage(format!("--strategies {name}={pattern}: {why}"));
     let files = glob::glob(pattern).map_err(|error| wrong(error.to_string()))?;
     let mut files: Vec<PathBuf> = files.collect::<Result<_, _>>().map_err(|error| wrong(error.to_string()))?;
@@ -58,7 +61,37 @@ fn read(name: &str, pattern: &str) -> Result<PointSets, Error> {
         if tests.points.is_empty() {
             return Err(wrong(format!("{} has no points", file.display())));
         }
-        sets.add(tests.points);
+        sets.add(match order(&tests, targets).map_err(|why| wrong(format!("{}: {why}", file.display())))? {
+            None => tests.points,
+            Some(order) => tests.points.iter().map(|point| in_order(point, &order)).collect(),
+        });
     }
     Ok(sets)
+}
+
+/// Returns the columns of a file in the order of a target; `None` if they have this order, or no names: `x1`, `x2` and so on.
+fn order(tests: &TestSet, targets: &[Vec<String>]) -> Result<Option<Vec<usize>>, String> {
+    let columns: Vec<String> = tests.space.coordinates().map(|coordinate| coordinate.name()).collect();
+    let is_unnamed = columns.iter().enumerate().all(|(at, name)| *name == format!("x{}", at + 1));
+    let of_size: Vec<&Vec<String>> = targets.iter().filter(|target| target.len() == columns.len()).collect();
+    if is_unnamed || of_size.is_empty() {
+        return Ok(None);
+    }
+    let place = |name: &String| columns.iter().position(|column| column == name);
+    let orders: Option<Vec<Vec<usize>>> = of_size.iter().map(|target| target.iter().map(place).collect()).collect();
+    match orders {
+        Some(mut orders) if orders.iter().all(|order| *order == orders[0]) => {
+            let order = orders.swap_remove(0);
+            Ok((!order.is_sorted()).then_some(order))
+        }
+        _ => Err(format!(
+            "found the columns {}, expected {}, or x1, x2 and so on for columns without names",
+            columns.join(", "),
+            of_size.iter().map(|target| target.join(", ")).collect::<Vec<_>>().join(" and ")
+        )),
+    }
+}
+
+fn in_order(point: &Point, order: &[usize]) -> Point {
+    Point { continuous: order.iter().map(|column| point.continuous[*column]).collect(), ..point.clone() }
 }

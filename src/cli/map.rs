@@ -2,6 +2,7 @@
 
 use super::draw::{FileKind, Target};
 use super::output::{Format, FormatOption, Table, impacts_in_words, json, percent};
+use super::trust::read_results;
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use clap::{Args, ValueEnum};
@@ -71,7 +72,7 @@ impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Csv];
         let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds, &[])).transpose()?;
-        let log = Log::read(&self.dir, catalogue)?;
+        let log = read_results(&self.dir, catalogue, verbosity)?;
         let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
         let [x, y] = self.axes.find(&log)?.ok_or_else(|| usage(nowhere.into()))?;
         let effects = Effects::read(&self.dir)?;

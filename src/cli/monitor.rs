@@ -78,7 +78,7 @@ impl Options {
             return Err(usage(format!("--every {every}: expected a number of seconds above 0")).into());
         }
         let mut seen = 0;
-        let trace = read_trace(&self.trace, source, self.every, |trace| {
+        let (trace, skipped) = read_trace(&self.trace, source, self.every, |trace| {
             if seen == 0 {
                 self.begin(&mut asked, trace)?;
             }
@@ -90,6 +90,14 @@ impl Options {
             seen = trace.len();
             Ok(!(self.stop_when_decided && asked.iter().all(|asked| asked.decided_at.is_some())))
         })?;
+        if skipped.samples > 0 {
+            verbosity.note(format_args!(
+                "{} of {} of the file lie between two samples of the new period, and no formula sees them; --every {} skips no sample",
+                skipped.samples,
+                plural(skipped.of, "sample"),
+                digits(skipped.shortest)
+            ));
+        }
         let judged: Vec<(&Asked, Evaluation, Option<Cause>)> =
             asked.iter().map(|asked| self.judged(asked, &trace)).collect::<Result<_, Error>>()?;
         print(&match self.form.format {
@@ -97,6 +105,12 @@ impl Options {
             Format::Json => json(&self.json(&trace, &judged)),
         })?;
         let violated = judged.iter().any(|(_, evaluation, _)| evaluation.truth == Truth::Violated);
+        // A gate that says yes although the trace decides nothing would be false assurance.
+        let undecided = judged.iter().find(|(_, evaluation, _)| evaluation.truth == Truth::Undecided);
+        if let Some((Asked { id, formula, .. }, ..)) = undecided.filter(|_| self.fail_on_violation && !violated) {
+            let end = digits((trace.len() - 1) as f64 * trace.dt());
+            return Err(format!("{id} `{formula}` is undecided: the trace ends at {end} s, counted from its beginning").into());
+        }
         Ok(if self.fail_on_violation && violated { Status::Violation } else { Status::Nothing })
     }
 

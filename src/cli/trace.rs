@@ -2,10 +2,11 @@
 
 use super::draw::{FileKind, Target};
 use super::output::{Format, FormatOption, Table, digits, json, plural};
-use super::{Failure, Status, odd, print};
+use super::trust::read_results;
+use super::{Failure, Status, Verbosity, odd, print};
 use clap::Args;
 use paracosm_analysis::{Effects, Gap, Traceability, Traced};
-use paracosm_campaign::{Catalogue, JsonArtefact, Log, Study};
+use paracosm_campaign::{Catalogue, JsonArtefact, Study};
 use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
@@ -32,9 +33,9 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, catalogue: &Catalogue) -> Result<Status, Failure> {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[FileKind::Csv], &[])).transpose()?;
-        let log = Log::read(&self.dir, catalogue)?;
+        let log = read_results(&self.dir, catalogue, verbosity)?;
         let effects = Effects::read(&self.dir)?;
         let traceability = effects.iter().fold(Traceability::of(&log)?, Traceability::with_effects);
         if let Some(target) = &target {

@@ -2,7 +2,8 @@
 
 use super::Verbosity;
 use clap::Args;
-use paracosm_campaign::{Catalogue, Log, NamedCommand, Trust};
+use paracosm_campaign::{Catalogue, Folder, Log, NamedCommand, Trust};
+use paracosm_space::plural;
 use std::path::Path;
 
 /// The options of the commands that run tests of a folder or a file again.
@@ -34,6 +35,23 @@ pub(super) struct OfDrivers {
     trust: bool,
 }
 
+/// Reads the log of a campaign. Notes if the campaign has not ended.
+///
+/// # Errors
+/// The folder holds no campaign, or one of its files is broken.
+pub(super) fn read_results(
+    dir: &Path,
+    catalogue: &Catalogue,
+    verbosity: Verbosity,
+) -> Result<Log, paracosm_campaign::Error> {
+    let log = Log::read(dir, catalogue)?;
+    if Folder::is_unfinished(dir, log.study(), log.trials().len()) {
+        let (ran, budget, dir) = (log.trials().len(), plural(log.study().sampling().budget, "test"), dir.display());
+        verbosity.note(format_args!("the campaign in {dir} has not ended: {ran} of at most {budget} have run"));
+    }
+    Ok(log)
+}
+
 /// Reads the log of a campaign with the trust that the options state. Notes in which folder the commands ran, if they run in another now.
 ///
 /// # Errors
@@ -44,7 +62,7 @@ pub(super) fn read_log(
     trust: &Trust,
     verbosity: Verbosity,
 ) -> Result<Log, paracosm_campaign::Error> {
-    let log = Log::read(dir, catalogue)?.trusting(trust);
+    let log = read_results(dir, catalogue, verbosity)?.trusting(trust);
     let here = std::env::current_dir().and_then(|here| here.canonicalize()).ok();
     if let Some(folder) = log.run_in().filter(|folder| Some(*folder) != here.as_deref() && !trust.is_all()) {
         let folder = folder.display();

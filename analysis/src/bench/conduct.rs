@@ -10,6 +10,7 @@ use paracosm_coverage::valid::Validity;
 use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::Generator;
 use paracosm_generators::functions::Placed;
+use paracosm_oracles::Verdict;
 use paracosm_space::{Point, Space};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -30,7 +31,7 @@ pub(super) fn row(
     stop: &AtomicBool,
 ) -> Result<Option<Row>, Error> {
     let target = &bench.targets[case.target];
-    let (tests, modes) = match &target.kind {
+    let (tests, errors, modes) = match &target.kind {
         TargetKind::Study(study) => {
             let study = study_of(study, case.strategy, case.seed, bench)?;
             let mut campaign = Studied::new(&study)?;
@@ -38,7 +39,8 @@ pub(super) fn row(
             let (points, trials): (Vec<Point>, Vec<Trial>) = done.into_iter().unzip();
             let outcome = |trial: &Trial| trial.covers().then(|| trial.is_failure());
             let tests = points.into_iter().zip(trials.iter().map(outcome)).collect();
-            (tests, Some(Modes::of(&Log::new(study.clone(), Learned::new(), None, trials)).modes.len()))
+            let errors = trials.iter().filter(|trial| trial.verdict == Verdict::Error).count();
+            (tests, errors, Some(Modes::of(&Log::new(study.clone(), Learned::new(), None, trials)).modes.len()))
         }
         TargetKind::Function(function) => {
             let generator = generator_of(*function, case.strategy, case.seed, bench)?;
@@ -48,7 +50,7 @@ pub(super) fn row(
             let Some(done) = explore(&mut placed, bench, stop, |robustness| fails(robustness) == Some(true))? else {
                 return Ok(None);
             };
-            (done.into_iter().map(|(point, robustness)| (point, fails(&robustness))).collect::<Vec<_>>(), None)
+            (done.into_iter().map(|(point, robustness)| (point, fails(&robustness))).collect::<Vec<_>>(), 0, None)
         }
     };
     let first = tests.iter().position(|(_, fails)| *fails == Some(true));
@@ -60,6 +62,7 @@ pub(super) fn row(
         tests: tests.len(),
         first_failure: first.map(|index| index + 1),
         failures: tests.iter().filter(|(_, fails)| *fails == Some(true)).count(),
+        errors,
         modes,
         recall: found.and_then(|found| found.recall),
         precision: found.and_then(|found| found.precision),

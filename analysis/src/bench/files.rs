@@ -101,7 +101,7 @@ fn description(bench: &Bench, maps: &Value) -> Value {
     let given = bench.strategies.iter().filter_map(|strategy| Some((strategy.name(), hash_of(strategy.given()?))));
     let given: BTreeMap<&str, String> = given.collect();
     let mut description = json!({
-        "format": 2,
+        "format": 3,
         "version": env!("CARGO_PKG_VERSION"),
         "strategies": bench.strategies.iter().map(|strategy| strategy.name()).collect::<Vec<_>>(),
         "budget": bench.budget,

@@ -38,6 +38,7 @@ use crate::asked::{ENOUGH_SEEDS, check_seeds, each_once, few_seeds};
 use paracosm_campaign::executor::{alone, in_order, pool};
 use paracosm_campaign::{Error, Failure, Reason};
 use paracosm_generators::Strategy;
+use paracosm_space::plural;
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -204,8 +205,26 @@ impl Bench {
             return Err(Error::Interrupted);
         }
         let (cells, correlations, standings) = summary::summarise(self, &rows);
-        let notes = few_seeds(self.seeds).into_iter().collect();
+        let notes = few_seeds(self.seeds).into_iter().chain(self.broken(&rows)).collect();
         Ok(Benched { bench: self.clone(), rows, cells, correlations, standings, notes })
+    }
+}
+
+impl Bench {
+    /// Says of which strategies tests ended in an error.
+    fn broken(&self, rows: &[Row]) -> Vec<String> {
+        let note = |target: &str, strategy: Strategy| {
+            let runs = || rows.iter().filter(|row| row.scenario == target && row.strategy == strategy);
+            let (errors, tests): (usize, usize) =
+                runs().fold((0, 0), |(errors, tests), row| (errors + row.errors, tests + row.tests));
+            let words = format!(
+                "{errors} of {} of {strategy} on {target} ended in an error, and count as neither failing nor passing",
+                plural(tests, "test")
+            );
+            (errors > 0).then_some(words)
+        };
+        let all = self.targets.iter().flat_map(|target| self.strategies.iter().map(move |one| (target.name(), *one)));
+        all.filter_map(|(target, strategy)| note(target, strategy)).collect()
     }
 }
 

@@ -22,6 +22,8 @@ pub struct Row {
     pub first_failure: Option<usize>,
     /// The number of failing tests of the run.
     pub failures: usize,
+    /// The number of tests of the run that ended in an error, and so have no verdict.
+    pub errors: usize,
     /// The number of failure modes of the run; `None` if the target is a function, which has no failure modes.
     pub modes: Option<usize>,
     /// The share of the map's failing tests that are predicted to fail; `None` without a map or a failing test in it.
@@ -68,13 +70,14 @@ impl Row {
     }
 
     /// The names of the columns of `runs.csv`.
-    pub const COLUMNS: [&str; 10] = [
+    pub const COLUMNS: [&str; 11] = [
         "scenario",
         "strategy",
         "seed",
         "tests",
         "first_failure",
         "failures",
+        "errors",
         "modes",
         "recall",
         "precision",
@@ -90,6 +93,7 @@ impl Row {
             self.tests.to_string(),
             maybe(self.first_failure),
             self.failures.to_string(),
+            self.errors.to_string(),
             maybe(self.modes),
             maybe(self.recall),
             maybe(self.precision),
@@ -122,10 +126,11 @@ impl Row {
             tests: count(3)?,
             first_failure: some(4)?,
             failures: count(5)?,
-            modes: some(6)?,
-            recall: share(7)?,
-            precision: share(8)?,
-            dispersion: share(9)?,
+            errors: count(6)?,
+            modes: some(7)?,
+            recall: share(8)?,
+            precision: share(9)?,
+            dispersion: share(10)?,
         })
     }
 }

@@ -249,6 +249,7 @@ mod tests {
             tests,
             first_failure,
             failures: usize::from(first_failure.is_some()),
+            errors: 0,
             modes: None,
             recall: None,
             precision: None,

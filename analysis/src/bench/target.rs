@@ -55,7 +55,7 @@ impl Target {
     }
 
     /// Returns the space of the target's tests.
-    pub(super) fn space(&self) -> Space {
+    pub fn space(&self) -> Space {
         match &self.kind {
             TargetKind::Study(study) => study.space().clone(),
             TargetKind::Function(function) => function.space(),

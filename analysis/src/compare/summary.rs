@@ -166,8 +166,9 @@ impl Line {
             let points = self.places.iter().map(|place| Some((place.budget as f64, value(place)?)));
             power_law_slope(&points.collect::<Option<Vec<_>>>()?)
         };
-        let slope = at(&|place| Some(median_and_quartiles(&place.values).0))?;
-        let seeds = self.places[0].values.len();
+        // Strategies of others may have more sets of one size than of another: the sets that all sizes have count.
+        let seeds = self.places.iter().map(|place| place.values.len()).min()?;
+        let slope = at(&|place| Some(median_and_quartiles(place.values.get(..seeds)?).0))?;
         let interval = bootstrap_interval(seeds, |drawn| {
             at(&|place| Some(median_of(drawn, &place.values))).expect("there are budgets enough for a slope")
         });

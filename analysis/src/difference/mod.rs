@@ -10,7 +10,7 @@ mod tests;
 use crate::modes::Modes;
 use crate::points::Points;
 use crate::statistics::{mcnemar_p, quantile};
-use paracosm_campaign::{Error, Log, Reason, Study, Trial};
+use paracosm_campaign::{Error, Log, Reason, StatedRequirement, Study, Trial};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Values, nearest};
 use serde::Serialize;
@@ -23,6 +23,11 @@ use thiserror::Error;
 pub struct Difference {
     /// The titles of both campaigns: the scenario and the driver.
     pub titles: [String; 2],
+    /// The other differences of the campaigns in words: fixed parameters, and requirements that only one of them has.
+    pub otherwise: Vec<String>,
+    /// The requirements that only the first campaign has.
+    #[serde(skip)]
+    pub dropped: Vec<String>,
     /// The number of pairs: tests that both campaigns have.
     pub tests: usize,
     /// The numbers of tests of each campaign that have no pair. A pair counts once, however often a campaign repeats its test.
@@ -191,6 +196,8 @@ impl Difference {
         let [new, gone] = [1, 0].map(|from| pairs.iter().filter(|pair| decided(pair, from)).count());
         Ok(Self {
             titles: [first, second].map(|log| log.study().title()),
+            otherwise: otherwise(first.study(), second.study()),
+            dropped: only(first.study(), second.study()),
             tests: pairs.len(),
             unpaired: [first, second].map(|log| log.trials().len() - pairs.len()),
             points: points(first, second),
@@ -215,6 +222,29 @@ impl Changed {
             violates: failing.violated().map(str::to_owned).collect(),
         }
     }
+}
+
+/// Returns the ids of the requirements that only the first study has, or has with another formula.
+fn only(first: &Study, second: &Study) -> Vec<String> {
+    let is_there = |one: &&StatedRequirement| {
+        second.requirement(&one.id).is_some_and(|other| other.formula == one.formula)
+    };
+    first.requirements().iter().filter(|one| !is_there(one)).map(|one| one.id.clone()).collect()
+}
+
+/// Says how two studies differ beside their titles: a changed verdict may come from such a difference.
+fn otherwise(first: &Study, second: &Study) -> Vec<String> {
+    let word = |study: &Study, name: &str| study.fixed().get(name).map(ToString::to_string);
+    let names: BTreeSet<&str> = [first, second].iter().flat_map(|study| study.fixed().iter().map(|(name, _)| name)).collect();
+    let fixed = names.into_iter().filter_map(|name| match [first, second].map(|study| word(study, name)) {
+        [before, after] if before == after => None,
+        [Some(before), Some(after)] => Some(format!("{name} is {before} before and {after} after")),
+        _ => None,
+    });
+    let one_sided = [(first, second, "before"), (second, first, "after")].into_iter().flat_map(|(one, other, when)| {
+        only(one, other).into_iter().map(move |id| format!("the requirement {id} is only there {when}, or with another formula"))
+    });
+    fixed.chain(one_sided).collect()
 }
 
 /// Returns the points of two campaigns that ran the same grid of Euro NCAP.

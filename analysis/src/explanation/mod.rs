@@ -86,7 +86,20 @@ impl Explanation {
     /// # Errors
     /// A trial does not fit into the study's space.
     pub fn of(log: &Log) -> Result<Option<Self>, Error> {
-        let (table, names) = table(log, Question::Failures)?;
+        Self::without(log, &[])
+    }
+
+    /// Explains the failures of a campaign as [`Explanation::of`], by other parameters than those that are known to have no effect.
+    ///
+    /// # Errors
+    /// A trial does not fit into the study's space.
+    pub fn without(log: &Log, no_effect: &[&str]) -> Result<Option<Self>, Error> {
+        let (mut table, names) = table(log, Question::Failures)?;
+        for (column, (coordinate, _)) in names.columns().enumerate() {
+            if no_effect.contains(&coordinate.parameter.name.as_str()) {
+                table.flatten(column);
+            }
+        }
         let failures = table.failed.iter().filter(|failed| **failed).count();
         let tests = table.failed.len();
         if failures.min(tests - failures) < LEAST_TESTS {

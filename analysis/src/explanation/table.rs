@@ -98,6 +98,14 @@ fn chosen(orders: &[Vec<u32>], is_in: &[bool]) -> Vec<Vec<u32>> {
 }
 
 impl Table {
+    /// Makes all values of a column equal, so that no condition is about the column.
+    pub fn flatten(&mut self, column: usize) {
+        self.columns[column] = match &self.columns[column] {
+            Column::Numbers(numbers) => Column::Numbers(vec![0.0; numbers.len()]),
+            Column::Levels(rows, levels) => Column::Levels(vec![0; rows.len()], *levels),
+        };
+    }
+
     /// Makes a table. Each column has a value for each test.
     pub fn new(columns: Vec<Column>, failed: Vec<bool>) -> Self {
         let orders = columns.iter().map(Column::order).collect();

@@ -57,6 +57,8 @@ struct About {
     strategy: String,
     seed: Option<u64>,
     budget: usize,
+    /// True if the campaign still runs, or was interrupted.
+    unfinished: bool,
     hash: String,
     folder: String,
     /// The end of commands about tests, which lets them run the program of the campaign.
@@ -194,6 +196,7 @@ impl About {
             strategy: study.sampling().strategy.to_string(),
             seed: study.sampling().seed,
             budget: study.sampling().budget,
+            unfinished: page.unfinished,
             hash: page.log.hash().unwrap_or_default().to_owned(),
             folder: shell_word(&page.folder),
             trusting: command_option(study),

@@ -73,6 +73,7 @@ export interface Points {
 export interface Changes {
   titles: [string, string];
   tests: number;
+  otherwise: string[];
   unpaired: [number, number];
   points?: [Points, Points];
   failing: [number, number];
@@ -91,6 +92,7 @@ export interface Document {
     strategy: string;
     seed: number | null;
     budget: number;
+    unfinished: boolean;
     hash: string;
     folder: string;
     trusting: string;

@@ -21,6 +21,7 @@ async function start(root: HTMLElement) {
   root.replaceChildren(
     h("header", { class: "top" }, h("h1", {}, study.title), themeButton()),
     sections.verdict(page),
+    study.unfinished ? h("p", { class: "unfinished" }, `The campaign has not ended: ${page.tests.all.toLocaleString("en")} of at most ${study.budget.toLocaleString("en")} tests have run.`) : h("span", { hidden: true }),
     effects.length > 0 ? h("ul", { class: "effects" }, ...effects) : h("span", { hidden: true }),
     h("div", { class: "first" },
       ...[sections.worstCard(store), map ? h("section", { class: "card" }, h("h2", {}, "Failure map"), map.element) : null].filter((part) => part !== null)),

@@ -113,7 +113,7 @@ impl Options {
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
         TestSet::check_size(budget, dims)?;
-        let strategies = given::strategies(&self.strategies, open_loop)?;
+        let strategies = given::strategies(&self.strategies, &[], open_loop)?;
         let defaults = SamplerComparison::of(&strategies)?;
         let named = |name: &String| {
             let known = strategies.iter().copied().find(|strategy| strategy.name() == name);
