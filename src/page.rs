@@ -12,11 +12,12 @@ use std::path::Path;
 const BESIDE: [&str; 2] = ["blame.json", "located.json"];
 
 impl Report {
-    /// Makes the page of the campaign in a folder. `changes` compares an earlier campaign with this one.
+    /// Makes the page of the campaign in a folder. `program` is the name of the program in commands on the
+    /// page, usually `paracosm-fuzz`. `changes` compares an earlier campaign with this one.
     ///
     /// # Errors
     /// A test does not belong to the space, or a file of the folder cannot be read.
-    pub fn page(&self, folder: &Path, changes: Option<&Difference>) -> Result<Page<'_>, Error> {
+    pub fn page(&self, folder: &Path, program: &str, changes: Option<&Difference>) -> Result<Page<'_>, Error> {
         let mut results = Map::new();
         self.artefacts(|artefact| {
             let of_json = |file: &&str| file.ends_with(".json") && *file != Modes::FILE;
@@ -41,6 +42,7 @@ impl Report {
         Ok(Page {
             log: &self.log,
             folder: folder.display().to_string(),
+            program: program.to_owned(),
             unfinished: Folder::is_unfinished(folder, self.log.study(), self.log.trials().len()),
             summary: &self.summary,
             plausible: self.plausible.as_ref(),

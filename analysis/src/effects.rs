@@ -10,7 +10,7 @@
 mod tests;
 
 use paracosm_campaign::{Error, JsonArtefact, Log, Study, Subject, Trial, Worker};
-use paracosm_engine::{Reach, Test};
+use paracosm_engine::{Declared, Reach, Test};
 use paracosm_space::{Point, Space, SpaceError, Values, plural};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -30,12 +30,38 @@ const CONFIDENCE: f64 = 0.95;
 /// # Errors
 /// No worker can be made.
 pub fn foreseen(study: &Study) -> Result<Vec<String>, Error> {
+    let names: Vec<String> = study.space().parameters().iter().map(|parameter| parameter.name.clone()).collect();
+    let unread = unread(study, names.iter().cloned(), [&middle(study)])?;
+    Ok(names.into_iter().filter(|name| unread.contains(name)).collect())
+}
+
+/// Returns the names of the fixed parameters whose value is not the nominal value, and that neither the driver nor the world reads in a test
+/// in the middle of the space: a test in fog says nothing about fog if nobody sees it.
+///
+/// # Errors
+/// The scenario cannot declare its parameters, or no worker can be made.
+pub fn foreseen_fixed(study: &Study) -> Result<Vec<String>, Error> {
+    if study.subject().scenario().is_err() {
+        return Ok(Vec::new());
+    }
+    let declared = study.program()?.declare()?.parameters;
+    let fixed = study.fixed().iter().filter(|(name, value)| {
+        let nominal = declared.iter().find(|declared| declared.parameter.name == *name).map(Declared::nominal);
+        nominal.is_some_and(|nominal| nominal != **value)
+    });
+    let names: Vec<String> = fixed.map(|(name, _)| name.to_owned()).collect();
+    if names.is_empty() {
+        return Ok(names);
+    }
+    let unread = unread(study, names.iter().cloned(), [&middle(study)])?;
+    Ok(names.into_iter().filter(|name| unread.contains(name)).collect())
+}
+
+/// Returns the test in the middle of the space of a study.
+fn middle(study: &Study) -> Values {
     let space = study.space();
     let discrete = space.levels().iter().map(|levels| levels / 2).collect();
-    let middle = space.decode(&Point { continuous: vec![0.5; space.dims()], discrete });
-    let unread = unread(study, [&middle])?;
-    let names = space.parameters().iter().map(|parameter| &parameter.name);
-    Ok(names.filter(|name| unread.contains(*name)).cloned().collect())
+    space.decode(&Point { continuous: vec![0.5; space.dims()], discrete })
 }
 
 /// The effect of an open parameter on the traces of a campaign.
@@ -99,7 +125,8 @@ impl Effects {
     /// `run` fails, or no worker can be made.
     pub fn of(log: &Log, mut run: impl FnMut(&Values, usize) -> Result<Trial, Error>) -> Result<Self, Error> {
         let study = log.study();
-        let unread = unread(study, log.trials().iter().map(|trial| &trial.test))?;
+        let open = study.space().parameters().iter().map(|parameter| parameter.name.clone());
+        let unread = unread(study, open, log.trials().iter().map(|trial| &trial.test))?;
         let mut effects = Vec::new();
         for parameter in study.space().parameters() {
             let name = &parameter.name;
@@ -151,7 +178,11 @@ impl JsonArtefact for Effects {
 }
 
 /// Returns the names of the open parameters that neither the driver nor anything in the world of any test reads.
-fn unread<'t>(study: &Study, tests: impl IntoIterator<Item = &'t Values>) -> Result<BTreeSet<String>, Error> {
+fn unread<'t>(
+    study: &Study,
+    of: impl IntoIterator<Item = String>,
+    tests: impl IntoIterator<Item = &'t Values>,
+) -> Result<BTreeSet<String>, Error> {
     let mut names = BTreeSet::new();
     let Subject::Scenario(simulation) = study.subject() else { return Ok(names) };
     // The images of a perceiver show the air. A driver in another process is not looked into.
@@ -160,7 +191,7 @@ fn unread<'t>(study: &Study, tests: impl IntoIterator<Item = &'t Values>) -> Res
     }
     let mut tests = tests.into_iter().peekable();
     let Some(first) = tests.peek().copied() else { return Ok(names) };
-    names.extend(study.space().parameters().iter().map(|parameter| parameter.name.clone()));
+    names.extend(of);
     for test in tests {
         let reached = reached(study, test);
         names.retain(|name| reached.get(name).is_some_and(|reach| *reach < Reach::World));

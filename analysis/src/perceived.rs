@@ -148,7 +148,7 @@ impl Detected {
             missed_encounters: missed as u64,
             risk: (encounters > 0.0).then(|| Risk {
                 probability: missed / encounters,
-                interval: is_sample.then(|| interval(tests, missed == 0.0)),
+                interval: is_sample.then(|| interval(tests, missed, encounters)),
             }),
             delay: mean(&delays.collect::<Vec<_>>()),
             average_precision: mean(&precisions.collect::<Vec<_>>()),
@@ -180,9 +180,13 @@ impl Detected {
 }
 
 /// Returns the interval of the risk to miss an encounter, by tests.
-fn interval(tests: &[Counts], none_missed: bool) -> [f64; 2] {
-    if none_missed {
+fn interval(tests: &[Counts], missed: f64, encounters: f64) -> [f64; 2] {
+    // Resamples of tests that are all the same say nothing; tests with one outcome bound the share of tests with another outcome.
+    if missed == 0.0 {
         return [0.0, clopper_pearson(0, tests.len(), CONFIDENCE)[1]];
+    }
+    if missed == encounters {
+        return [clopper_pearson(tests.len(), tests.len(), CONFIDENCE)[0], 1.0];
     }
     let counts: Vec<[f64; 2]> =
         tests.iter().map(|test| [test.number("missed_encounters"), test.number("encounters")]).collect();

@@ -10,7 +10,7 @@ use crate::expected::Expected;
 use crate::observer::{FirstFailure, Observer};
 use crate::scales::Learned;
 use crate::steering::Steering;
-use crate::{Error, Extension, Log, Reason, Study, Supervision, Trial, Worker};
+use crate::{Error, Extension, Log, Reason, Study, Supervision, Trial, Worker, proposal};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Point, Values};
 use std::num::NonZeroUsize;
@@ -156,6 +156,7 @@ impl<'a> Campaign<'a> {
         while done < budget {
             expected.go_on()?;
             let points = steering.ask(batch.min(budget - done));
+            proposal::check(study.space(), study.sampling().strategy, &points)?;
             if points.is_empty() {
                 finish = Finish::Exhausted;
                 break;

@@ -45,6 +45,7 @@ mod log;
 mod observer;
 pub mod perception;
 mod process;
+mod proposal;
 mod regression;
 mod run_in;
 mod samples;
@@ -110,6 +111,7 @@ pub mod reasons {
     pub use crate::lock::InUse;
     pub use crate::log::HasSpace;
     pub use crate::process::CommandFlaw;
+    pub use crate::proposal::{ForeignPoint, PointFlaw};
     pub use crate::regression::{NoRegressionName, RegressionFlaw};
     pub use crate::samples::TraceFlaw;
     pub use crate::space_file::SpaceFileFlaw;

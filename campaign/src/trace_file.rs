@@ -248,7 +248,9 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Trace, String> {
-        read_trace(Path::new("t.csv"), text.as_bytes(), None, |_| Ok(true)).map_err(|error| error.to_string())
+        read_trace(Path::new("t.csv"), text.as_bytes(), None, |_| Ok(true))
+            .map(|(trace, _)| trace)
+            .map_err(|error| error.to_string())
     }
 
     #[test]
@@ -264,12 +266,13 @@ mod tests {
             seen = trace.len();
             Ok(false)
         });
-        assert!(seen == 2 && !two.unwrap().is_complete());
+        assert!(seen == 2 && !two.unwrap().0.is_complete());
     }
 
     #[test]
     fn samples_between_two_samples_of_the_new_period_are_counted() {
-        let skipped = |text: &str, every| read_trace(Path::new("t.csv"), text.as_bytes(), every, |_| Ok(true)).unwrap().1;
+        let skipped =
+            |text: &str, every| read_trace(Path::new("t.csv"), text.as_bytes(), every, |_| Ok(true)).unwrap().1;
         let spike = "time,x\n0,1\n0.33,1\n0.35,99\n0.37,1\n1,1\n";
         let coarse = skipped(spike, Some(0.1));
         assert_eq!((coarse.samples, coarse.of), (2, 5));
@@ -286,7 +289,9 @@ mod tests {
     fn samples_at_any_times_are_sampled_again_on_straight_lines() {
         let again = |text: &str, every| {
             let trace = read_trace(Path::new("t.csv"), text.as_bytes(), Some(every), |_| Ok(true));
-            trace.map(|(trace, _)| trace.rows().map(<[f64]>::to_vec).collect::<Vec<_>>()).map_err(|error| error.to_string())
+            trace
+                .map(|(trace, _)| trace.rows().map(<[f64]>::to_vec).collect::<Vec<_>>())
+                .map_err(|error| error.to_string())
         };
         // From 100 s on, with a gap; a truth keeps its value, and so does a number beside an infinite one.
         let text = "time,x,on,y\n100,0,true,1\n100.3,3,false,inf\n101,10,true,2\n";

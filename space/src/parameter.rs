@@ -6,8 +6,8 @@ use crate::names::{did_you_mean, nearest};
 use crate::plural;
 use crate::shape::{self, ShapeError};
 use crate::{Distribution, Domain, Shape, Value};
-use serde::de::IgnoredAny;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error as _, IgnoredAny};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use thiserror::Error;
 
@@ -300,7 +300,7 @@ impl Coordinate<'_> {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Entry {
     name: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "two_numbers", default)]
     interval: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<Vec<Value>>,
@@ -317,6 +317,17 @@ pub(crate) struct Entry {
     distribution: Distribution,
     #[serde(rename = "scale", default, skip_serializing)]
     reserved: Option<IgnoredAny>,
+}
+
+/// Reads an interval. Some file formats would take the first two of more numbers.
+fn two_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 2]>, D::Error> {
+    let numbers = Option::<Vec<f64>>::deserialize(deserializer)?;
+    let interval = |numbers: Vec<f64>| {
+        let found = numbers.len();
+        let of_two = || D::Error::custom(format!("found {found} numbers as the interval, expected [lo, hi]"));
+        <[f64; 2]>::try_from(numbers).map_err(|_| of_two())
+    };
+    numbers.map(interval).transpose()
 }
 
 /// The name of a key that a later version will read.

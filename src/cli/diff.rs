@@ -61,9 +61,17 @@ impl Options {
         if self.fail_on_new_failure && (only_before > 0 || !difference.dropped.is_empty()) {
             let what = match difference.dropped.as_slice() {
                 [] => format!("{} of {} have no pair", plural(only_before, "test"), self.before.display()),
-                dropped => format!("the requirement {} of {} is not the same in {}", dropped.join(", "), self.before.display(), self.after.display()),
+                dropped => format!(
+                    "the requirement {} of {} is not the same in {}",
+                    dropped.join(", "),
+                    self.before.display(),
+                    self.after.display()
+                ),
             };
-            return Err(format!("--fail-on-new-failure compares campaigns with the same tests and requirements, but {what}").into());
+            return Err(format!(
+                "--fail-on-new-failure compares campaigns with the same tests and requirements, but {what}"
+            )
+            .into());
         }
         let fails = self.fail_on_new_failure && !difference.new_failures.is_empty();
         Ok(if fails { Status::Violation } else { Status::Nothing })

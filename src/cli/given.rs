@@ -35,7 +35,9 @@ pub(super) fn strategies(
         Some((name, _)) if name.parse::<Strategy>().is_ok() => Err(usage(format!(
             "--strategies: a strategy is called `{name}` already; choose another name for the files"
         ))),
-        Some((name, files)) => Ok(Strategy::of_sets(name, looks.next().expect("they go on"), read(name, files, targets)?)),
+        Some((name, files)) => {
+            Ok(Strategy::of_sets(name, looks.next().expect("they go on"), read(name, files, targets)?))
+        }
     };
     names.iter().map(&mut one).collect()
 }

@@ -109,7 +109,10 @@ impl Options {
         let undecided = judged.iter().find(|(_, evaluation, _)| evaluation.truth == Truth::Undecided);
         if let Some((Asked { id, formula, .. }, ..)) = undecided.filter(|_| self.fail_on_violation && !violated) {
             let end = digits((trace.len() - 1) as f64 * trace.dt());
-            return Err(format!("{id} `{formula}` is undecided: the trace ends at {end} s, counted from its beginning").into());
+            return Err(format!(
+                "{id} `{formula}` is undecided: the trace ends at {end} s, counted from its beginning"
+            )
+            .into());
         }
         Ok(if self.fail_on_violation && violated { Status::Violation } else { Status::Nothing })
     }

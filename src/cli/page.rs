@@ -4,7 +4,7 @@ use super::draw::is_ours_to_write;
 use super::progress::bar;
 use super::trust;
 use super::usage;
-use super::{Failure, Status, Verbosity, on_interrupt, print};
+use super::{Failure, Status, Verbosity, on_interrupt, print, program};
 use crate::Report;
 use crate::analysis::Difference;
 use crate::report::html::{MEGABYTES, Runs};
@@ -59,7 +59,7 @@ impl Options {
         let before = self.baseline.as_deref().map(|folder| Log::read(folder, catalogue)).transpose()?;
         let changes = before.map(|before| Difference::of(&before, &log)).transpose()?;
         let report = verbosity.noting_if_slow("deriving the results from the log", || Report::read(log, &self.dir))?;
-        let page = report.page(&self.dir, changes.as_ref())?;
+        let page = report.page(&self.dir, program::name(), changes.as_ref())?;
         let supervision = Supervision::default();
         on_interrupt(supervision.stop.clone());
         let progress = bar(verbosity, 0);

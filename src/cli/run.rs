@@ -175,6 +175,14 @@ impl Options {
             );
             return Err(message.into());
         }
+        let unjudged = log.study().requirements().iter().find(|one| one.formula.is_none());
+        if let Some(one) = unjudged.filter(|_| self.fail_on_violation && log.study().subject().scenario().is_ok()) {
+            return Err(format!(
+                "requirement `{}` was not judged: it has no formula, and the scenario has no requirement of this name",
+                one.id
+            )
+            .into());
+        }
         if self.fail_on_violation
             && summary.tests() > 0
             && let Some(why) = untested(summary)

@@ -10,7 +10,7 @@ use crate::oracles::Semantics;
 use crate::space::{Domain, Value, did_you_mean, nearest};
 use crate::standards::openscenario::{DURATION, EGO};
 use clap::Args;
-use paracosm_analysis::effects::foreseen;
+use paracosm_analysis::effects::{foreseen, foreseen_fixed};
 use paracosm_campaign::study::Variation;
 use paracosm_campaign::{Catalogue, Error, StatedRequirement, Study, StudyBuilder};
 use std::path::Path;
@@ -188,6 +188,16 @@ impl Subject {
         if !unread.is_empty() {
             let (names, driver) = (unread.join(", "), study.subject().scenario()?.driver().name());
             verbosity.note(format_args!("no effect: {names}: read by neither the world nor the driver `{driver}`"));
+        }
+        let changed = foreseen_fixed(study)?;
+        if !changed.is_empty() {
+            let (names, driver) = (changed.join(", "), study.subject().scenario()?.driver().name());
+            verbosity.note(format_args!(
+                "no effect: the given values of {names}: read by neither the world nor the driver `{driver}`"
+            ));
+        }
+        if study.requirements().is_empty() {
+            verbosity.note("there is no requirement, so every test passes; --spec or --requirements states one");
         }
         self.note_unjudged(study, verbosity);
         Ok(())

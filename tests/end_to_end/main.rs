@@ -23,6 +23,7 @@ mod earlier_versions;
 mod exports;
 mod extend;
 mod external_drivers;
+mod gates;
 mod generate;
 mod guilty;
 #[cfg(unix)]

@@ -226,23 +226,25 @@ impl Changed {
 
 /// Returns the ids of the requirements that only the first study has, or has with another formula.
 fn only(first: &Study, second: &Study) -> Vec<String> {
-    let is_there = |one: &&StatedRequirement| {
-        second.requirement(&one.id).is_some_and(|other| other.formula == one.formula)
-    };
+    let is_there =
+        |one: &&StatedRequirement| second.requirement(&one.id).is_some_and(|other| other.formula == one.formula);
     first.requirements().iter().filter(|one| !is_there(one)).map(|one| one.id.clone()).collect()
 }
 
 /// Says how two studies differ beside their titles: a changed verdict may come from such a difference.
 fn otherwise(first: &Study, second: &Study) -> Vec<String> {
     let word = |study: &Study, name: &str| study.fixed().get(name).map(ToString::to_string);
-    let names: BTreeSet<&str> = [first, second].iter().flat_map(|study| study.fixed().iter().map(|(name, _)| name)).collect();
+    let names: BTreeSet<&str> =
+        [first, second].iter().flat_map(|study| study.fixed().iter().map(|(name, _)| name)).collect();
     let fixed = names.into_iter().filter_map(|name| match [first, second].map(|study| word(study, name)) {
         [before, after] if before == after => None,
         [Some(before), Some(after)] => Some(format!("{name} is {before} before and {after} after")),
         _ => None,
     });
     let one_sided = [(first, second, "before"), (second, first, "after")].into_iter().flat_map(|(one, other, when)| {
-        only(one, other).into_iter().map(move |id| format!("the requirement {id} is only there {when}, or with another formula"))
+        only(one, other)
+            .into_iter()
+            .map(move |id| format!("the requirement {id} is only there {when}, or with another formula"))
     });
     fixed.chain(one_sided).collect()
 }
@@ -299,6 +301,15 @@ fn modes(log: &Log, tests: impl Iterator<Item = usize>) -> Vec<ModeCount> {
     counts
 }
 
+/// The share of a margin up to which a change is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Returns the change of a margin; 0 if the change is rounding.
+fn change(before: f64, after: f64) -> f64 {
+    let change = after - before;
+    if change.abs() <= ROUNDING * before.abs().max(after.abs()).max(1.0) { 0.0 } else { change }
+}
+
 /// Returns the changes of the margins for each requirement that both campaigns judge.
 fn margins(study: &Study, pairs: &[[&Trial; 2]]) -> Vec<MarginChange> {
     let unit = |id: &str| study.requirement(id).map(|requirement| requirement.unit.clone()).unwrap_or_default();
@@ -310,7 +321,7 @@ fn margins(study: &Study, pairs: &[[&Trial; 2]]) -> Vec<MarginChange> {
     }
     let of = |id: &str| {
         let finite = |trial: &Trial| trial.robustness(id).filter(|margin| margin.is_finite());
-        let changes = pairs.iter().filter_map(|[a, b]| Some((finite(b)? - finite(a)?, b.index)));
+        let changes = pairs.iter().filter_map(|[a, b]| Some((change(finite(a)?, finite(b)?), b.index)));
         let mut changes: Vec<(f64, usize)> = changes.collect();
         changes.sort_by(|a, b| a.0.total_cmp(&b.0));
         let sorted: Vec<f64> = changes.iter().map(|(change, _)| *change).collect();

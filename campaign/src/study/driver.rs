@@ -129,6 +129,12 @@ pub enum DriverFlaw {
         /// The most similar name of a driver; `None` if no name is similar.
         nearest: Option<&'static str>,
     },
+    /// A driver of the user's own has the name of a driver that comes with the software.
+    #[error("a driver is called `{name}` already: give your driver another name")]
+    Taken {
+        /// The name.
+        name: String,
+    },
     /// The given name of the driver is the name of a file. A command has to start such a driver.
     #[error(
         "no driver is called `{name}`, which is the name of a file: --driver-command starts a driver of your own, for example \
@@ -247,6 +253,9 @@ impl DriverChoice {
         scenario: &str,
     ) -> Result<Self, Error> {
         let choice = match wish {
+            Wish::Own(name, _) if driver::find(name).is_ok() => {
+                return Err(DriverFlaw::Taken { name: name.clone() }.into());
+            }
             Wish::Own(name, own) => {
                 Self { name: name.clone(), settings: Record::default(), source: Source::Own(own.clone()) }
             }

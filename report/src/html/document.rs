@@ -61,6 +61,8 @@ struct About {
     unfinished: bool,
     hash: String,
     folder: String,
+    /// The program that has the commands on the page.
+    program: String,
     /// The end of commands about tests, which lets them run the program of the campaign.
     trusting: String,
     fixed: Value,
@@ -199,6 +201,7 @@ impl About {
             unfinished: page.unfinished,
             hash: page.log.hash().unwrap_or_default().to_owned(),
             folder: shell_word(&page.folder),
+            program: shell_word(&page.program),
             trusting: command_option(study),
             fixed: serde_json::to_value(study.fixed()).expect("values are always JSON"),
         }

@@ -38,6 +38,8 @@ pub struct Page<'a> {
     pub log: &'a Log,
     /// The name of the folder of the campaign, for commands on the page.
     pub folder: String,
+    /// The name of the program that has the commands on the page.
+    pub program: String,
     /// True if the campaign still runs, or was interrupted.
     pub unfinished: bool,
     /// The counts of verdicts, and the result of each requirement.

@@ -95,6 +95,7 @@ export interface Document {
     unfinished: boolean;
     hash: string;
     folder: string;
+    program: string;
     trusting: string;
     fixed: Record<string, unknown>;
   };

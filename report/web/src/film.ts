@@ -64,7 +64,7 @@ export class Film {
     const { runs, study } = this.store().page;
     const why = runs.why ? ` (${runs.why})` : "";
     // A system has no world to draw.
-    const command = study.scenario === null ? "" : ` This command draws it: paracosm-fuzz replay ${study.folder} ${index} --draw test-${index}.gif${study.trusting}`;
+    const command = study.scenario === null ? "" : ` This command draws it: ${study.program} replay ${study.folder} ${index} --draw test-${index}.gif${study.trusting}`;
     return `This page does not have the run of test ${index}${why}.${command}`;
   }
 
@@ -200,7 +200,7 @@ export class Film {
       h("dl", {}, ...store.valuesOf(row).flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
         ...tests.robustness.flatMap(({ id, values }) => [h("dt", {}, `robustness of ${id}`), h("dd", {}, Number.isNaN(values[row]) ? "undecided" : digits(values[row]))])),
       mode ? h("p", {}, page.modes.modes[mode - 1].words) : null,
-      h("p", { class: "command" }, h("code", {}, `paracosm-fuzz replay ${page.study.folder} ${index}${page.study.trusting}`)),
+      h("p", { class: "command" }, h("code", {}, `${page.study.program} replay ${page.study.folder} ${index}${page.study.trusting}`)),
     );
   }
 }

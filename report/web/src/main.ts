@@ -25,7 +25,7 @@ async function start(root: HTMLElement) {
     effects.length > 0 ? h("ul", { class: "effects" }, ...effects) : h("span", { hidden: true }),
     h("div", { class: "first" },
       ...[sections.worstCard(store), map ? h("section", { class: "card" }, h("h2", {}, "Failure map"), map.element) : null].filter((part) => part !== null)),
-    h("p", { class: "command muted" }, `study ${study.hash}, ${study.strategy}, ${page.tests.all} tests. `, "This command repeats it: ", h("code", {}, `paracosm-fuzz repeat ${study.folder}${study.trusting}`)),
+    h("p", { class: "command muted" }, `study ${study.hash}, ${study.strategy}, ${page.tests.all} tests. `, "This command repeats it: ", h("code", {}, `${study.program} repeat ${study.folder}${study.trusting}`)),
     film.dialog,
   );
   // The rest follows after the first picture.

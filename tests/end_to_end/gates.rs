@@ -1,0 +1,162 @@
+//! No command says that all is well, or that nothing was found, when it has seen too little.
+
+use crate::common::{cover, fuzz, refused, stderr, stdout, succeeds};
+use std::fs;
+
+#[test]
+fn a_bench_of_a_system_that_never_answers_is_no_result() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), "[[parameter]]\nname = \"x\"\ninterval = [0, 1]\n").unwrap();
+    let bench = ["bench", "--system", "false", "--space", "SPACE.toml", "--spec", "always (y < 2.5)"];
+    let more =
+        ["--strategies", "random,halton", "--budget", "5", "--seeds", "2", "--reference-tests", "0", "--out", "b"];
+    let output = fuzz(dir.path(), &[&bench[..], &more].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("10 of 10 tests of halton on false ended in an error"), "{said}");
+    assert!(said.contains("every test of every run ended in an error"), "{said}");
+    let runs = fs::read_to_string(dir.path().join("b/runs.csv")).unwrap();
+    assert!(runs.lines().nth(1).unwrap().contains("random,1,5,,0,5,"), "{runs}");
+}
+
+#[test]
+fn given_points_go_to_the_parameters_that_their_columns_name() {
+    let dir = tempfile::tempdir().unwrap();
+    let points = [[0.2, 0.1], [0.5, 0.2], [0.9, 0.4], [0.3, 0.8], [0.7, 0.05]];
+    for (folder, header, swap) in [
+        ("named", "speed,distance", false),
+        ("swapped", "distance,speed", true),
+        ("plain", "x1,x2", false),
+        ("other", "foo,bar", false),
+    ] {
+        fs::create_dir(dir.path().join(folder)).unwrap();
+        for seed in [1, 2] {
+            let rows: String =
+                points.iter().map(|[x, y]| if swap { format!("{y},{x}\n") } else { format!("{x},{y}\n") }).collect();
+            fs::write(dir.path().join(folder).join(format!("{seed}.csv")), format!("{header}\n{rows}")).unwrap();
+        }
+    }
+    let bench = |sets: &str, out: &str| {
+        let arguments = ["bench", "pedestrian-crossing", "--strategies", sets, "--budget", "5", "--seeds", "2"];
+        fuzz(dir.path(), &[&arguments[..], &["--reference-tests", "0", "--out", out]].concat())
+    };
+    succeeds(bench("a=named/*.csv,b=swapped/*.csv,c=plain/*.csv", "out"));
+    let runs = fs::read_to_string(dir.path().join("out/runs.csv")).unwrap();
+    let of = |name: &str| -> Vec<String> {
+        runs.lines().filter_map(|line| line.split_once(&format!(",{name},")).map(|(_, rest)| rest.to_owned())).collect()
+    };
+    assert_eq!((of("a").len(), of("a"), of("a")), (2, of("b"), of("c")), "{runs}");
+    let said = stderr(&bench("d=other/*.csv", "out2"));
+    assert!(said.contains("found the columns foo, bar, expected speed, distance, or x1, x2 and so on"), "{said}");
+}
+
+#[test]
+fn strategies_with_another_number_of_sets_for_each_size_are_compared() {
+    let dir = tempfile::tempdir().unwrap();
+    for (size, sets) in [(16, 3), (32, 2)] {
+        for set in 0..sets {
+            let row = |i: usize| {
+                format!("{},{}\n", (i as f64 + 0.5) / size as f64, ((i * 7 + set) % size) as f64 / size as f64)
+            };
+            fs::write(dir.path().join(format!("{size}-{set}.csv")), (0..size).map(row).collect::<String>()).unwrap();
+        }
+    }
+    let arguments = ["compare", "--strategies", "halton,mine=*.csv", "--dims", "2", "--budgets", "16,32"];
+    let more = ["--seeds", "3", "--measures", "dispersion", "--out", "c"];
+    succeeds(cover(dir.path(), &[&arguments[..], &more].concat()));
+}
+
+#[test]
+fn a_log_that_decides_nothing_or_loses_samples_is_no_silent_success() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("spike.csv"), "time,speed\n0,1\n0.33,1\n0.35,99\n0.37,1\n1,1\n").unwrap();
+    let monitor = |more: &[&str]| fuzz(dir.path(), &[&["monitor", "spike.csv", "--fail-on-violation"], more].concat());
+    let coarse = succeeds(monitor(&["--every", "0.1", "--spec", "always (speed < 5)"]));
+    let said = stderr(&coarse);
+    assert!(said.contains("2 of 5 samples of the file lie between two samples of the new period"), "{said}");
+    assert!(said.contains("--every 0.02 skips no sample"), "{said}");
+    assert_eq!(monitor(&["--every", "0.02", "--spec", "always (speed < 5)"]).status.code(), Some(1));
+    let later = monitor(&["--every", "0.02", "--spec", "always[5,6] (speed < 5)"]);
+    assert_eq!(later.status.code(), Some(2));
+    assert!(stderr(&later).contains("is undecided: the trace ends at 1 s"), "{}", stderr(&later));
+}
+
+#[test]
+fn a_difference_names_all_that_differs_and_a_gate_needs_the_same_tests_and_requirements() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |budget: &str, more: &[&str], out: &str| {
+        let usual = ["cut-in", "--driver", "rss", "--budget", budget, "--out", out];
+        succeeds(fuzz(dir.path(), &[&usual[..], more].concat()))
+    };
+    run("20", &[], "before");
+    run("20", &["--set", "friction=0.4"], "ice");
+    run("20", &["--spec", "always (car.speed < 99)"], "more");
+    run("10", &[], "less");
+    let printed = stdout(&succeeds(fuzz(dir.path(), &["diff", "before", "ice"])));
+    assert!(printed.contains("also different        friction is 0.8 before and 0.4 after"), "{printed}");
+    succeeds(fuzz(dir.path(), &["diff", "before", "more", "--fail-on-new-failure"]));
+    let gate = |before: &str, after: &str| fuzz(dir.path(), &["diff", before, after, "--fail-on-new-failure"]);
+    let dropped = gate("more", "before");
+    assert_eq!(dropped.status.code(), Some(2));
+    assert!(
+        stderr(&dropped).contains("the requirement spec-1 of more is not the same in before"),
+        "{}",
+        stderr(&dropped)
+    );
+    let less = gate("before", "less");
+    assert_eq!(less.status.code(), Some(2));
+    assert!(stderr(&less).contains("10 tests of before have no pair"), "{}", stderr(&less));
+}
+
+#[test]
+fn given_values_that_nobody_reads_are_named_and_explain_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let fog = succeeds(fuzz(dir.path(), &["--set", "fog=1", "--set", "friction=0.5", "--budget", "5", "--out", "fog"]));
+    let said = stderr(&fog);
+    assert!(said.contains("no effect: the given values of fog: read by neither"), "{said}");
+    let nominal = succeeds(fuzz(dir.path(), &["--set", "fog=0", "--budget", "5", "--out", "clear"]));
+    assert!(!stderr(&nominal).contains("no effect"), "{}", stderr(&nominal));
+    let open = ["--open", "fog", "--open", "light", "--open", "friction", "--budget", "200", "--out", "open"];
+    let printed = stdout(&succeeds(fuzz(dir.path(), &open)));
+    let rules: Vec<&str> = printed.lines().filter(|line| line.contains(" tests where ")).collect();
+    assert!(
+        !rules.is_empty() && rules.iter().all(|rule| !rule.contains("fog") && !rule.contains("light")),
+        "{printed}"
+    );
+}
+
+#[test]
+fn a_campaign_that_has_not_ended_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "30", "--out", "out"]));
+    // As after a crash.
+    fs::remove_file(dir.path().join("out/coverage.json")).unwrap();
+    let log = fs::read_to_string(dir.path().join("out/trials.jsonl")).unwrap();
+    fs::write(dir.path().join("out/trials.jsonl"), log.split_inclusive('\n').take(12).collect::<String>()).unwrap();
+    for command in ["trace", "map", "blame"] {
+        let said = stderr(&succeeds(fuzz(dir.path(), &[command, "out"])));
+        assert!(
+            said.contains("the campaign in out has not ended: 12 of at most 30 tests have run"),
+            "{command}: {said}"
+        );
+    }
+}
+
+#[test]
+fn an_interval_of_three_numbers_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("S.toml"), "[[parameter]]\nname = \"x\"\ninterval = [0, 10, 20]\n").unwrap();
+    let output = cover(dir.path(), &["generate", "--space", "S.toml", "--budget", "4"]);
+    refused(&output, &["found 3 numbers as the interval, expected [lo, hi]"]);
+}
+
+#[test]
+fn a_gate_refuses_a_requirement_that_nobody_judges() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("R.toml"), "[[requirement]]\nid = \"no-colision\"\n").unwrap();
+    let gate =
+        ["--requirements", "R.toml", "--budget", "5", "--fail-on-violation", "--driver", "ideal", "--set", "speed=1"];
+    let output = fuzz(dir.path(), &gate);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("requirement `no-colision` was not judged"), "{}", stderr(&output));
+}
