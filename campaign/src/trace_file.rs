@@ -72,7 +72,9 @@ pub fn read_trace(
     let enough = table.trace.filter(|trace| trace.len() > 1);
     let mut trace = enough.ok_or_else(|| Error::in_file(path, None, TraceFlaw::TooShort { samples }))?;
     trace.finish();
-    Ok((trace, table.skipped))
+    let mut skipped = table.skipped;
+    skipped.samples += usize::from(!table.is_used);
+    Ok((trace, skipped))
 }
 
 /// A flaw in the samples of a file, with the way to read a file whose times are not even.
@@ -99,7 +101,7 @@ impl FlawOfFile {
 /// The samples of a file that a trace with another period does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skipped {
-    /// The number of samples that lie between the same two samples of the trace as the sample after them.
+    /// The number of samples on which no sample of the trace depends.
     pub samples: usize,
     /// The number of samples of the file.
     pub of: usize,
@@ -123,6 +125,8 @@ struct Table {
     before: Option<Vec<f64>>,
     /// The samples that the trace does not have so far.
     skipped: Skipped,
+    /// True if a sample of the trace depends on the last sample.
+    is_used: bool,
     trace: Option<Trace>,
 }
 
@@ -139,7 +143,18 @@ impl Table {
         TraceFlaw::check_names(signals.iter().map(String::as_str))?;
         let truths = vec![false; signals.len()];
         let skipped = Skipped { samples: 0, of: 0, shortest: f64::INFINITY };
-        Ok(Self { time, signals, every, truths, begun: 0.0, last: 0.0, before: None, skipped, trace: None })
+        Ok(Self {
+            time,
+            signals,
+            every,
+            truths,
+            begun: 0.0,
+            last: 0.0,
+            before: None,
+            skipped,
+            is_used: true,
+            trace: None,
+        })
     }
 
     fn take<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), TraceFlaw> {
@@ -205,7 +220,7 @@ impl Table {
         if samples * self.signals.len() as f64 > MOST_NUMBERS {
             return Err(TraceFlaw::TooLong { samples, signals: self.signals.len() });
         }
-        let sampled = trace.len();
+        let (sampled, mut has_between) = (trace.len(), false);
         self.skipped.shortest = self.skipped.shortest.min(time - self.last);
         loop {
             let next = self.begun + trace.len() as f64 * every;
@@ -213,6 +228,7 @@ impl Table {
                 break;
             }
             let share = (next - self.last) / (time - self.last);
+            has_between |= share < 1.0;
             let value = |at: usize| match (before[at], row[at]) {
                 (_, after) if share >= 1.0 => after,
                 (before, after) if self.truths[at] || !(after - before).is_finite() => before,
@@ -220,10 +236,8 @@ impl Table {
             };
             trace.record(&(0..row.len()).map(value).collect::<Vec<f64>>());
         }
-        // No sample of the trace depends on the sample before if there is none between it and this one, and none at its time.
-        let at_last = (self.last - self.begun) / every;
-        let is_kept = (at_last - at_last.round()).abs() <= ROUNDING;
-        self.skipped.samples += usize::from(trace.len() == sampled && !is_kept);
+        self.skipped.samples += usize::from(!self.is_used && !has_between);
+        self.is_used = trace.len() > sampled;
         self.before = Some(row);
         Ok(())
     }
@@ -270,18 +284,18 @@ mod tests {
     }
 
     #[test]
-    fn samples_between_two_samples_of_the_new_period_are_counted() {
+    fn samples_on_which_the_new_period_does_not_depend_are_counted() {
         let skipped =
             |text: &str, every| read_trace(Path::new("t.csv"), text.as_bytes(), every, |_| Ok(true)).unwrap().1;
         let spike = "time,x\n0,1\n0.33,1\n0.35,99\n0.37,1\n1,1\n";
         let coarse = skipped(spike, Some(0.1));
-        assert_eq!((coarse.samples, coarse.of), (2, 5));
+        assert_eq!((coarse.samples, coarse.of), (1, 5));
         assert!((coarse.shortest - 0.02).abs() < 1e-9);
         assert_eq!(skipped(spike, Some(coarse.shortest)).samples, 0);
         let even = "time,x\n0,1\n0.1,5\n0.2,2\n0.3,4\n";
         assert_eq!(skipped(even, Some(0.1)).samples, 0);
-        // Every other sample is on the new period.
-        assert_eq!(skipped(even, Some(0.2)).samples, 1);
+        // Every other sample is on the new period, and the last one is not.
+        assert_eq!(skipped(even, Some(0.2)).samples, 2);
         assert_eq!(skipped(even, None).samples, 0);
     }
 

@@ -92,7 +92,7 @@ impl Options {
         })?;
         if skipped.samples > 0 {
             verbosity.note(format_args!(
-                "{} of {} of the file lie between two samples of the new period, and no formula sees them; --every {} skips no sample",
+                "{} of {} of the file count for nothing, because no sample of the new period depends on them; --every {} uses all",
                 skipped.samples,
                 plural(skipped.of, "sample"),
                 digits(skipped.shortest)

@@ -240,7 +240,7 @@ fn what_cannot_be_benched_is_said() {
 fn a_bench_with_too_few_given_sets_is_refused_before_the_first_run() {
     let dir = tempfile::tempdir().unwrap();
     for set in ["a", "b"] {
-        fs::write(dir.path().join(format!("{set}.csv")), "x,y\n0.1,0.2\n0.7,0.4\n0.3,0.9\n").unwrap();
+        fs::write(dir.path().join(format!("{set}.csv")), "x1,x2\n0.1,0.2\n0.7,0.4\n0.3,0.9\n").unwrap();
     }
     let study = [
         "bench",
