@@ -255,6 +255,17 @@ impl<'a> Worker<'a> {
         (Expected::of(self.study, &log.trials()[..logged.index]).check(trial), trace)
     }
 
+    /// Checks that a test of a log repeats: that the test has the trace of the log.
+    ///
+    /// # Errors
+    /// The test has another trace.
+    pub fn check_repeats(&mut self, log: &Log, logged: &Trial) -> Result<(), Error> {
+        match self.replay(log, logged, |_| ()).0.trace_hash == logged.trace_hash {
+            true => Ok(()),
+            false => Err(OtherTrace { index: logged.index }.into()),
+        }
+    }
+
     /// Returns the cameras of the driver; the result is empty if the driver uses no cameras.
     ///
     /// # Errors

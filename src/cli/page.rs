@@ -1,6 +1,7 @@
 //! `paracosm-fuzz report`: shows a campaign as one HTML file.
 
 use super::draw::is_ours_to_write;
+use super::output::plural;
 use super::progress::bar;
 use super::trust;
 use super::usage;
@@ -76,6 +77,10 @@ impl Options {
             }
             runs => runs?,
         };
+        if runs.differing() > 0 {
+            let tests = plural(runs.differing(), "test");
+            verbosity.note(format_args!("the page does not show {tests}, which did not end as in the log: did the driver or the scenario change?"));
+        }
         let html = verbosity
             .noting_if_slow("estimating the probability of failure over pairs of parameters", || {
                 page.html(&runs, self.max_mb)

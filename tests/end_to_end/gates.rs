@@ -143,6 +143,20 @@ fn a_campaign_that_has_not_ended_says_so() {
 }
 
 #[test]
+fn blame_is_not_for_a_world_that_has_changed() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "30", "--out", "out"]));
+    succeeds(fuzz(dir.path(), &["blame", "out"]));
+    // As if the code of the scenario had changed: the first failing test has another trace.
+    let log = fs::read_to_string(dir.path().join("out/trials.jsonl")).unwrap();
+    let failing = log.lines().find(|line| line.contains("\"verdict\":\"fail\"")).unwrap();
+    let (before, after) = failing.split_once("\"trace_hash\":\"").unwrap();
+    let other = format!("{before}\"trace_hash\":\"{}{}", "0".repeat(16), &after[16..]);
+    fs::write(dir.path().join("out/trials.jsonl"), log.replace(failing, &other)).unwrap();
+    refused(&fuzz(dir.path(), &["blame", "out"]), &["has another trace than in the log", "has changed since"]);
+}
+
+#[test]
 fn an_interval_of_three_numbers_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("S.toml"), "[[parameter]]\nname = \"x\"\ninterval = [0, 10, 20]\n").unwrap();

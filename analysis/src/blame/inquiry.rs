@@ -112,9 +112,15 @@ impl Inquiry {
     /// order.
     ///
     /// # Errors
-    /// The inquiry was stopped.
+    /// The inquiry was stopped. Or the first failing test has another trace than in the log, so that the reference drivers would drive in
+    /// another world; this is not asked of a driver in a process of its own, or of a log of another version of the software.
     pub fn run(&self, log: &Log, mut watch: impl FnMut(&Blamed)) -> Result<Blame, Error> {
         let failing: Vec<&Trial> = log.trials().iter().filter(|trial| trial.is_failure()).collect();
+        let study = log.study();
+        let can_repeat = study.subject().scenario().is_ok_and(|simulation| !simulation.driver().is_external());
+        if let Some(first) = failing.first().filter(|_| can_repeat && study.is_of_this_software()) {
+            Worker::new(study)?.check_repeats(log, first)?;
+        }
         let names = || self.references.iter().map(|reference| reference.name.clone());
         let hire = || -> Vec<Worker> { self.references.iter().map(Reference::worker).collect() };
         let drivers = self.references.len();

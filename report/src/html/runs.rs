@@ -50,6 +50,11 @@ pub(super) struct Kept {
 }
 
 impl Runs {
+    /// Returns the number of tests that did not end as in the log, so that the page does not show them.
+    pub fn differing(&self) -> usize {
+        self.differing
+    }
+
     /// Returns no runs, with the reason in words.
     pub fn none(why: String) -> Self {
         Self { why: Some(why), ..Self::default() }
