@@ -78,6 +78,8 @@ pub struct Points {
     pub ran: usize,
     /// The number of tests on the grid in which the situation never came about: the car was too slow, say.
     pub without_situation: usize,
+    /// The fixed parameters whose value is not the value of the protocol, in words.
+    pub other: Vec<String>,
     /// The points; `None` if a test of the grid has not run, or if its situation never came about.
     pub points: Option<f64>,
     /// The greatest number of points on the grid.
@@ -111,18 +113,20 @@ impl Points {
         let is_whole = ran == cells && without_situation == 0;
         let points = is_whole.then(|| grid.points * shares.values().sum::<f64>() / cells as f64);
         let (protocol, name, of) = (PROTOCOL, grid.name, grid.points);
-        Some(Self { protocol, grid: name, cells, ran, without_situation, points, of })
+        let other = grid.other(study.fixed(), &nominal);
+        Some(Self { protocol, grid: name, cells, ran, without_situation, other, points, of })
     }
 
     /// Describes the points in words, or why there are none.
     pub fn in_words(&self) -> String {
-        let Self { grid, cells, ran, without_situation, points, of, .. } = self;
+        let Self { grid, cells, ran, without_situation, other, points, of, .. } = self;
         match points {
             Some(points) => format!("{points:.3} of {of:.3}: {grid}, {}", plural(*cells, "test")),
             None if *without_situation > 0 => {
                 let missed = plural(*without_situation, "test");
                 format!("none: in {missed} of {grid}, the situation never came about")
             }
+            None if !other.is_empty() => format!("none: {}", other.join(", ")),
             None => format!("none: {ran} of the {cells} tests of {grid} have run"),
         }
     }
@@ -136,6 +140,20 @@ impl Grid {
     /// Returns the number of tests on the grid.
     pub fn cells(&self) -> usize {
         self.axes.iter().map(|(_, values)| values.len()).product()
+    }
+
+    /// Says which fixed parameters have another value than in the protocol.
+    fn other(&self, fixed: &Values, nominal: &Values) -> Vec<String> {
+        let words = |(name, value): (&str, &Value)| {
+            let is_axis = self.axes.iter().any(|(axis, _)| *axis == name);
+            let expected = match self.fixed {
+                Some((of_protocol, word)) if name == of_protocol => word.to_owned(),
+                _ => nominal.get(name)?.to_string(),
+            };
+            let found = value.to_string();
+            (!is_axis && found != expected).then(|| format!("{name} is {found}, the protocol has {expected}"))
+        };
+        fixed.iter().filter_map(words).collect()
     }
 
     /// Returns the options of a campaign that runs every test of the grid.

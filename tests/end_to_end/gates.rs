@@ -157,6 +157,23 @@ fn blame_is_not_for_a_world_that_has_changed() {
 }
 
 #[test]
+fn two_columns_of_one_name_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let space = "[[parameter]]\nname = \"x\"\ninterval = [0, 1]\n[[parameter]]\nname = \"y\"\ninterval = [0, 1]\n";
+    fs::write(dir.path().join("S.toml"), space).unwrap();
+    fs::write(dir.path().join("t.csv"), "x,y,x\n0.1,0.2,0.9\n").unwrap();
+    refused(&cover(dir.path(), &["estimate", "t.csv", "--space", "S.toml"]), &["two columns are called `x`"]);
+}
+
+#[test]
+fn points_say_which_fixed_parameter_is_not_the_one_of_the_protocol() {
+    let dir = tempfile::tempdir().unwrap();
+    let grid = ["ncap-cpfa", "--open", "ego_speed=10,20,30,40,50,60", "--discrete", "cross", "--budget", "6"];
+    let printed = stdout(&succeeds(fuzz(dir.path(), &[&grid[..], &["--set", "friction=0.5", "--out", "p"]].concat())));
+    assert!(printed.contains("points on this grid   none: friction is 0.5, the protocol has 0.8"), "{printed}");
+}
+
+#[test]
 fn an_interval_of_three_numbers_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("S.toml"), "[[parameter]]\nname = \"x\"\ninterval = [0, 10, 20]\n").unwrap();

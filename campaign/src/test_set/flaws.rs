@@ -24,6 +24,12 @@ pub enum HeaderFlaw {
     /// The CSV file is empty and has no header.
     #[error("the file is empty, expected a header with the names of the columns, or numbers")]
     Empty,
+    /// Two columns have the name of the same coordinate.
+    #[error("two columns are called `{name}`: remove one of them")]
+    Twice {
+        /// The name of the columns.
+        name: String,
+    },
     /// The first line has the numbers of the columns in place of names.
     #[error(
         "the first line `{line}` seems to have the numbers of the columns: write the names of the columns there, or leave it out; numbers of a \

@@ -355,5 +355,11 @@ fn columns(path: &Path, space: &Space, header: &csv::StringRecord) -> Result<Vec
             )
         })
     };
-    space.coordinates().map(|coordinate| column(&coordinate.name())).collect()
+    let columns: Vec<usize> =
+        space.coordinates().map(|coordinate| column(&coordinate.name())).collect::<Result<_, _>>()?;
+    let twice = columns.iter().find(|column| header.iter().skip(**column + 1).any(|name| name == &header[**column]));
+    match twice {
+        Some(column) => Err(Error::in_file(path, 1, HeaderFlaw::Twice { name: header[*column].to_owned() })),
+        None => Ok(columns),
+    }
 }
