@@ -125,7 +125,7 @@ export function changes(store: Store): HTMLElement | null {
   const alone = [0, 1].filter((at) => unpaired[at] > 0).map((at) => `${plural(unpaired[at], "test")} of ${titles[at]} (${at === 0 ? "before" : "after"})`);
   const list = (label: string, all: typeof added) => [h("dt", {}, `${label}: ${all.length}`), h("dd", {}, ...all.slice(0, 12).map(({ index }) => h("button", { type: "button", class: "quiet", click: () => store.show(index[1]) }, `test ${index[1]}`)), all.length > 12 ? " ..." : null)];
   return section("changes", "What changed",
-    h("p", {}, `${titles[0]}: ${failing[0]} of ${plural(tests, "test")} fail. ${titles[1]}: ${failing[1]} fail, ${still} of them in both. McNemar's test: p = ${digits(p)}.`),
+    h("p", {}, `Before (${titles[0]}): ${failing[0]} of ${plural(tests, "test")} fail. After (${titles[1]}): ${failing[1]} fail, ${still} of them in both. McNemar's test: p = ${digits(p)}.`),
     otherwise.length > 0 ? h("p", {}, `Also different: ${otherwise.join("; ")}.`) : null,
     alone.length > 0 ? h("p", {}, `Without a pair, and not compared: ${alone.join(" and ")}.`) : null,
     points ? h("p", {}, `Points on the grid ${points[0].grid}: ${digits(points[0].points)} before, ${digits(points[1].points)} after, of ${digits(points[0].of)}.`) : null,
