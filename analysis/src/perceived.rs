@@ -181,12 +181,13 @@ impl Detected {
 
 /// Returns the interval of the risk to miss an encounter, by tests.
 fn interval(tests: &[Counts], missed: f64, encounters: f64) -> [f64; 2] {
+    let with_encounters = tests.iter().filter(|test| test.number("encounters") > 0.0).count();
     // Resamples of tests that are all the same say nothing; tests with one outcome bound the share of tests with another outcome.
     if missed == 0.0 {
-        return [0.0, clopper_pearson(0, tests.len(), CONFIDENCE)[1]];
+        return [0.0, clopper_pearson(0, with_encounters, CONFIDENCE)[1]];
     }
     if missed == encounters {
-        return [clopper_pearson(tests.len(), tests.len(), CONFIDENCE)[0], 1.0];
+        return [clopper_pearson(with_encounters, with_encounters, CONFIDENCE)[0], 1.0];
     }
     let counts: Vec<[f64; 2]> =
         tests.iter().map(|test| [test.number("missed_encounters"), test.number("encounters")]).collect();

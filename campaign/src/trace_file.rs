@@ -101,7 +101,7 @@ impl FlawOfFile {
 /// The samples of a file that a trace with another period does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skipped {
-    /// The number of samples on which no sample of the trace depends.
+    /// The number of samples on which some signal of the trace does not depend at any time.
     pub samples: usize,
     /// The number of samples of the file.
     pub of: usize,
@@ -125,7 +125,7 @@ struct Table {
     before: Option<Vec<f64>>,
     /// The samples that the trace does not have so far.
     skipped: Skipped,
-    /// True if a sample of the trace depends on the last sample.
+    /// True if all signals of the trace depend on the last sample.
     is_used: bool,
     trace: Option<Trace>,
 }
@@ -220,7 +220,9 @@ impl Table {
         if samples * self.signals.len() as f64 > MOST_NUMBERS {
             return Err(TraceFlaw::TooLong { samples, signals: self.signals.len() });
         }
-        let (sampled, mut has_between) = (trace.len(), false);
+        let (mut is_used, mut has_between) = (false, false);
+        let keeps = |at: usize| self.truths[at] || !(row[at] - before[at]).is_finite();
+        let is_straight = (0..row.len()).all(|at| !keeps(at));
         self.skipped.shortest = self.skipped.shortest.min(time - self.last);
         loop {
             let next = self.begun + trace.len() as f64 * every;
@@ -229,15 +231,17 @@ impl Table {
             }
             let share = (next - self.last) / (time - self.last);
             has_between |= share < 1.0;
+            // A signal that keeps its value between two samples does not depend on the second one.
+            is_used |= share >= 1.0 || is_straight;
             let value = |at: usize| match (before[at], row[at]) {
                 (_, after) if share >= 1.0 => after,
-                (before, after) if self.truths[at] || !(after - before).is_finite() => before,
+                (before, _) if keeps(at) => before,
                 (before, after) => before + share * (after - before),
             };
             trace.record(&(0..row.len()).map(value).collect::<Vec<f64>>());
         }
         self.skipped.samples += usize::from(!self.is_used && !has_between);
-        self.is_used = trace.len() > sampled;
+        self.is_used = is_used;
         self.before = Some(row);
         Ok(())
     }
@@ -292,6 +296,12 @@ mod tests {
         assert_eq!((coarse.samples, coarse.of), (1, 5));
         assert!((coarse.shortest - 0.02).abs() < 1e-9);
         assert_eq!(skipped(spike, Some(coarse.shortest)).samples, 0);
+        // A truth keeps its value, so that a short one between two samples is lost.
+        let short = "time,on\n0,false\n0.05,false\n0.15,true\n0.18,false\n1,false\n";
+        assert_eq!(skipped(short, Some(0.1)).samples, 1);
+        // Only the last sample, at 1 s, is not on the period.
+        assert_eq!(skipped(short, Some(0.03)).samples, 1);
+        assert_eq!(skipped(short, Some(0.02)).samples, 0);
         let even = "time,x\n0,1\n0.1,5\n0.2,2\n0.3,4\n";
         assert_eq!(skipped(even, Some(0.1)).samples, 0);
         // Every other sample is on the new period, and the last one is not.

@@ -22,7 +22,8 @@ Tests with the same values in both campaigns are pairs. A new failure fails in A
     the other way round. The modes are the failure modes of the campaign in which the tests fail. McNemar's test says whether more \
     tests were mended than became failures by more than chance.
 
-Exit status: 0 done; 1 there is a new failure (with --fail-on-new-failure); 2 wrong use, or campaigns that have no test in common.";
+Exit status: 0 done; 1 there is a new failure (with --fail-on-new-failure); 2 wrong use, campaigns that have no test in common, \
+    or no new failure but a test or a requirement of BEFORE that AFTER does not have (with --fail-on-new-failure).";
 
 /// The number of modes in a table.
 const MODES_SHOWN: usize = 5;
@@ -57,10 +58,14 @@ impl Options {
             Format::Table => self.table(&difference),
             Format::Json => json(&difference),
         })?;
+        let fails = self.fail_on_new_failure && !difference.new_failures.is_empty();
         // A gate that compares less than the first campaign has would be false assurance.
-        if self.fail_on_new_failure && (only_before > 0 || !difference.dropped.is_empty()) {
+        if self.fail_on_new_failure && !fails && (difference.missing > 0 || !difference.dropped.is_empty()) {
             let what = match difference.dropped.as_slice() {
-                [] => format!("{} of {} have no pair", plural(only_before, "test"), self.before.display()),
+                [] => {
+                    let tests = plural(difference.missing, "test");
+                    format!("{} does not have {tests} of {}", self.after.display(), self.before.display())
+                }
                 dropped => format!(
                     "the requirement {} of {} is not the same in {}",
                     dropped.join(", "),
@@ -73,7 +78,6 @@ impl Options {
             )
             .into());
         }
-        let fails = self.fail_on_new_failure && !difference.new_failures.is_empty();
         Ok(if fails { Status::Violation } else { Status::Nothing })
     }
 

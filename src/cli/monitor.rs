@@ -22,7 +22,8 @@ A trace is CSV with a header: a column `time` in seconds, evenly spaced from 0 o
     With --every, the times only need to rise. \
     As soon as a formula is decided, whatever follows, a line on standard error says so.
 
-Exit status: 0 done; 1 a formula is violated (with --fail-on-violation); 2 wrong use or bad input.";
+Exit status: 0 done; 1 a formula is violated (with --fail-on-violation); 2 wrong use or bad input, or a formula \
+    stays undecided and none is violated (with --fail-on-violation).";
 
 /// The options of `monitor`.
 #[derive(Debug, Args)]
@@ -92,10 +93,11 @@ impl Options {
         })?;
         if skipped.samples > 0 {
             verbosity.note(format_args!(
-                "{} of {} of the file count for nothing, because no sample of the new period depends on them; --every {} uses all",
+                "{} of {} read count for nothing in some signal, because they lie between samples of the new period; with --every \
+                 {}, every sample but perhaps the last one counts",
                 skipped.samples,
                 plural(skipped.of, "sample"),
-                digits(skipped.shortest)
+                digits(0.999 * skipped.shortest)
             ));
         }
         let judged: Vec<(&Asked, Evaluation, Option<Cause>)> =

@@ -14,7 +14,8 @@ use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
 use paracosm_campaign::{
-    Catalogue, Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder, Supervision, Trial,
+    Catalogue, Error, Extension, Failure as Breakdown, Finish, StatedRequirement, Study, StudyBuilder, Supervision,
+    Trial,
 };
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -175,14 +176,6 @@ impl Options {
             );
             return Err(message.into());
         }
-        let unjudged = log.study().requirements().iter().find(|one| one.formula.is_none());
-        if let Some(one) = unjudged.filter(|_| self.fail_on_violation && log.study().subject().scenario().is_ok()) {
-            return Err(format!(
-                "requirement `{}` was not judged: it has no formula, and the scenario has no requirement of this name",
-                one.id
-            )
-            .into());
-        }
         if self.fail_on_violation
             && summary.tests() > 0
             && let Some(why) = untested(summary)
@@ -190,6 +183,12 @@ impl Options {
             return Err(format!("the campaign does not show whether a requirement is violated: {why}").into());
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
+        if let Some(id) = misspelled(log.study()).filter(|_| self.fail_on_violation && !violated) {
+            return Err(format!(
+                "requirement `{id}` was not judged: it has no formula, and the scenario has no requirement of this name"
+            )
+            .into());
+        }
         let found = if violated { Status::Violation } else { Status::Nothing };
         Ok(Conducted { report, found, stop: supervision.stop })
     }
@@ -312,6 +311,19 @@ fn untested(summary: &Summary) -> Option<String> {
         return Some(format!("no test passed or failed ({})", words.collect::<Vec<_>>().join(", ")));
     }
     summary.requirements().is_empty().then(|| "there is no requirement; --spec or --requirements states one".to_owned())
+}
+
+/// Returns the id of a requirement of a file whose id seems to be misspelled: it has no formula, and it is similar to the id of another
+/// requirement or says nothing else. A requirement that nobody has a formula for yet says what it is.
+fn misspelled(study: &Study) -> Option<String> {
+    if study.subject().scenario().is_err() {
+        return None;
+    }
+    let (judged, unjudged): (Vec<_>, Vec<_>) = study.requirements().iter().partition(|one| one.formula.is_some());
+    let says_nothing = |one: &&StatedRequirement| one.text.is_empty() && one.source.is_none() && one.severity.is_none();
+    let is_similar =
+        |one: &&StatedRequirement| nearest(&one.id, judged.iter().map(|other| other.id.as_str())).is_some();
+    unjudged.into_iter().find(|one| says_nothing(one) || is_similar(one)).map(|one| one.id.clone())
 }
 
 /// Notes that there is one test, and how to vary parameters.

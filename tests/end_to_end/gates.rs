@@ -73,8 +73,8 @@ fn a_log_that_decides_nothing_or_loses_samples_is_no_silent_success() {
     let monitor = |more: &[&str]| fuzz(dir.path(), &[&["monitor", "spike.csv", "--fail-on-violation"], more].concat());
     let coarse = succeeds(monitor(&["--every", "0.1", "--spec", "always (speed < 5)"]));
     let said = stderr(&coarse);
-    assert!(said.contains("1 of 5 samples of the file count for nothing"), "{said}");
-    assert!(said.contains("--every 0.02 uses all"), "{said}");
+    assert!(said.contains("1 of 5 samples read count for nothing in some signal"), "{said}");
+    assert!(said.contains("every sample but perhaps the last one counts"), "{said}");
     assert_eq!(monitor(&["--every", "0.02", "--spec", "always (speed < 5)"]).status.code(), Some(1));
     let later = monitor(&["--every", "0.02", "--spec", "always[5,6] (speed < 5)"]);
     assert_eq!(later.status.code(), Some(2));
@@ -103,9 +103,12 @@ fn a_difference_names_all_that_differs_and_a_gate_needs_the_same_tests_and_requi
         "{}",
         stderr(&dropped)
     );
+    // A campaign that repeats tests has all of its own tests.
+    succeeds(fuzz(dir.path(), &["cut-in", "--strategy", "random-corners", "--budget", "60", "--out", "corners"]));
+    succeeds(gate("corners", "corners"));
     let less = gate("before", "less");
     assert_eq!(less.status.code(), Some(2));
-    assert!(stderr(&less).contains("10 tests of before have no pair"), "{}", stderr(&less));
+    assert!(stderr(&less).contains("less does not have 10 tests of before"), "{}", stderr(&less));
 }
 
 #[test]
@@ -190,4 +193,10 @@ fn a_gate_refuses_a_requirement_that_nobody_judges() {
     let output = fuzz(dir.path(), &gate);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("requirement `no-colision` was not judged"), "{}", stderr(&output));
+    // A requirement that nobody has a formula for yet is no mistake, and hides no violation.
+    fs::write(dir.path().join("R.toml"), "[[requirement]]\nid = \"horn\"\ntext = \"The car sounds its horn.\"\n")
+        .unwrap();
+    succeeds(fuzz(dir.path(), &[&gate[..], &["--out", "horn"]].concat()));
+    let failing = ["--requirements", "R.toml", "--budget", "60", "--fail-on-violation", "--out", "failing"];
+    assert_eq!(fuzz(dir.path(), &failing).status.code(), Some(1));
 }

@@ -28,6 +28,9 @@ pub struct Difference {
     /// The requirements that only the first campaign has.
     #[serde(skip)]
     pub dropped: Vec<String>,
+    /// The number of different tests of the first campaign that the second campaign does not have.
+    #[serde(skip)]
+    pub missing: usize,
     /// The number of pairs: tests that both campaigns have.
     pub tests: usize,
     /// The numbers of tests of each campaign that have no pair. A pair counts once, however often a campaign repeats its test.
@@ -198,6 +201,7 @@ impl Difference {
             titles: [first, second].map(|log| log.study().title()),
             otherwise: otherwise(first.study(), second.study()),
             dropped: only(first.study(), second.study()),
+            missing: place.keys().filter(|key| !seen.contains(*key)).count(),
             tests: pairs.len(),
             unpaired: [first, second].map(|log| log.trials().len() - pairs.len()),
             points: points(first, second),

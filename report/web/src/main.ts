@@ -44,7 +44,8 @@ async function start(root: HTMLElement) {
     ];
     root.append(...more.filter((part) => part !== null));
     root.dataset.ready = "true";
-    requestIdleCallback(() => map?.prepare(), { timeout: 2000 });
+    // Not every browser says when it is idle.
+    setTimeout(() => map?.prepare(), 300);
   }));
 }
 
