@@ -59,8 +59,9 @@ pub struct Detected {
 pub struct Risk {
     /// The share of missed encounters.
     pub probability: f64,
-    /// The interval of 95 %, from resampled tests. Without a missed encounter, its upper end is the bound of Clopper and
-    /// Pearson for the share of tests with a miss, which is never smaller. `None` if the strategy searches for failures,
+    /// The interval of 95 %, from resampled tests. If no encounter is missed, its upper end is the bound of Clopper and Pearson for the
+    /// share of tests with a miss, among the tests with an encounter. If all are missed, its lower end is their bound for the share of
+    /// tests in which all are missed. `None` if the strategy searches for failures,
     /// because its tests then are no sample.
     pub interval: Option<[f64; 2]>,
 }
@@ -218,5 +219,25 @@ impl Counts {
 
     fn number(&self, name: &str) -> f64 {
         self.get(name).unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_risk_from_tests_that_all_end_alike_has_the_interval_of_their_number() {
+        let test = |missed: f64, encounters: f64| {
+            Counts(vec![("missed_encounters".into(), missed), ("encounters".into(), encounters)])
+        };
+        // A test without an encounter says nothing, however many there are.
+        let with_idle =
+            |tests: [Counts; 3]| tests.into_iter().chain((0..97).map(|_| test(0.0, 0.0))).collect::<Vec<_>>();
+        let missed = interval(&with_idle([test(1.0, 1.0), test(1.0, 1.0), test(1.0, 1.0)]), 3.0, 3.0);
+        let found = interval(&with_idle([test(0.0, 1.0), test(0.0, 1.0), test(0.0, 1.0)]), 0.0, 3.0);
+        // 0.025 to the power of 1/3.
+        assert!((missed[0] - 0.292_401_773_821_287).abs() < 1e-9 && missed[1] == 1.0, "{missed:?}");
+        assert!(found[0] == 0.0 && (found[1] - (1.0 - missed[0])).abs() < 1e-9, "{found:?}");
     }
 }

@@ -132,8 +132,8 @@ fn joined(flaws: &[WorldFlaw]) -> String {
     flaws.iter().map(WorldFlaw::to_string).collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the message of a panic.
-fn message(panic: &(dyn Any + Send)) -> &str {
+/// Returns the message of a panic that was caught.
+pub fn panic_message(panic: &(dyn Any + Send)) -> &str {
     let owned = panic.downcast_ref::<String>().map(String::as_str);
     owned.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
 }
@@ -217,7 +217,7 @@ impl Program {
     /// The parameters form no space, or the world cannot be built with nominal values: it has flaws, or the program panics.
     pub fn declare(&self) -> Result<Declaration, ProgramError> {
         let scenario = catch_unwind(AssertUnwindSafe(|| self.built(None))).unwrap_or_else(|panic| {
-            Err(ProgramError::Panicked { program: self.name().to_owned(), message: message(&*panic).to_owned() })
+            Err(ProgramError::Panicked { program: self.name().to_owned(), message: panic_message(&*panic).to_owned() })
         })?;
         let parameters = scenario.parameters.borrow().clone();
         Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())

@@ -22,7 +22,10 @@ pub(super) const OUTPUT: &str = "Output";
 
 /// Returns the program's arguments. Ends the program if they are wrong, or if only help was asked for.
 pub(super) fn parse<C: Parser>() -> C {
-    let matches = adapted(C::command()).try_get_matches();
+    // The usage shows the name in the source, whatever the file is called, so that `program::help` replaces it everywhere.
+    let command = C::command();
+    let name = command.get_name().to_owned();
+    let matches = adapted(command.bin_name(name)).try_get_matches();
     let read = matches.and_then(|mut matches| C::from_arg_matches_mut(&mut matches));
     read.unwrap_or_else(|error| match explained(&error) {
         Some(message) => {

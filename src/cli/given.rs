@@ -4,6 +4,7 @@ use super::usage;
 use crate::generators::{Look, MarkShape, PointSets, Strategy};
 use crate::space::Point;
 use paracosm_campaign::{Error, TestSet};
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The looks of such strategies in figures, one after the other.
@@ -18,7 +19,7 @@ const LOOKS: [Look; 4] = [
 /// continuous coordinates of each target: if a file names its columns, the columns take the order of these names.
 ///
 /// # Errors
-/// A name is unknown, or a file does not hold points in the unit cube, or its columns have other names than every target.
+/// A name is unknown, or a file does not hold points in the unit cube, or a target has other names than the columns of a file.
 pub(super) fn strategies(
     names: &[String],
     targets: &[Vec<String>],
@@ -71,12 +72,14 @@ fn read(name: &str, pattern: &str, targets: &[Vec<String>]) -> Result<PointSets,
     Ok(sets)
 }
 
-/// Returns the columns of a file in the order of a target; `None` if they have this order, or no names: `x1`, `x2` and so on.
-fn order(tests: &TestSet, targets: &[Vec<String>]) -> Result<Option<Vec<usize>>, String> {
+/// Returns the columns of a file in the order of the targets; `None` if they have this order already, or if the file or all targets of this
+/// size have no names but `x1`, `x2` and so on. The error has the names that are expected.
+fn order(tests: &TestSet, targets: &[Vec<String>]) -> Result<Option<Vec<usize>>, Expected> {
     let columns: Vec<String> = tests.space.coordinates().map(|coordinate| coordinate.name()).collect();
-    let is_unnamed = columns.iter().enumerate().all(|(at, name)| *name == format!("x{}", at + 1));
-    let of_size: Vec<&Vec<String>> = targets.iter().filter(|target| target.len() == columns.len()).collect();
-    if is_unnamed || of_size.is_empty() {
+    let is_named = |names: &[String]| names.iter().enumerate().any(|(at, name)| *name != format!("x{}", at + 1));
+    let named = targets.iter().filter(|target| target.len() == columns.len() && is_named(target));
+    let of_size: Vec<&Vec<String>> = named.collect();
+    if !is_named(&columns) || of_size.is_empty() {
         return Ok(None);
     }
     let place = |name: &String| columns.iter().position(|column| column == name);
@@ -86,11 +89,19 @@ fn order(tests: &TestSet, targets: &[Vec<String>]) -> Result<Option<Vec<usize>>,
             let order = orders.swap_remove(0);
             Ok((!order.is_sorted()).then_some(order))
         }
-        _ => Err(format!(
-            "found the columns {}, expected {}, or x1, x2 and so on for columns without names",
-            columns.join(", "),
-            of_size.iter().map(|target| target.join(", ")).collect::<Vec<_>>().join(" and ")
-        )),
+        _ => Err(Expected(columns, of_size.into_iter().cloned().collect())),
+    }
+}
+
+/// The columns of a file, and the names that the targets have for them.
+struct Expected(Vec<String>, Vec<Vec<String>>);
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(columns, targets) = self;
+        let targets: Vec<String> = targets.iter().map(|target| target.join(", ")).collect();
+        let (columns, targets) = (columns.join(", "), targets.join("; and for another target "));
+        write!(f, "found the columns {columns}, expected {targets}; or x1, x2 and so on for columns without names")
     }
 }
 

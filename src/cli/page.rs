@@ -11,7 +11,7 @@ use crate::analysis::Difference;
 use crate::report::html::{MEGABYTES, Runs};
 use clap::Args;
 use paracosm_campaign::files::write_whole;
-use paracosm_campaign::{Catalogue, Error, Log, Supervision};
+use paracosm_campaign::{Catalogue, Error, Supervision};
 use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
@@ -57,7 +57,8 @@ impl Options {
                 "a page shows the results of the campaign's own command: give the same command, or leave it out";
             return Err(usage(message.into()).into());
         }
-        let before = self.baseline.as_deref().map(|folder| Log::read(folder, catalogue)).transpose()?;
+        let before =
+            self.baseline.as_deref().map(|folder| trust::read_results(folder, catalogue, verbosity)).transpose()?;
         let changes = before.map(|before| Difference::of(&before, &log)).transpose()?;
         let report = verbosity.noting_if_slow("deriving the results from the log", || Report::read(log, &self.dir))?;
         let page = report.page(&self.dir, program::name(), changes.as_ref())?;

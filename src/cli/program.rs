@@ -1,7 +1,7 @@
 //! The name of the program. Help and messages name the usual program; a program of a user's own shows its own name there.
 
 use std::borrow::Cow;
-use std::env;
+use std::env::{self, consts::EXE_SUFFIX};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -18,8 +18,9 @@ pub(super) fn called() -> String {
 
 /// Says that this program has the commands of `paracosm-fuzz`. Its name is the name of its file.
 pub(super) fn takes_the_place() {
-    let name = Path::new(&called()).file_stem().map(|name| name.to_string_lossy().into_owned());
-    let _ = NAME.set(name.unwrap_or_else(|| USUAL.into()));
+    let name =
+        Path::new(&called()).file_name().map_or_else(|| USUAL.into(), |name| name.to_string_lossy().into_owned());
+    let _ = NAME.set(name.strip_suffix(EXE_SUFFIX).map(str::to_owned).unwrap_or(name));
 }
 
 /// Returns the name of the program that has the commands of `paracosm-fuzz`.

@@ -47,7 +47,7 @@ fn given_points_go_to_the_parameters_that_their_columns_name() {
     };
     assert_eq!((of("a").len(), of("a"), of("a")), (2, of("b"), of("c")), "{runs}");
     let said = stderr(&bench("d=other/*.csv", "out2"));
-    assert!(said.contains("found the columns foo, bar, expected speed, distance, or x1, x2 and so on"), "{said}");
+    assert!(said.contains("found the columns foo, bar, expected speed, distance; or x1, x2 and so on"), "{said}");
 }
 
 #[test]

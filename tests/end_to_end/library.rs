@@ -89,3 +89,12 @@ fn a_study_whose_strategy_cannot_do_what_is_asked_is_not_built() {
     assert!(matches!(error, paracosm::Error::Use(_)), "{error}");
     assert!(error.to_string().contains("fibonacci"), "{error}");
 }
+
+#[test]
+fn a_driver_of_ones_own_cannot_have_the_name_of_another_driver() {
+    let study = Study::of(catalogue().find("cut-in").unwrap());
+    let make = || paracosm::engine::driver::find("cruise").unwrap().build(&[]).unwrap();
+    let error = study.clone().own_driver("aeb", make).build().unwrap_err().to_string();
+    assert!(error.contains("a driver is called `aeb` already: give your driver another name"), "{error}");
+    study.own_driver("my-aeb", make).build().unwrap();
+}

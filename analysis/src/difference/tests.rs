@@ -44,6 +44,18 @@ fn tests_are_paired_by_their_values_and_counted_by_what_became_of_them() {
 }
 
 #[test]
+fn a_change_by_rounding_is_no_change_and_missing_tests_count_once() {
+    use Verdict::Pass;
+    let first = log("x", &[(1.0, Pass, 2.0), (2.0, Pass, 2.0), (3.0, Pass, 2.0), (3.0, Pass, 2.0), (4.0, Pass, 1.0)]);
+    let second = log("x", &[(1.0, Pass, 2.0_f64.next_up()), (2.0, Pass, 2.0 - 1e-12), (4.0, Pass, 1.001)]);
+    let difference = Difference::of(&first, &second).unwrap();
+    let margin = &difference.margins[0];
+    assert_eq!((margin.smaller, margin.same, margin.larger, margin.worst), (0, 2, 1, None));
+    assert_eq!((difference.unpaired, difference.missing), ([2, 0], 1));
+    assert_eq!(Difference::of(&first, &first).unwrap().missing, 0);
+}
+
+#[test]
 fn campaigns_without_a_common_test_or_over_other_parameters_are_refused() {
     let first = log("speed", &[(1.0, Verdict::Pass, 2.0)]);
     let refused = |second: &Log| Difference::of(&first, second).unwrap_err().to_string();

@@ -7,7 +7,7 @@ pub(crate) use line::Line;
 pub use metric::{Metric, UnknownWord};
 
 use paracosm_engine::driver::FaultKind;
-use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation};
+use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation, panic_message};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::{Record, Values};
 use serde::{Deserialize, Serialize};
@@ -63,9 +63,7 @@ impl Problem {
 
     /// Makes the problem that the run or the perceiver panicked.
     pub(crate) fn panicked(who: &str, panic: &(dyn Any + Send)) -> Self {
-        let message = panic.downcast_ref::<String>().map(String::as_str);
-        let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
-        Self::new(ProblemKind::Panic, format!("the {who} panicked: {message}"))
+        Self::new(ProblemKind::Panic, format!("the {who} panicked: {}", panic_message(panic)))
     }
 
     /// Makes the problem that a system did not answer in time.

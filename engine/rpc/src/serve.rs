@@ -4,8 +4,7 @@ use crate::PROTOCOL;
 use crate::wire::{self, answer, request};
 use paracosm_engine::driver::{Driver, Fault};
 use paracosm_engine::sensor::{Cameras, Image, Rig};
-use paracosm_engine::{Briefing, Control, Observation};
-use std::any::Any;
+use paracosm_engine::{Briefing, Control, Observation, panic_message};
 use std::collections::BTreeMap;
 use std::io;
 use std::net::TcpListener;
@@ -97,7 +96,7 @@ async fn attend(
     while let Ok(Some(request)) = requests.message().await {
         let answer = tokio::task::block_in_place(|| {
             catch_unwind(AssertUnwindSafe(|| answer(&mut state, request.kind, &name, &*make)))
-                .unwrap_or_else(|panic| Err(Fault::new(format!("the driver panicked: {}", words(&*panic)))))
+                .unwrap_or_else(|panic| Err(Fault::new(format!("the driver panicked: {}", panic_message(&*panic)))))
         });
         let gave_up = answer.is_err();
         let kind = answer.unwrap_or_else(|Fault { message, .. }| answer::Kind::Fault(wire::Fault { message }));
@@ -105,12 +104,6 @@ async fn attend(
             return;
         }
     }
-}
-
-/// Returns the message of a panic.
-fn words(panic: &(dyn Any + Send)) -> &str {
-    let owned = panic.downcast_ref::<String>().map(String::as_str);
-    owned.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
 }
 
 /// The driver of a session, with its cameras and its latest observation.

@@ -5,7 +5,7 @@ import { mark, modeColour, verdictColour } from "./marks";
 import type { Store } from "./store";
 
 /** With more tests in sight, a test is a few pixels. */
-export const MOST_MARKS = 5000;
+const MOST_MARKS = 5000;
 
 /** A place in pixels for each value: `scale * value + offset`. */
 export interface Line {
@@ -25,8 +25,11 @@ export interface Cloud {
   byMode: boolean;
 }
 
-/** Draws the tests of a cloud. Tests that the filters leave out are below all others, and failing tests are above all others. */
-export function paintTests(context: CanvasRenderingContext2D, store: Store, cloud: Cloud) {
+/**
+ * Draws the tests of a cloud, and returns true if they are pixels and not marks. Tests that the filters leave out are below all others, and
+ * failing tests are above all others.
+ */
+export function paintTests(context: CanvasRenderingContext2D, store: Store, cloud: Cloud): boolean {
   const { tests, mask, page } = store;
   const { rows, x, y, width, height } = cloud;
   const [cx, cy] = cloud.axes.map((at) => tests.coordinates[at]);
@@ -50,7 +53,7 @@ export function paintTests(context: CanvasRenderingContext2D, store: Store, clou
     for (const row of others) pixels.dot(place(row), size, verdictOf(row));
     for (const row of failing) pixels.dot(place(row), size + 1, modeOf(row));
     pixels.paint(context);
-    return;
+    return true;
   }
   context.fillStyle = colour("faint");
   for (const row of faint) {
@@ -63,6 +66,7 @@ export function paintTests(context: CanvasRenderingContext2D, store: Store, clou
     context.fillRect(px - 2, py - 2, 4, 4);
   }
   for (const row of failing) mark(context, cloud.byMode ? tests.mode[row] : 1, ...place(row), 4, modeOf(row));
+  return false;
 }
 
 const packed = new Map<string, number>();

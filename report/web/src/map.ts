@@ -7,7 +7,7 @@ import { zoom, zoomIdentity, type ZoomTransform } from "d3-zoom";
 import { plain, type Grid } from "./data";
 import { colour, h, Sheet } from "./dom";
 import type { Store } from "./store";
-import { type Line, MOST_MARKS, paintTests } from "./cloud";
+import { type Line, paintTests } from "./cloud";
 
 const MARGIN = { left: 62, right: 14, top: 12, bottom: 46 };
 /** The distance in pixels within which a test answers to the pointer. */
@@ -35,6 +35,8 @@ export class MapView {
   private axes: [number, number];
   private facetBy = -1;
   private byMode = true;
+  /** True if a map shows tests as pixels. */
+  private hasPixels = false;
   private transform: ZoomTransform = zoomIdentity;
   private facets: Facet[] = [];
   private size = "";
@@ -106,7 +108,6 @@ export class MapView {
   private changed() {
     this.size = "";
     this.reset();
-    this.words();
     this.sheet.draw();
   }
 
@@ -120,7 +121,7 @@ export class MapView {
       grid ? "Shade: estimated probability of failure." : this.store.page.maps.length > 0 ? "The page has no estimate for this pair." : null,
       hole ? (isWhole ? "Dashed: the largest empty box, which was never tested." : "Dashed: the largest empty box; other parameters bound it, too.") : null,
       x === y ? "Both axes show the same parameter." : null,
-      this.store.tests.rows > MOST_MARKS && page.modes.modes.length > 1 ? "With so many tests, a failure mode is a colour; zoom in to see its marks." : null,
+      this.hasPixels && this.byMode && page.modes.modes.length > 1 ? "With so many tests, a failure mode is a colour; zoom in to see its marks." : null,
     ];
     this.note.textContent = parts.filter(Boolean).join(" ");
   }
@@ -160,8 +161,7 @@ export class MapView {
     const rows = Math.ceil(levels.length / columns);
     const title = this.facetBy < 0 ? 0 : 18;
     const [w, hgt] = [width / columns, height / rows];
-    this.transform = zoomIdentity;
-    this.hovered = null;
+    this.leave();
     this.facets = levels.map((level, number): Facet => {
       const [column, row] = [number % columns, Math.floor(number / columns)];
       const all = new Uint32Array(tests.rows);
@@ -191,11 +191,16 @@ export class MapView {
       select<HTMLElement, unknown>(pane).call(this.zooming).on("dblclick.zoom", null);
     }
     this.panes.replaceChildren(...this.facets.map(({ pane }) => pane));
+    // The new maps show the part that the maps before showed, as far as their size allows.
+    const [{ pane }] = this.facets;
+    select<HTMLElement, unknown>(pane).call(this.zooming.transform, this.transform);
   }
 
   private paint(context: CanvasRenderingContext2D) {
     this.arrange();
+    this.hasPixels = false;
     for (const facet of this.facets) this.paintFacet(context, facet);
+    this.words();
   }
 
   private paintFacet(context: CanvasRenderingContext2D, facet: Facet) {
@@ -209,7 +214,8 @@ export class MapView {
     context.fillStyle = colour("plot");
     context.fillRect(0, 0, width, height);
     this.paintShade(context, x, y);
-    paintTests(context, this.store, { width, height, rows, x: line(x), y: line(y), axes: this.axes, byMode: this.byMode });
+    const isDotted = paintTests(context, this.store, { width, height, rows, x: line(x), y: line(y), axes: this.axes, byMode: this.byMode });
+    this.hasPixels ||= isDotted;
     const hole = this.hole();
     if (hole) {
       const [[x0, x1], [y0, y1]] = hole;

@@ -42,7 +42,7 @@ export function thumbnail(store: Store, index: number, label: string): HTMLEleme
 }
 
 /** The test that the first screen shows, with what it is: the worst plausible failure, or else the worst test. */
-export function worstTest({ worst, worst_plausible: plausible, plausible: ranges }: Document): [Worst, string] | null {
+function worstTest({ worst, worst_plausible: plausible, plausible: ranges }: Document): [Worst, string] | null {
   if (plausible?.verdict === "fail") return [plausible, ranges ? "Worst plausible failure" : "Worst failure"];
   if (!worst) return null;
   return [worst, worst.verdict === "fail" ? (ranges ? "Worst failure, not plausible" : "Worst failure") : "Nearest to a failure"];

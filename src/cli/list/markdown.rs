@@ -77,7 +77,14 @@ fn parameters(lists: &Lists, text: &mut String) -> Result<(), Failure> {
         "\n| scenario | parameter | domain | unit | value unless opened |\n| --- | --- | --- | --- | --- |\n",
     );
     for program in &lists.scenarios {
-        for declared in &program.declare()?.parameters {
+        let declaration = match program.declare() {
+            Ok(declaration) => declaration,
+            Err(error) => {
+                writeln!(text, "| `{}` | error: {error} | | | |", program.name())?;
+                continue;
+            }
+        };
+        for declared in &declaration.parameters {
             let [name, domain, unit, nominal] = scenario_words(declared);
             writeln!(text, "| `{}` | `{name}` | {domain} | {unit} | {nominal} |", program.name())?;
         }

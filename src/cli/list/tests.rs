@@ -131,6 +131,11 @@ fn a_wrong_scenario_shows_its_error_and_hides_no_other() {
     assert!(text.contains(&format!("a scenario that panics\n    error: {panicked}\n  scratch-empty")), "{text}");
     assert!(text.contains("a road without a car\n    error: scenario `scratch-empty`: "), "{text}");
     assert!(text.contains("scratch_speed"), "{text}");
+    let Ok(page) = markdown(&lists, &[ListKind::Scenarios]) else { panic!("the list is printed") };
+    assert!(
+        page.contains(&format!("| `scratch-panic` | error: {panicked} |")) && page.contains("scratch_speed"),
+        "{page}"
+    );
     let Ok(all) = as_json(&lists, &[ListKind::Scenarios]) else { panic!("the list is printed") };
     assert_eq!(all["scenarios"][0]["error"], panicked);
     assert!(all["scenarios"][2]["error"].is_null() && all["scenarios"][2]["parameters"].is_array(), "{all}");
