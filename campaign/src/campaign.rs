@@ -62,7 +62,19 @@ pub struct ForeignTrial {
     pub index: usize,
 }
 
+/// The error that a known test ends otherwise than in the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error(
+    "test {index} ends otherwise than in the log, so the scenario or the driver has changed since: \
+     begin a new campaign in another folder"
+)]
+pub struct OtherResult {
+    /// The index of the test.
+    pub index: usize,
+}
+
 impl Reason for ForeignTrial {}
+impl Reason for OtherResult {}
 
 impl<'a> Campaign<'a> {
     /// Makes a campaign that runs the tests of a study on all cores.
@@ -136,7 +148,7 @@ impl<'a> Campaign<'a> {
     ///
     /// # Errors
     /// An observer returns an error, the strategy cannot do what the study asks, a known trial does not belong to this
-    /// campaign, or a system gave no result for any of its first tests.
+    /// campaign, a known test ends otherwise now, or a system gave no result for any of its first tests.
     pub fn run(mut self, observers: &mut [&mut dyn Observer]) -> Result<Finish, Error> {
         let study = self.study;
         let (batch, budget) = (study.sampling().batch_size().unwrap_or(BATCH), study.sampling().budget);
@@ -146,6 +158,7 @@ impl<'a> Campaign<'a> {
         if study.sampling().stop_at_first {
             observers.push(&mut first_failure);
         }
+        self.check_known()?;
         let mut steering = Steering::new(study, self.extension.take().map(|(_, points)| points).unwrap_or_default())?;
         observers.iter_mut().try_for_each(|observer| observer.begun())?;
         let mut expected = Expected::of(study, &self.known);
@@ -197,6 +210,23 @@ impl<'a> Campaign<'a> {
         }
         observers.iter_mut().try_for_each(|observer| observer.ended())?;
         Ok(finish)
+    }
+
+    /// Checks that known tests still end as they did, by the last test of each verdict: code that has changed shows in nothing else. Only a
+    /// driver in this process that needs no images is sure to repeat a test.
+    fn check_known(&self) -> Result<(), Error> {
+        if self.known.is_empty() || !self.study.repeats_in_process() || self.darkroom.is_some() {
+            return Ok(());
+        }
+        let mut worker = self.worker()?;
+        for verdict in Verdict::ALL.into_iter().filter(|verdict| *verdict != Verdict::Error) {
+            let last = self.known.iter().rev().find(|trial| trial.verdict == verdict);
+            if let Some(trial) = last.filter(|trial| !worker.run(trial.index, &trial.test).0.repeats(trial)) {
+                return Err(OtherResult { index: trial.index }.into());
+            }
+        }
+        self.dismiss(worker);
+        Ok(())
     }
 
     /// Runs the campaign without writing files, and returns the log with all trials.
@@ -269,7 +299,7 @@ impl<'a> Campaign<'a> {
         let result = if self.darkroom.is_some() && self.study.perceiver().is_none() {
             let at_once = self.at_once.get().div_ceil(pool.current_num_threads());
             let work = |desk: &Desk<Trial>| hire().run_in_lockstep((desk, at_once), (first, tests));
-            from_desk(&pool, 0..tests.len(), work, sink)
+            from_desk(&pool, first..first + tests.len(), work, sink)
         } else {
             let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
             in_order(&pool, 0..tests.len(), hire, work, sink)

@@ -44,7 +44,7 @@ impl<'a> Jury<'a> {
     /// campaign was stopped meanwhile, the trial has no verdict yet: the error says so.
     fn may_prevent(&mut self, failing: &Trial) -> Result<bool, Problem> {
         for (study, simulator) in &mut self.0 {
-            let outcome = simulator.run(Test::new(&study.complete(&failing.test), study.space()));
+            let outcome = simulator.run(failing.index, Test::new(&study.complete(&failing.test), study.space()));
             let trial = simulated(study, failing.index, &failing.test, outcome).0;
             match trial.problem {
                 Some(problem) if problem.kind == ProblemKind::Interrupted => return Err(problem),

@@ -85,7 +85,7 @@ pub use space_file::{SpaceFile, is_model};
 pub use steering::Steering;
 pub use study::{NamedCommand, Sampling, StatedRequirement, Study, StudyBuilder, Subject};
 pub use study_file::StudyFile;
-pub use supervision::{Output, Supervision};
+pub use supervision::{Output, Recoveries, Supervision};
 pub use test_set::{PartialRow, TestSet, tests_as_csv};
 pub use trace_file::{Skipped, read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};
@@ -97,7 +97,7 @@ pub mod reasons {
     pub use crate::black_box::{AnswerFlaw, NoSystem, TimeoutFlaw};
     #[cfg(feature = "camera")]
     pub use crate::cameras::CameraFileFlaw;
-    pub use crate::campaign::ForeignTrial;
+    pub use crate::campaign::{ForeignTrial, OtherResult};
     pub use crate::catalogue::{AmbiguousScenario, NoScenarioFile, UnknownScenario};
     pub use crate::concrete::{NoConcrete, NoFileOfScenario};
     pub use crate::conversation::NotStarted;

@@ -132,7 +132,7 @@ impl<'a> Worker<'a> {
         let Self { study, bench, jury, .. } = self;
         match bench {
             Bench::Simulator(simulator) => {
-                let outcome = simulator.run(Test::new(&study.complete(test), study.space()));
+                let outcome = simulator.run(index, Test::new(&study.complete(test), study.space()));
                 jury.judged(study, index, test, outcome)
             }
             Bench::System(connection) => asked(connection, study, index, test),
@@ -295,8 +295,8 @@ impl<'a> Worker<'a> {
         stopped: impl Fn() -> bool,
     ) {
         let Self { study, bench: Bench::Simulator(simulator), jury, .. } = self else { return };
-        let test = |place: usize| study.complete(&tests[place]);
-        let trial = |place: usize, outcome| jury.judged(study, first + place, &tests[place], outcome).0;
+        let test = |index: usize| study.complete(&tests[index - first]);
+        let trial = |index: usize, outcome| jury.judged(study, index, &tests[index - first], outcome).0;
         simulator.run_in_lockstep(desk, at_once, (&test, study.space()), stopped, trial);
     }
 }

@@ -14,8 +14,8 @@ use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
 use paracosm_campaign::{
-    Catalogue, Error, Extension, Failure as Breakdown, Finish, StatedRequirement, Study, StudyBuilder, Supervision,
-    Trial,
+    Catalogue, Error, Extension, Failure as Breakdown, Finish, Recoveries, StatedRequirement, Study, StudyBuilder,
+    Supervision, Trial,
 };
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -143,6 +143,7 @@ impl Options {
             false => error.into(),
         })?;
         self.note_end(&report, extension.as_ref(), verbosity);
+        note_recoveries(&supervision.recoveries, verbosity);
         let printed =
             report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
         print(&match self.form.format {
@@ -299,6 +300,17 @@ impl Options {
             }
             (None, None) => Strategy::usual(Purpose::Cover),
         })
+    }
+}
+
+/// Notes the tests whose errors did not repeat with a new process: the program carries something from test to test, or fails by chance.
+pub(super) fn note_recoveries(recoveries: &Recoveries, verbosity: Verbosity) {
+    if let Some((index, error)) = recoveries.first() {
+        verbosity.note(format!(
+            "{} ended in an error, and had a result when a new process ran them again: the program may keep something from test to test, or fail by \
+             chance; the first, test {index}: {error}",
+            plural(recoveries.tests(), "test")
+        ));
     }
 }
 

@@ -100,6 +100,30 @@ fn a_campaign_whose_folder_is_removed_ends_and_says_so() {
 }
 
 #[test]
+fn a_campaign_whose_tests_end_otherwise_now_is_not_continued() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), "out", &[]);
+    let path = dir.path().join("out/trials.jsonl");
+    let whole = fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = whole.lines().take(100).collect();
+    let last = lines.iter().rposition(|line| line.contains("\"verdict\":\"fail\"")).unwrap();
+    // To the campaign, a log that was written by other code is a log that was edited.
+    for (what, by) in [("trace_hash\":\"", "trace_hash\":\"0"), ("\"no-collision\":-", "\"no-collision\":-1")] {
+        let mut edited: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        edited[last] = edited[last].replacen(what, by, 1);
+        assert_ne!(edited[last], lines[last]);
+        let text = edited.join("\n") + "\n";
+        fs::write(&path, &text).unwrap();
+        let output = fuzz(dir.path(), &["--budget", "200", "--out", "out", "--resume"]);
+        refused(
+            &output,
+            &[&format!("test {last} ends otherwise than in the log"), "begin a new campaign in another folder"],
+        );
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    }
+}
+
+#[test]
 fn resume_begins_a_campaign_that_is_not_there_and_does_nothing_to_a_complete_one() {
     let dir = tempfile::tempdir().unwrap();
     let begun = run(dir.path(), "out", &["--resume"]);

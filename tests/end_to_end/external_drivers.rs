@@ -219,8 +219,13 @@ fn a_test_is_not_held_against_a_driver_that_earlier_tests_have_worn_out() {
     let dir = tempfile::tempdir().unwrap();
     let dir = dir.path();
     succeeds(fuzz(dir, &["--driver", "aeb", "--budget", "20", "--out", "near"]));
-    succeeds(run(dir, "worn", &["--budget", "20", "--set", "driver.lives=3", "--jobs", "2"]));
+    let worn = succeeds(run(dir, "worn", &["--budget", "20", "--set", "driver.lives=3", "--jobs", "2"]));
     assert_eq!(log(dir, "worn"), log(dir, "near"));
+    // Nobody may take such a driver for a sound one.
+    let note = "tests ended in an error, and had a result when a new process ran them again: the program may keep something from test to test";
+    assert!(stderr(&worn).contains(note), "{}", stderr(&worn));
+    let sound = succeeds(run(dir, "sound", &["--budget", "20"]));
+    assert!(!stderr(&sound).contains("ran them again"), "{}", stderr(&sound));
 }
 
 #[test]

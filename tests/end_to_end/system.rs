@@ -251,7 +251,16 @@ fn a_process_that_ends_between_tests_is_started_again() {
         [("at-once", format!("{ROBUSTNESS}; exit 0")), ("late", format!("(sleep 0.1; {ROBUSTNESS}) & exit 0"))]
     {
         script(dir.path(), &answer);
-        succeeds(run(dir.path(), out, &["--budget", "8", "--jobs", "1"]));
+        let printed = succeeds(fuzz(
+            dir.path(),
+            &["--system", "sh system.sh", "--space", "SPACE.toml", "--out", out, "--budget", "8", "--jobs", "1"],
+        ));
+        let note = "7 tests ended in an error, and had a result when a new process ran them again";
+        assert!(
+            stderr(&printed).contains(note) && stderr(&printed).contains("the first, test 1: "),
+            "{}",
+            stderr(&printed)
+        );
         assert!(trials(dir.path(), out).iter().all(|trial| trial["error"].is_null()), "{}", log(dir.path(), out));
     }
 }

@@ -117,8 +117,8 @@ impl Inquiry {
     pub fn run(&self, log: &Log, mut watch: impl FnMut(&Blamed)) -> Result<Blame, Error> {
         let failing: Vec<&Trial> = log.trials().iter().filter(|trial| trial.is_failure()).collect();
         let study = log.study();
-        let can_repeat = study.subject().scenario().is_ok_and(|simulation| !simulation.driver().is_external());
-        if let Some(first) = failing.first().filter(|_| can_repeat && study.is_of_this_software()) {
+        let is_sure = study.repeats_in_process() && study.is_of_this_software();
+        if let Some(first) = failing.first().filter(|_| is_sure) {
             Worker::new(study)?.check_repeats(log, first)?;
         }
         let names = || self.references.iter().map(|reference| reference.name.clone());

@@ -122,11 +122,16 @@ impl Connection {
         let mut question = serde_json::to_vec(&Question { index, test }).expect("a test is always JSON");
         question.push(b'\n');
         let has_past = self.process.as_ref().is_some_and(Process::has_answered);
-        let answer = self.ask_process(index, &question);
-        if answer.is_err() && has_past && !self.supervision.stop.load(Ordering::Relaxed) {
-            return self.ask_process(index, &question);
+        match self.ask_process(index, &question) {
+            Err(first) if has_past && !self.supervision.stop.load(Ordering::Relaxed) => {
+                let answer = self.ask_process(index, &question);
+                if answer.is_ok() {
+                    self.supervision.recoveries.add(index, &first.message);
+                }
+                answer
+            }
+            answer => answer,
         }
-        answer
     }
 
     fn ask_process(&mut self, index: usize, question: &[u8]) -> Result<Answer, Problem> {

@@ -11,7 +11,7 @@ mod late;
 mod process;
 
 use crate::study::{DriverChoice, Origin};
-use crate::{Error, Problem, ProblemKind, Reason, Supervision};
+use crate::{Error, Problem, ProblemKind, Reason, Recoveries, Supervision};
 use late::Late;
 use paracosm_engine::driver::Driver;
 use paracosm_rpc::{Address, OpenError, Session};
@@ -28,6 +28,7 @@ pub struct Drivers<'a> {
     /// The drivers that are idle.
     idle: Vec<Box<dyn Driver>>,
     stop: Arc<AtomicBool>,
+    recoveries: Recoveries,
 }
 
 /// The source of new drivers.
@@ -114,12 +115,12 @@ impl<'a> Drivers<'a> {
     /// # Errors
     /// The choice was read from a file, and the driver or a setting of it does not exist.
     pub fn new(choice: &'a DriverChoice, supervision: Supervision) -> Result<Self, Error> {
-        let (latency, stop) = (choice.latency(), supervision.stop.clone());
+        let (latency, stop, recoveries) = (choice.latency(), supervision.stop.clone(), supervision.recoveries.clone());
         let ended = stop.clone();
         let source = match choice.origin() {
             Origin::Here => {
                 let made = Self::made_by(move || Ok(Box::new(Late { driver: choice.build()?, latency })));
-                let mut drivers = Self { stop, ..made };
+                let mut drivers = Self { stop, recoveries, ..made };
                 let first = drivers.hire()?;
                 drivers.dismiss(Some(first));
                 return Ok(drivers);
@@ -133,17 +134,23 @@ impl<'a> Drivers<'a> {
                 Source::Process(Box::new(Launcher::new(words.clone(), terms.clone(), latency, supervision)))
             }
         };
-        Ok(Self { source, external: true, idle: Vec::new(), stop })
+        Ok(Self { source, external: true, idle: Vec::new(), stop, recoveries })
     }
 
     /// Makes a source of drivers that the given function makes in this process.
     pub fn made_by(make: impl Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a) -> Self {
-        Self { source: Source::Made(Box::new(make)), external: false, idle: Vec::new(), stop: Arc::default() }
+        let source = Source::Made(Box::new(make));
+        Self { source, external: false, idle: Vec::new(), stop: Arc::default(), recoveries: Recoveries::default() }
     }
 
     /// Returns the flag that ends runs and waiting.
     pub fn stop(&self) -> &Arc<AtomicBool> {
         &self.stop
+    }
+
+    /// Returns the tests whose errors did not repeat.
+    pub fn recoveries(&self) -> &Recoveries {
+        &self.recoveries
     }
 
     /// Returns `true` if a driver is idle.

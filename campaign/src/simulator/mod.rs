@@ -18,7 +18,7 @@ use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Motion, Outcome, Program, Run, Test};
 use paracosm_space::{Space, Values};
-use ride::{Ride, is_broken};
+use ride::{Ride, error_of};
 use std::slice;
 use std::sync::Arc;
 
@@ -91,12 +91,21 @@ impl<'a> Simulator<'a> {
         self.darkroom.as_ref()
     }
 
-    /// Runs a test, and returns the outcome.
-    pub fn run(&mut self, test: Test<'_>) -> Result<Outcome, Problem> {
+    /// Runs the test with an index, and returns the outcome.
+    pub fn run(&mut self, index: usize, test: Test<'_>) -> Result<Outcome, Problem> {
         let has_past = self.drivers.any_idle();
         let outcome = self.ride(test, |_| (), |_| ());
-        let is_doubtful = has_past && is_broken(&outcome) && self.drivers.gives_another_chance();
-        if is_doubtful { self.watch(test, None, |_| ()) } else { outcome }
+        if has_past { self.checked(index, test, outcome) } else { outcome }
+    }
+
+    /// Returns the outcome of a test, which runs once more if it broke with a driver that other tests may have influenced.
+    fn checked(&mut self, index: usize, test: Test<'_>, outcome: Result<Outcome, Problem>) -> Result<Outcome, Problem> {
+        let Some(error) = error_of(&outcome).filter(|_| self.drivers.gives_another_chance()) else { return outcome };
+        let again = self.watch(test, None, |_| ());
+        if error_of(&again).is_none() {
+            self.drivers.recoveries().add(index, &error);
+        }
+        again
     }
 
     /// Runs a test while the given cameras film the run. `see` gets the run whenever the driver is asked, and at the
@@ -162,10 +171,8 @@ impl<'a> Simulator<'a> {
                 return;
             }
             for over in rides.extract_if(.., |ride| ride.is_over()) {
-                let (index, mut outcome) = self.dismiss(over);
-                if is_broken(&outcome) && self.drivers.gives_another_chance() {
-                    outcome = self.watch(Test::new(&tests(index), space), None, |_| ());
-                }
+                let (index, outcome) = self.dismiss(over);
+                let outcome = self.checked(index, Test::new(&tests(index), space), outcome);
                 if stopped() {
                     return;
                 }

@@ -121,12 +121,16 @@ impl Ride {
     pub fn end(self) -> (TestEnd, Option<Box<dyn Driver>>) {
         let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was abandoned before its end"));
         let outcome = self.outcome.unwrap_or_else(left);
-        let driver = self.driver.filter(|_| !is_broken(&outcome));
+        let driver = self.driver.filter(|_| error_of(&outcome).is_none());
         ((self.place, outcome), driver)
     }
 }
 
-/// Returns `true` if a test has no usable result.
-pub(super) fn is_broken(outcome: &Result<Outcome, Problem>) -> bool {
-    outcome.as_ref().map_or(true, |outcome| outcome.verdict() == Verdict::Error)
+/// Returns the error of a test without a usable result; `None` if the test has a result.
+pub(super) fn error_of(outcome: &Result<Outcome, Problem>) -> Option<String> {
+    match outcome {
+        Err(problem) => Some(problem.message.clone()),
+        Ok(outcome) if outcome.verdict() == Verdict::Error => Some(outcome.ending.message().unwrap_or_default()),
+        Ok(_) => None,
+    }
 }

@@ -263,6 +263,13 @@ impl Study {
         own.chain(self.fixed().iter()).map(owned).collect()
     }
 
+    /// Returns `true` if a test of the study is sure to end as before when it runs again: a driver in this process drives, and no perceiver is
+    /// on trial.
+    pub fn repeats_in_process(&self) -> bool {
+        let is_driven_here = self.subject.scenario().is_ok_and(|simulation| !simulation.driver().is_external());
+        is_driven_here && self.perceiver().is_none()
+    }
+
     /// Returns `true` if this version of the software wrote the study, so that a replay has to give the same trace.
     pub fn is_of_this_software(&self) -> bool {
         let ended_early = matches!(&self.subject, Subject::Scenario(simulation) if simulation.stop_runs_early);
