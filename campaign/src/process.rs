@@ -142,12 +142,14 @@ impl Process {
     }
 }
 
-/// Closes the standard input of a process that is no longer needed, gives it a moment to end by itself, then ends it.
+/// Closes the standard input of a process that is no longer needed, gives it a moment to end by itself, then ends it, and
+/// reads the rest of its output.
 impl Drop for Process {
     fn drop(&mut self) {
         drop(self.child.stdin.take());
         wait_until(FAREWELL, || self.status().is_some());
         self.end();
+        wait_until(ARRIVAL, || self.listeners.iter().all(JoinHandle::is_finished));
     }
 }
 

@@ -102,6 +102,15 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         let plausible = plausible.unwrap_or_default();
         table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{plausible}{state}{signal}"));
     }
+    let constraints = constraints(declaration);
+    if !constraints.is_empty() {
+        table.heading("constraints");
+        constraints.iter().for_each(|constraint| table.row("", constraint));
+    }
+    if let Some(premise) = &declaration.premise {
+        table.heading("premise: without this event, a test that violates nothing is inconclusive");
+        table.row("", premise);
+    }
     table.heading("requirements");
     for requirement in study.requirements() {
         table.row(&requirement.id, &requirement.text);
@@ -140,6 +149,11 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
 /// Returns the fixed value of a parameter, if it differs from the nominal value.
 fn set<'a>(study: &'a Study, declared: &Declared) -> Option<&'a Value> {
     study.fixed().get(&declared.parameter.name).filter(|value| **value != declared.nominal())
+}
+
+/// Returns the constraints between the parameters of the scenario.
+fn constraints(declaration: &Declaration) -> Vec<String> {
+    declaration.constraints.iter().map(|constraint| constraint.expression.to_string()).collect()
 }
 
 /// Returns the signals of the scenario, as formulas name them.
@@ -190,7 +204,8 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
         |grid| json!({"grid": grid.name, "of": grid.points, "protocol": points::PROTOCOL, "options": grid.options()}),
     );
     Ok(json(&json!({"name": program.name(), "about": program.about(), "duration": declaration.duration,
-        "parameters": parameters, "requirements": study.requirements(), "points": points, "signals": signals(study)?,
+        "parameters": parameters, "constraints": constraints(declaration), "premise": declaration.premise,
+        "requirements": study.requirements(), "points": points, "signals": signals(study)?,
         "described_signals": described(&study.signals()?.unwrap_or_default()),
         "notes": study.notes()?})))
 }

@@ -48,7 +48,7 @@ mod trust;
 use clap::Args;
 use interrupt::on_interrupt;
 use paracosm_campaign::executor::WORKER;
-use paracosm_campaign::{Catalogue, Error, Log, Reason, SpaceFile, Study};
+use paracosm_campaign::{Catalogue, Error, Log, Reason, SpaceFile, Study, Supervision};
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -77,6 +77,17 @@ impl Verbosity {
         if !self.quiet {
             complain(&message);
         }
+    }
+
+    /// Returns the supervision of tests. With -v, the output of programs is shown line by line.
+    fn supervision(self) -> Supervision {
+        let supervision = Supervision::default();
+        if self.verbose {
+            supervision.output.listen(|role, line| {
+                complain(&format!("{role}: {}", String::from_utf8_lossy(line).trim_end()));
+            });
+        }
+        supervision
     }
 
     /// Does some work. Prints the note if the work takes more than two seconds.

@@ -148,9 +148,10 @@ impl Options {
             return Err(usage(message).into());
         }
         let mut record = MotionRecord::default();
-        let stop = Arc::default();
+        let supervision = verbosity.supervision();
+        let stop = Arc::clone(&supervision.stop);
         on_interrupt(Arc::clone(&stop));
-        let mut worker = Worker::until(study, stop.clone())?;
+        let mut worker = Worker::until(study, supervision)?;
         worker.start()?;
         let watched = target.is_some();
         let (trial, trace) = worker.replay(&log, logged, |run| {

@@ -237,6 +237,8 @@ fn the_output_of_a_driver_is_kept_beside_the_campaign_and_shown_to_those_who_ask
     assert!(log.lines().any(|line| line == "running 1 test"), "{log}");
     let printed = succeeds(run(dir.path(), "verbose", &["--budget", "2", "--jobs", "1", "-v"]));
     assert!(stderr(&printed).contains("driver: running 1 test"), "{}", stderr(&printed));
+    let replayed = |more: &str| stderr(&succeeds(fuzz(dir.path(), &["replay", "quiet", "1", "--trust", more])));
+    assert!(replayed("-v").contains("driver: running 1 test") && !replayed("-q").contains("running 1 test"));
     // A driver of this process prints nothing.
     succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "own"]));
     let beside = ["driver.log", "commands.json"].map(|file| dir.path().join("own").join(file).exists());

@@ -160,6 +160,10 @@ fn a_perceiver_that_raises_dies_is_late_or_answers_wrongly_is_an_error_of_its_te
         assert_eq!(trials[0]["verdict"], "error", "{output:?}");
         let error = trials[0]["error"].to_string();
         assert!(error.contains(says), "{error}");
+        if detect.starts_with("raise") {
+            let log = fs::read_to_string(dir.join("out/perceiver.log")).unwrap();
+            assert!(log.contains("Traceback") && log.contains("ValueError: no lens"), "{log}");
+        }
     }
 }
 

@@ -67,6 +67,14 @@ fn with_continuous_a_range_is_an_interval_and_no_test_breaks_a_constraint() {
 }
 
 #[test]
+fn describe_shows_the_constraints_of_a_scenario() {
+    let dir = folder();
+    let described = stdout(&succeeds(fuzz(dir.path(), &["describe", "slow-leader.xosc"])));
+    let says = "constraints\n                              speed > 0 and speed <= 50\n";
+    assert!(described.contains(says), "{described}");
+}
+
+#[test]
 fn fixed_values_that_break_a_constraint_are_refused_with_its_place() {
     let dir = folder();
     let says = "slow-leader.xosc:5: no test keeps the constraint `speed > 0 and speed <= 50` with speed = 60";

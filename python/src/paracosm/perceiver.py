@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+import traceback
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,6 +83,7 @@ class Perceiver:
         try:
             return {"answers": [self._percept(image) for image in images]}
         except Exception as error:
+            traceback.print_exc()
             return {"error": f"{type(error).__name__}: {error}"}
 
     def _meaning(self, protocol):
