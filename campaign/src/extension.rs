@@ -1,4 +1,4 @@
-//! Tests that a campaign counts as done, so that it runs only the tests that are missing.
+//! Tests of a file. A campaign counts them as done, so that it runs only the tests that are missing; or it runs them, with the strategy `given`.
 //!
 //! The campaign names the tests by their number and their hash. The hash is that of the CSV that the tests would be
 //! written as, so that the format of the original file and other contents of it do not matter. The campaign's folder
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// Existing tests, which a campaign counts as done and does not run.
+/// Tests of a file, which a campaign counts as done and does not run. With the strategy `given`, it runs these tests.
 #[derive(Debug, Clone)]
 pub struct Extension {
     record: ExtensionRecord,
@@ -29,13 +29,13 @@ enum Kept {
     In(PathBuf),
 }
 
-/// The origin, the number and the hash of the tests that a campaign counts as done.
+/// The origin, the number and the hash of the tests of a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtensionRecord {
     /// The path of the file from which the tests were read.
     pub name: String,
-    /// The number of tests that count as done.
+    /// The number of tests.
     pub tests: usize,
     /// The hash of the tests, which is the 128-bit XXH3 of `extended.csv`.
     pub hash: String,

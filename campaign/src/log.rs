@@ -99,7 +99,7 @@ impl Log {
         &self.scales
     }
 
-    /// Returns the tests that the campaign extends; `None` if the campaign extends no tests.
+    /// Returns the tests of a file that the campaign extends or, with the strategy `given`, runs; `None` if there is no such file.
     pub fn extension(&self) -> Option<&Extension> {
         self.extension.as_ref()
     }
@@ -114,12 +114,17 @@ impl Log {
         Self { trials, ..self.clone() }
     }
 
-    /// Returns the tests that the campaign extends, as points of the space.
+    /// Returns the tests that the campaign counts as done; `None` if there are none.
+    pub fn done_before(&self) -> Option<&Extension> {
+        self.extension.as_ref().filter(|_| !self.study.runs_given_tests())
+    }
+
+    /// Returns the tests that the campaign counts as done, as points of the space.
     ///
     /// # Errors
     /// The file of the tests cannot be read, or holds other tests.
     pub fn existing(&self) -> Result<Vec<Point>, Error> {
-        self.extension.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(self.study.space()))
+        self.done_before().map_or(Ok(Vec::new()), |extension| extension.points(self.study.space()))
     }
 
     /// Returns all tests of the campaign except tests with the verdict `error` or `invalid`. Tests that count as done

@@ -46,6 +46,14 @@ pub enum GeneratorError {
         /// The number of sets of this size.
         sets: usize,
     },
+    /// The strategy runs the tests of a file, and there are none.
+    #[error(
+        "`{strategy}` runs the tests of a file, and no file has a test: `paracosm-fuzz run --tests TESTS.csv` names one"
+    )]
+    NoTests {
+        /// The name of the strategy.
+        strategy: &'static str,
+    },
     /// The space has no parameter.
     #[error("the space has no parameters; a generator needs at least one")]
     EmptySpace,

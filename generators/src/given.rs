@@ -1,7 +1,8 @@
-//! Makes a strategy of sets of points that another program has made, so that a sampler of a user is compared like ours.
+//! Makes strategies of tests that another program has made, so that a sampler of a user is compared like ours, and so that a campaign runs the
+//! tests of a file.
 
 use crate::point_sets::PointSets;
-use crate::strategy::{Descriptor, Look, Method, MethodKind, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use crate::{Generator, GeneratorError, Request};
 use paracosm_space::Point;
 
@@ -23,7 +24,34 @@ impl PointSets {
     }
 }
 
+/// The description of the strategy `given`.
+const TESTS: Descriptor = Descriptor {
+    name: "given",
+    about: "the tests of a file, in their order (run --tests)",
+    dims: ANY,
+    look: Look::hollow(0x00_0000, MarkShape::Square),
+    method: Method::own(|request| match request.existing {
+        [] => Err(GeneratorError::NoTests { strategy: TESTS.name }),
+        tests => Ok(Box::new(Tests { left: tests.to_vec().into_iter() })),
+    }),
+};
+
+/// The tests that were not asked for yet.
+struct Tests {
+    left: std::vec::IntoIter<Point>,
+}
+
+impl Generator for Tests {
+    fn ask(&mut self, n: usize) -> Vec<Point> {
+        self.left.by_ref().take(n).collect()
+    }
+}
+
 impl Strategy {
+    /// The strategy that proposes the existing tests of the request, in their order. A test that breaks a constraint is left out. The strategy
+    /// is not in [`all`](Self::all), because it makes no tests itself.
+    pub const GIVEN: Self = Self::of(&TESTS);
+
     /// Makes a strategy of given sets. A request with the seed s gets the set with the number s of exactly the size of the request. The
     /// strategy stays in memory until the program ends.
     pub fn of_sets(name: &str, look: Look, sets: PointSets) -> Self {
@@ -57,8 +85,19 @@ impl Generator for Given {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::strategy::MarkShape;
     use paracosm_space::Space;
+
+    #[test]
+    fn the_existing_tests_of_a_request_are_proposed_once_in_their_order_unless_they_break_a_constraint() {
+        let space = Space::unit_cube(2).with_constraints(["x1 < 0.5"]).unwrap();
+        let existing = [points(0.3, 4), points(0.7, 1)].concat();
+        let request = Request { existing: &existing, ..Request::new(&space, 3) };
+        let mut given = Strategy::GIVEN.build(&request).unwrap();
+        assert_eq!([given.ask(3), given.ask(3), given.ask(3)].concat(), points(0.3, 4));
+        let error = Strategy::GIVEN.build(&Request::new(&space, 3)).err().expect("there are no tests");
+        assert_eq!(error, GeneratorError::NoTests { strategy: "given" });
+        assert_eq!("given".parse::<Strategy>().unwrap(), Strategy::GIVEN);
+    }
 
     fn points(first: f64, count: usize) -> Vec<Point> {
         let point = |i: usize| Point { continuous: vec![first, i as f64 / count as f64], discrete: vec![] };

@@ -38,8 +38,9 @@ pub(super) fn json(value: &impl serde::Serialize) -> String {
 pub(super) fn broken(space: &Space, tests: &[Point], source: &str) -> Option<String> {
     let mut broken = tests.iter().enumerate().filter_map(|(at, test)| Some((at, space.broken(test)?.text())));
     let (first, constraint) = broken.next()?;
-    let (count, first) = (plural(1 + broken.count(), "test"), first + 1);
-    Some(format!("{count} of the {} in {source} cover nothing: test {first} breaks `{constraint}`", tests.len()))
+    let count = 1 + broken.count();
+    let (cover, count, first) = (if count == 1 { "covers" } else { "cover" }, plural(count, "test"), first + 1);
+    Some(format!("{count} of the {} in {source} {cover} nothing: test {first} breaks `{constraint}`", tests.len()))
 }
 
 /// A table with names on the left and values on the right.

@@ -50,7 +50,7 @@ impl Options {
         let supervision = Supervision::default();
         let runner = log.extension().into_iter().fold(Runner::new(log.study()), Runner::extending);
         let runner = self.jobs.into_iter().fold(runner, Runner::jobs).until(supervision.clone());
-        let mut progress = Progress::new(log.study(), log.extension(), verbosity)?;
+        let mut progress = Progress::new(log.study(), log.done_before(), verbosity)?;
         on_interrupt(supervision.stop.clone());
         let ran = runner.run_into(&self.out, &mut [&mut progress]);
         progress.bar.finish_and_clear();

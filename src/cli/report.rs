@@ -223,7 +223,7 @@ impl Printed<'_> {
 
     /// Returns the record of the tests that count as done.
     fn extends(&self) -> Option<&ExtensionRecord> {
-        self.report.log.extension().map(Extension::record)
+        self.report.log.done_before().map(Extension::record)
     }
 
     /// Describes the result of a requirement.

@@ -52,6 +52,13 @@ pub(super) struct Options {
     /// with more it keeps more cores busy [default: 16].
     #[arg(long, value_name = "N", help_heading = CHOSEN, hide_short_help = true)]
     batch: Option<usize>,
+    /// Run the tests of a file
+    ///
+    /// The campaign runs the tests in this file, in their order, in place of the tests of a strategy. The columns of the file are the open
+    /// parameters. Tests that break a constraint are left out.
+    #[arg(long, value_name = "TESTS.csv", help_heading = CHOSEN, hide_short_help = true,
+        conflicts_with_all = ["extend", "strategy", "budget", "batch", "seed", "skip", "discrete", "delta", "k", "epsilon", "measure"])]
+    tests: Option<PathBuf>,
     /// Add to the tests of a file
     ///
     /// The tests in this file count as done. Only the tests that complete them are run, and the coverage of all tests is
@@ -120,18 +127,28 @@ impl Options {
         let study = self.reference.iter().fold(study, |study, name| study.reference(name)).maybe_one_test().build()?;
         note_one_test(&study, verbosity);
         self.subject.note_before(&study, verbosity)?;
-        let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
+        let file = self.tests.as_ref().or(self.extend.as_ref());
+        let extension = file.map(|path| Extension::read(path, &study)).transpose()?;
+        let study = match extension.as_ref().filter(|_| study.runs_given_tests()) {
+            Some(given) => study.sampled(paracosm_campaign::Sampling {
+                budget: given.record().tests.max(1),
+                ..study.sampling().clone()
+            })?,
+            None => study,
+        };
+        let done_before = extension.as_ref().filter(|_| !study.runs_given_tests());
         if let Some(extension) = &extension {
             let source = &extension.record().name;
-            broken(study.space(), &extension.points(study.space())?, source)
-                .into_iter()
-                .for_each(|note| verbosity.note(note));
+            if let Some(note) = broken(study.space(), &extension.points(study.space())?, source) {
+                let end = if done_before.is_none() { "; the campaign runs only tests that break none" } else { "" };
+                verbosity.note(format!("{note}{end}"));
+            }
         }
         note_outlasting(&study, verbosity)?;
         let supervision = Supervision::default();
         let program = program::called();
         let runner = self.runner(&study, extension.as_ref()).until(supervision.clone()).program(&program);
-        let mut progress = Progress::new(&study, extension.as_ref(), verbosity)?;
+        let mut progress = Progress::new(&study, done_before, verbosity)?;
         on_interrupt(supervision.stop.clone());
         if verbosity.verbose {
             supervision.output.listen(progress.show_output());
@@ -142,7 +159,7 @@ impl Options {
             true => cut_short(error, &self.out, progress.summary.tests()),
             false => error.into(),
         })?;
-        self.note_end(&report, extension.as_ref(), verbosity);
+        self.note_end(&report, done_before, verbosity);
         note_recoveries(&supervision.recoveries, verbosity);
         let printed =
             report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
@@ -158,7 +175,7 @@ impl Options {
                 verbosity.note(format!("{id} stayed undecided in {tests}: too short for `{formula}`"));
             }
         }
-        if summary.tests() == 0 && report.finish == Finish::Exhausted && extension.is_none() {
+        if summary.tests() == 0 && report.finish == Finish::Exhausted && done_before.is_none() {
             let strategy = self.strategy()?;
             return Err(format!("{strategy} found no test that keeps the constraints; use another strategy").into());
         }
@@ -226,7 +243,12 @@ impl Options {
             return;
         }
         let ran = report.log.trials().len();
-        if ran < self.budget && report.finish != Finish::Stopped && (ran > 0 || extension.is_some()) {
+        // Another note has the tests of a file that break a constraint.
+        if !report.log.study().runs_given_tests()
+            && ran < self.budget
+            && report.finish != Finish::Stopped
+            && (ran > 0 || extension.is_some())
+        {
             verbosity.note(self.shortfall(report, extension));
         }
         if report.map.is_none() && report.log.trials().iter().any(Trial::covers) {
@@ -293,6 +315,7 @@ impl Options {
 
     fn strategy(&self) -> Result<Strategy, Error> {
         Ok(match (&self.strategy, &self.extend) {
+            _ if self.tests.is_some() => Strategy::GIVEN,
             (Some(name), _) => name.parse()?,
             (None, Some(_)) => Strategy::usual(Purpose::Complete),
             (None, None) if self.stop_at_first && !self.sampling.says_how_to_cover() => {

@@ -1,4 +1,4 @@
-//! Campaigns that count the tests of a file as done.
+//! Campaigns that count the tests of a file as done, or that run them.
 
 use crate::common::{cover, fuzz, golden, refused, stderr, stdout, succeeds};
 use serde_json::Value;
@@ -138,4 +138,63 @@ fn tests_of_other_parameters_are_refused_with_their_place() {
     fs::create_dir(dir.path().join("folder")).unwrap();
     refused(&fuzz(dir.path(), &["--extend", "folder"]), &["folder is a folder", "folder/trials.csv"]);
     assert!(!dir.path().join("out").exists() && !dir.path().join("paracosm-out").exists());
+}
+
+#[test]
+fn the_tests_of_a_file_run_in_their_order_and_the_campaign_is_as_any_other() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("old.csv"), OLD).unwrap();
+    let given =
+        |out: &str, more: &[&str]| fuzz(dir.path(), &[OPEN, &["--tests", "old.csv", "--out", out], more].concat());
+    let summary = succeeds(given("out", &["--format", "json"]));
+    assert_eq!(stderr(&summary), "no failure map: a map needs two open continuous parameters\n");
+    let summary: Value = serde_json::from_str(&stdout(&summary)).unwrap();
+    assert_eq!((&summary["tests"], &summary["coverage"]["tests"]), (&Value::from(7), &Value::from(7)));
+    let trials = read(dir.path(), "trials.csv");
+    let tests = trials.lines().skip(1).map(|line| line.split(',').skip(1).take(3).collect::<Vec<_>>().join(","));
+    assert_eq!(tests.collect::<Vec<_>>(), OLD.lines().skip(1).collect::<Vec<_>>());
+    // It is continued and repeated without the file, and its coverage is that of the tests alone.
+    let whole = read(dir.path(), "trials.jsonl");
+    let cut: String = whole.split_inclusive('\n').take(3).collect();
+    fs::write(dir.path().join("out/trials.jsonl"), cut).unwrap();
+    succeeds(given("out", &["--resume", "--jobs", "1"]));
+    assert_eq!(read(dir.path(), "trials.jsonl"), whole);
+    fs::remove_file(dir.path().join("old.csv")).unwrap();
+    let again = stdout(&succeeds(fuzz(dir.path(), &["repeat", "out", "--out", "again"])));
+    assert!(again.contains("7 of 7 tests"), "{again}");
+    let coverage = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--k", "2", "--format", "json"])));
+    assert_eq!(serde_json::from_str::<Value>(&coverage).unwrap()["tests"], 7, "{coverage}");
+}
+
+#[test]
+fn tests_that_cannot_run_are_refused_and_tests_that_break_a_constraint_are_left_out() {
+    let dir = tempfile::tempdir().unwrap();
+    let given = |tests: &str, more: &[&str]| {
+        fs::write(dir.path().join("t.csv"), tests).unwrap();
+        fuzz(dir.path(), &[&["--tests", "t.csv"], more].concat())
+    };
+    refused(
+        &given("speed,distance\n2,20\n2,200\n", &[]),
+        &["t.csv, line 3", "`distance`: found 200, expected a number in [5, 60]"],
+    );
+    refused(&given("speed\n2\n", &[]), &["t.csv, line 1", "no column is called `distance`"]);
+    refused(&given("speed,distance\n", &[]), &["no file has a test"]);
+    refused(&fuzz(dir.path(), &["--strategy", "given"]), &["`given` runs the tests of a file", "--tests TESTS.csv"]);
+    let output = given("speed,distance\n2,20\n", &["--seed", "1"]);
+    assert!(stderr(&output).contains("'--tests <TESTS.csv>' cannot be used with '--seed <N>'"), "{}", stderr(&output));
+    let space = "constraints = [\"x < 0.5\"]\nparameter = [{ name = \"x\", interval = [0, 1] }]\n";
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let answer = r#"while read -r line; do i=${line#*:}; echo "{\"index\":${i%%,*},\"robustness\":{\"r\":1}}"; done"#;
+    fs::write(dir.path().join("system.sh"), answer).unwrap();
+    let system = ["--system", "sh system.sh", "--space", "SPACE.toml", "--out", "system"];
+    let output = succeeds(given("x\n0.25\n0.75\n0.125\n", &system));
+    let note = "1 test of the 3 in t.csv covers nothing: test 2 breaks `x < 0.5`; the campaign runs only tests that break none";
+    assert!(stderr(&output).contains(note), "{}", stderr(&output));
+    let trials = fs::read_to_string(dir.path().join("system/trials.csv")).unwrap();
+    assert!(
+        trials.lines().nth(1).unwrap().starts_with("0,0.25,pass")
+            && trials.lines().nth(2).unwrap().starts_with("1,0.125,pass"),
+        "{trials}"
+    );
+    assert_eq!(trials.lines().count(), 3);
 }

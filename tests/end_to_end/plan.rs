@@ -1,6 +1,7 @@
 //! `paracosm-cover plan` as a user gives it.
 
 use crate::common::{cover, golden, refused, stderr, stdout, succeeds};
+use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
 
@@ -68,6 +69,31 @@ fn a_plan_that_takes_long_says_so() {
     let plan = ["plan", "--dims", "3", "--epsilon", "1e-5", "--time-limit", "3"];
     let notes = stderr(&succeeds(cover(dir.path(), &plan)));
     assert!(notes.contains("measuring points, at most 3 s (--time-limit)"), "{notes}");
+}
+
+#[test]
+fn rows_with_different_valid_parts_are_planned_by_making_their_tests() {
+    let dir = tempfile::tempdir().unwrap();
+    let parameters = "[{ name = \"a\", choice = [1, 2, 3] }, { name = \"b\", choice = [1, 2, 3] }, { name = \"x\", interval = [0, 1] }]";
+    let space = format!("constraints = [\"a == 1 or x < 0.5\"]\nparameter = {parameters}\n");
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let demand = ["--space", "SPACE.toml", "--k", "2", "--epsilon", "0.1"];
+    let plan = succeeds(cover(dir.path(), &[&["plan", "--format", "json"], &demand[..]].concat()));
+    let plan: Value = serde_json::from_str(&stdout(&plan)).unwrap();
+    let [need] = plan["tests"].as_array().unwrap().as_slice() else { panic!("{plan}") };
+    assert_eq!(need["guarantee"], "proved for this set");
+    // It is the number of tests that `generate` makes, and these do what is asked.
+    let generate = [&["generate", "--strategy", "greedy", "-q"], &demand[..]].concat();
+    let tests = stdout(&succeeds(cover(dir.path(), &generate)));
+    assert_eq!(need["tests"], tests.lines().count() - 1);
+    fs::write(dir.path().join("tests.csv"), tests).unwrap();
+    let estimate = ["estimate", "tests.csv", "--space", "SPACE.toml", "--k", "2", "--format", "json"];
+    let estimate: Value = serde_json::from_str(&stdout(&succeeds(cover(dir.path(), &estimate)))).unwrap();
+    assert!(estimate["k_epsilon"]["epsilon"].as_f64().unwrap_or(1.0) <= 0.1, "{estimate}");
+    // Without time there is no number, and the plan says so.
+    let none = [&["plan", "--format", "table", "--time-limit", "0.000001"], &demand[..]].concat();
+    let none = stdout(&succeeds(cover(dir.path(), &none)));
+    assert!(none.contains("greedy, the tests of seed 0                over 8  not made: it takes too long"), "{none}");
 }
 
 #[test]

@@ -416,8 +416,10 @@ impl StudyBuilder {
             study = study.with_references(references)?;
         }
         study.hash_files()?;
-        // The strategy checks that it can do what is asked of it.
-        study.generator(&[])?;
+        // The strategy checks that it can do what is asked of it. A file with tests is read later.
+        if !study.runs_given_tests() {
+            study.generator(&[])?;
+        }
         Ok(study)
     }
 

@@ -48,7 +48,7 @@ pub use toml_file::TomlFlaw;
 use crate::{BlackBox, Catalogue, Error, TARGET, Trust};
 use paracosm_engine::driver::Driver;
 use paracosm_engine::{Program, Run, Setup, Test};
-use paracosm_generators::{Generator, GeneratorError};
+use paracosm_generators::{Generator, GeneratorError, Strategy};
 use paracosm_oracles::Formula;
 use paracosm_space::{Point, Space, Value, Values};
 
@@ -261,6 +261,11 @@ impl Study {
     pub fn complete(&self, test: &Values) -> Values {
         let own = test.iter().filter(|(name, _)| parameters::is_of_world(name));
         own.chain(self.fixed().iter()).map(owned).collect()
+    }
+
+    /// Returns `true` if the study runs the tests of a file, in their order.
+    pub fn runs_given_tests(&self) -> bool {
+        self.sampling.strategy == Strategy::GIVEN
     }
 
     /// Returns `true` if a test of the study is sure to end as before when it runs again: a driver in this process drives, and no perceiver is

@@ -4,16 +4,19 @@
 //! kind. A number for rows and a number for points are only joined into a number that claims no more than either of
 //! them.
 
+mod measured;
+
+use measured::{MOST_MEASURED, made, measured, valid_points_needed};
 use paracosm_campaign::{Error, Reason};
-use paracosm_coverage::dispersion::{is_at_most, valid_is_at_most};
+use paracosm_coverage::Deadline;
+use paracosm_coverage::dispersion::is_at_most;
 use paracosm_coverage::theory::points;
 use paracosm_coverage::theory::rows::RandomRows;
 use paracosm_coverage::valid::Validity;
-use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::covering::{CoveringError, CoveringRequest, covering_array};
-use paracosm_generators::{Generator, GeneratorError, Request, Strategy};
+use paracosm_generators::{GeneratorError, Request, Strategy};
+use paracosm_space::Space;
 use paracosm_space::demand::Demand;
-use paracosm_space::{Point, Space};
 use serde::{Serialize, Serializer};
 use std::time::Duration;
 use thiserror::Error;
@@ -83,7 +86,8 @@ pub struct Plan {
     /// The numbers of points that leave no hole above epsilon; `None` if the space has no continuous parameters.
     pub points: Option<Vec<Need>>,
     /// The numbers of tests that satisfy both k and epsilon, with separate points for each row; `None` if the space
-    /// lacks discrete or continuous parameters, or if constraints depend on continuous parameters.
+    /// lacks discrete or continuous parameters. If constraints depend on continuous parameters, rows have different valid parts, and the number
+    /// is that of tests that were made.
     pub tests: Option<Vec<Need>>,
 }
 
@@ -108,17 +112,8 @@ pub enum PlanFlaw {
 
 impl Reason for PlanFlaw {}
 
-/// The strategies whose points are measured. For each of them, a longer beginning of its sequence is never worse.
-const MEASURED: [Strategy; 3] = [Strategy::HALTON, Strategy::SOBOL, Strategy::GREEDY];
-
 /// The greatest number of combinations for which a covering array is made. More would take minutes and gigabytes.
 const MOST_COMBINATIONS: u128 = 1 << 31;
-
-/// The greatest number of points that are measured.
-const MOST_MEASURED: usize = 1 << 20;
-
-/// The greatest number of coordinates of the points that are measured, which take 256 MiB in each of their copies.
-const MOST_COORDINATES: usize = 1 << 25;
 
 impl Plan {
     /// Computes the numbers of tests that cover a space, with their kinds of guarantee. `demand` may ask for more than
@@ -161,12 +156,27 @@ impl Plan {
         let validity = Validity::of(space, &rules);
         let points = match &validity {
             _ if dims == 0 => None,
-            Some(validity) => Some(valid_points_needed(space, validity, epsilon, deadline)?),
+            Some(validity) => {
+                let share = if levels.is_empty() { 1.0 } else { 0.5 };
+                Some(valid_points_needed(space, validity, epsilon, deadline.part(share))?)
+            }
             None => Some(points_needed(dims, epsilon, delta, deadline)?),
         };
-        // Rows with different valid parts need different points.
-        let both = rows.as_ref().zip(points.as_ref()).filter(|_| validity.is_none());
-        let tests = both.map(|(rows, points)| joined(rows, points));
+        let tests = match (rows.as_ref().zip(points.as_ref()), &validity) {
+            (Some((rows, points)), None) => Some(joined(rows, points)),
+            // Rows with different valid parts need different points.
+            (Some((rows, _)), Some(validity)) => {
+                let wanted = Request {
+                    epsilon: Some(epsilon),
+                    k: Some(k),
+                    groups: &demand.groups,
+                    deadline,
+                    ..Request::new(space, MOST_MEASURED)
+                };
+                Some(vec![made(&wanted, validity, rows)?])
+            }
+            (None, _) => None,
+        };
         Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
     }
 }
@@ -233,95 +243,6 @@ fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> R
     Ok(needs)
 }
 
-/// Returns the numbers of points that have a dispersion of at most epsilon within the valid part of a space. No bound is known
-/// before a measurement.
-fn valid_points_needed(
-    space: &Space,
-    validity: &Validity,
-    epsilon: f64,
-    deadline: Deadline,
-) -> Result<Vec<Need>, Error> {
-    let valid = validity.whole();
-    measured(space, 0, deadline, &|points, deadline| valid_is_at_most(points, &valid, epsilon, deadline))
-}
-
-/// Measures for each strategy how many points are enough. Any set needs at least `least` points.
-fn measured(space: &Space, least: u64, deadline: Deadline, is_enough: &IsEnough) -> Result<Vec<Need>, Error> {
-    let strategies = MEASURED.into_iter().enumerate();
-    let mut needs = Vec::new();
-    for (i, strategy) in strategies.filter(|(_, strategy)| strategy.dims().contains(&space.dims())) {
-        let share = 1.0 / (MEASURED.len() - i) as f64;
-        let (tests, over) = match enough_of(strategy, space, least, deadline.part(share), is_enough)? {
-            Enough::Least(tests) => (Some(tests), None),
-            Enough::Over(tests) => (None, Some(tests)),
-        };
-        let of = strategy.name().to_owned();
-        needs.push(Need { of, strategy: Some(strategy), tests, over, guarantee: Guarantee::Measured });
-    }
-    Ok(needs)
-}
-
-/// A function that says whether points are enough; `None` if the answer is not known at the deadline.
-type IsEnough<'a> = dyn Fn(&PointSet, Deadline) -> Option<bool> + 'a;
-
-/// A number of points that is enough.
-enum Enough {
-    /// The least number of points that is enough.
-    Least(u64),
-    /// More points than this are needed.
-    Over(u64),
-}
-
-/// Finds the least number of first points of a strategy that are enough.
-fn enough_of(
-    strategy: Strategy,
-    space: &Space,
-    least: u64,
-    deadline: Deadline,
-    is_enough: &IsEnough,
-) -> Result<Enough, Error> {
-    let dims = space.dims();
-    let most = MOST_MEASURED.min(MOST_COORDINATES / dims);
-    if least > most as u64 {
-        return Ok(Enough::Over(most as u64));
-    }
-    let mut generator = strategy.build(&Request::new(space, most))?;
-    let mut all: Vec<Point> = Vec::new();
-    let mut are_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
-        while all.len() < n {
-            if deadline.passed() {
-                return Ok(None);
-            }
-            // In very many dimensions, even a few points take so long that the deadline has to be checked again.
-            let more = generator.ask((n - all.len()).min(1 + 10_000 / dims));
-            if more.is_empty() {
-                return Ok(None);
-            }
-            all.extend(more);
-        }
-        let points = PointSet::new(dims, all[..n].iter().map(|point| &point.continuous))?;
-        Ok(is_enough(&points, deadline))
-    };
-    // Longer beginnings are never worse: double the length until it is enough, then search between by halving.
-    let (mut short, mut long) = (0, 1);
-    loop {
-        match are_enough(long, generator.as_mut())? {
-            Some(true) => break,
-            Some(false) if 2 * long <= most => (short, long) = (long, 2 * long),
-            _ => return Ok(Enough::Over(short as u64)),
-        }
-    }
-    while long - short > 1 {
-        let middle = short + (long - short) / 2;
-        match are_enough(middle, generator.as_mut())? {
-            Some(true) => long = middle,
-            Some(false) => short = middle,
-            None => return Ok(Enough::Over(short as u64)),
-        }
-    }
-    Ok(Enough::Least(long as u64))
-}
-
 /// Joins rows and points, with separate points for every row, into the fewest tests of each guarantee.
 fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
     let fewest = |needs: &[Need], guarantee: Guarantee| {
@@ -355,7 +276,9 @@ fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
 
 #[cfg(test)]
 mod tests {
+    use super::measured::MEASURED;
     use super::*;
+    use paracosm_coverage::PointSet;
 
     fn tests_of(needs: &[Need], of: &str) -> Option<u64> {
         needs.iter().find(|need| need.of == of).unwrap_or_else(|| panic!("no {of}")).tests
