@@ -32,18 +32,21 @@ const TESTS: Descriptor = Descriptor {
     look: Look::hollow(0x00_0000, MarkShape::Square),
     method: Method::own(|request| match request.existing {
         [] => Err(GeneratorError::NoTests { strategy: TESTS.name }),
-        tests => Ok(Box::new(Tests { left: tests.to_vec().into_iter() })),
+        tests => Ok(Box::new(Tests { all: tests.to_vec(), next: 0 })),
     }),
 };
 
-/// The tests that were not asked for yet.
+/// All tests, and the position of the next one.
 struct Tests {
-    left: std::vec::IntoIter<Point>,
+    all: Vec<Point>,
+    next: usize,
 }
 
 impl Generator for Tests {
     fn ask(&mut self, n: usize) -> Vec<Point> {
-        self.left.by_ref().take(n).collect()
+        let first = self.next;
+        self.next = first.saturating_add(n).min(self.all.len());
+        self.all[first..self.next].to_vec()
     }
 }
 

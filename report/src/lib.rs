@@ -29,6 +29,8 @@ pub mod plot;
 pub mod record;
 pub mod traceability;
 mod trials;
+#[cfg(feature = "viewer")]
+pub mod viewer;
 pub mod write_up;
 mod xml;
 

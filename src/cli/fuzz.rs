@@ -2,7 +2,7 @@
 
 use super::{
     Failure, Status, Verbosity, arguments, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map,
-    monitor, page, perceive, record, repeat, replay, roads, run, sensitivity, shrink, trace, usage,
+    monitor, page, perceive, record, repeat, replay, roads, run, sensitivity, shrink, trace, usage, view,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use paracosm_campaign::Catalogue;
@@ -132,6 +132,9 @@ enum Verb {
     /// The file opens anywhere, without a server and without a network.
     #[command(after_long_help = page::EXAMPLES)]
     Report(page::Options),
+    /// Explore a campaign in a browser: play tests, and run new ones
+    #[command(after_long_help = view::EXAMPLES)]
+    View(view::Options),
     /// Run a logged test again, or run regression files
     ///
     /// The trace hash of a logged test is compared with the hash in the log.
@@ -223,6 +226,7 @@ impl Command {
             Some(Verb::Describe(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Map(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Report(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::View(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Replay(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Repeat(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Export(options)) => options.execute(catalogue, self.verbosity),

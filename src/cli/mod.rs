@@ -44,6 +44,7 @@ mod suspects;
 mod system;
 mod trace;
 mod trust;
+mod view;
 
 use clap::Args;
 use interrupt::on_interrupt;

@@ -61,4 +61,6 @@ mod strength;
 mod surroundings;
 mod system;
 mod trust;
+#[cfg(unix)]
+mod view;
 mod worked_examples;

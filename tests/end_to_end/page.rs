@@ -8,6 +8,11 @@ use std::process::Command;
 
 /// What a browser sees on a page; `None` if there is no browser, with a note.
 fn seen(page: &Path, task: &str) -> Option<Value> {
+    browsed("page.mjs", &[page.to_str().unwrap(), task])
+}
+
+/// What a script sees in a browser; `None` if there is no browser, with a note.
+pub fn browsed(script: &str, arguments: &[&str]) -> Option<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let modules = root.join("target/npm");
     let browser = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].into_iter().find(|path| Path::new(path).exists());
@@ -16,9 +21,9 @@ fn seen(page: &Path, task: &str) -> Option<Value> {
         return None;
     };
     let output = Command::new("node")
-        .arg(root.join("tests/end_to_end/page.mjs"))
-        .args([modules.as_path(), Path::new(browser), page])
-        .arg(task)
+        .arg(root.join("tests/end_to_end").join(script))
+        .args([modules.as_path(), Path::new(browser)])
+        .args(arguments)
         .output()
         .expect("node starts");
     assert!(output.status.success(), "{}", stderr(&output));

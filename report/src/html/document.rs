@@ -28,6 +28,8 @@ const MAPS: usize = 10;
 pub(super) struct Document {
     format: &'static str,
     software: &'static str,
+    /// True if a viewer serves the page, and answers its questions.
+    pub served: bool,
     study: About,
     verdicts: Vec<Count>,
     requirements: Vec<Stated>,
@@ -155,6 +157,7 @@ impl Document {
         Ok(Self {
             format: FORMAT,
             software: env!("CARGO_PKG_VERSION"),
+            served: false,
             study: About::of(page, study),
             verdicts: Verdict::ALL
                 .iter()

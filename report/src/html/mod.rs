@@ -15,6 +15,8 @@ mod runs;
 mod whole;
 
 pub use document::Finding;
+#[cfg(feature = "viewer")]
+pub(crate) use run::{Record, Recorder};
 pub use runs::Runs;
 
 use document::Document;
@@ -105,12 +107,26 @@ impl Page<'_> {
         }
     }
 
+    /// Returns the text of the page as a viewer serves it: with all tests and without runs, which the page asks of the viewer.
+    ///
+    /// # Errors
+    /// A model of the failures cannot be fitted.
+    #[cfg(feature = "viewer")]
+    pub fn served(&self) -> Result<String, paracosm_campaign::Error> {
+        let tests = columns::pack(self, usize::MAX);
+        let mut document = Document::of(self)?;
+        (document.served, document.tests) = (true, tests.described);
+        Ok(self.assemble(&document, &tests.text, &[]))
+    }
+
     fn assemble(&self, document: &Document, tests: &str, runs: &[(String, String)]) -> String {
         let mut text = String::new();
-        // Only this script and this style are run, and nothing is asked of a network.
+        // Only this script and this style are run, and nothing is asked of a network. A page that is served asks its server.
         let policy = format!(
-            "default-src 'none'; script-src '{}'; style-src '{}'; img-src data:; base-uri 'none'; form-action 'none'",
-            BUNDLE.script_hash, BUNDLE.style_hash
+            "default-src 'none'; script-src '{}'; style-src '{}'; img-src data:; base-uri 'none'; form-action 'none'{}",
+            BUNDLE.script_hash,
+            BUNDLE.style_hash,
+            if document.served { "; connect-src 'self'" } else { "" }
         );
         let title = pack::escaped(&self.log.study().title());
         let _ = write!(

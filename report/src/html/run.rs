@@ -20,7 +20,7 @@ const AROUND: f64 = 120.0;
 
 /// Records a run while it is watched.
 #[derive(Default)]
-pub(super) struct Recorder {
+pub(crate) struct Recorder {
     scene: Option<Scene>,
     times: Vec<f64>,
     /// For each moment the pose of each body, or `None` if the body is not in the world.
@@ -33,7 +33,7 @@ type Scene = (Arc<RoadNetwork>, Vec<(String, Body)>);
 
 /// A recorded run, as the page reads it.
 #[derive(Debug, Serialize)]
-pub(super) struct Record {
+pub(crate) struct Record {
     index: usize,
     verdict: String,
     /// The seconds of each moment.
@@ -41,7 +41,7 @@ pub(super) struct Record {
     bodies: Vec<Played>,
     /// The position of the body that the ego vehicle touches at the end.
     touched: Option<usize>,
-    pub roads: Vec<Ground>,
+    pub(super) roads: Vec<Ground>,
     signals: Vec<Curve>,
     robustness: Vec<Margin>,
 }

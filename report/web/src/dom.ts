@@ -63,6 +63,11 @@ export function onTheme(listener: () => void) {
   listeners.push(listener);
 }
 
+/** Forgets all listeners, because what they draw is gone. */
+export function forgetThemes() {
+  listeners.length = 0;
+}
+
 function announce() {
   colours.clear();
   listeners.forEach((listener) => listener());

@@ -6,6 +6,8 @@ import type { Run } from "./data";
 import { colour, h } from "./dom";
 import { sign } from "./marks";
 import { Motion, Player } from "./player";
+import { type Ran, ranAt } from "./server";
+import { Sliders } from "./sliders";
 import type { Store } from "./store";
 import { digits, withUnit } from "./words";
 
@@ -15,8 +17,18 @@ const FIRST = ["car.speed", "car.clearance"];
 
 export class Film {
   readonly dialog = h("dialog", { class: "film", "aria-label": "A test" });
+  private readonly stage = h("div", { class: "stage" });
+  private readonly outcome = h("div", { class: "outcome" });
   private stop: () => void = () => {};
-  private asked = -1;
+  /** The time of the run that is shown, and whether it plays. */
+  private state = () => ({ time: 0, isPlaying: true });
+  /** The number of the newest question: older answers are not shown. */
+  private asked = 0;
+  /** The signals that are drawn. */
+  private readonly signals = new Set(FIRST);
+  /** The newest test that should run, while another one runs. */
+  private waiting: [number[], boolean] | null = null;
+  private isRunning = false;
 
   constructor(private readonly store: () => Store) {
     this.dialog.addEventListener("close", () => this.stop());
@@ -27,17 +39,86 @@ export class Film {
 
   /** Opens the dialog for a test, and plays its run if there is one. */
   async show(index: number) {
-    this.stop();
-    this.asked = index;
+    const asked = ++this.asked;
     const store = this.store();
     const row = store.rowOf(index);
-    const run = await store.run(index);
-    if (this.asked !== index) return;
-    this.dialog.replaceChildren(this.head(index, row));
-    if (run) this.play(run);
-    else this.dialog.append(h("p", { class: "note" }, this.without(index)));
-    this.dialog.append(this.about(index, row));
+    let [run, why]: [Run | null, string] = [null, this.without(index)];
+    try {
+      run = await store.run(index);
+    } catch (error) {
+      why = reason(error);
+    }
+    if (this.asked !== asked) return;
+    this.stop();
+    this.stage.replaceChildren(h("p", { class: "note" }, why));
+    this.dialog.replaceChildren(this.head(index, row), this.stage, this.about(index, row));
+    if (store.page.served && row >= 0) this.dialog.append(this.change(store.numbersOf(row)));
     if (!this.dialog.open) this.dialog.showModal();
+    if (run) this.play(run, `Test ${index}`);
+  }
+
+  /** Opens the dialog for a new test, runs it and plays its run. */
+  async attempt(numbers: number[]) {
+    this.asked += 1;
+    this.stop();
+    this.stage.replaceChildren(h("p", { class: "note" }, "The test runs."));
+    this.dialog.replaceChildren(this.newHead(""), this.stage, this.change(numbers));
+    if (!this.dialog.open) this.dialog.showModal();
+    await this.run(numbers, true);
+  }
+
+  /** The part of the dialog that changes the test. */
+  private change(numbers: number[]): HTMLElement {
+    const { page } = this.store();
+    this.outcome.replaceChildren();
+    const sliders = new Sliders(page.coordinates, numbers, (changed, isDone) => void this.run(changed, isDone));
+    return h("details", { class: "change", open: true }, h("summary", {}, "Change the test: drag a value, and the test runs with it"), sliders.element, this.outcome);
+  }
+
+  /** Runs a new test. While it runs, only the newest wish waits. */
+  private async run(numbers: number[], isDone: boolean) {
+    this.waiting = [numbers, isDone];
+    if (this.isRunning) return;
+    this.isRunning = true;
+    while (this.waiting) {
+      const [wanted, isLast]: [number[], boolean] = this.waiting;
+      this.waiting = null;
+      const asked = ++this.asked;
+      let ran: Ran | null = null;
+      let why = "A system has no world to show.";
+      try {
+        ran = await ranAt(wanted);
+        why = ran.problem ?? why;
+      } catch (error) {
+        why = reason(error);
+      }
+      if (this.asked !== asked || !this.dialog.open) continue;
+      this.showNew(ran, why);
+      if (ran && isLast) this.store().add(wanted, ran.verdict);
+    }
+    this.isRunning = false;
+  }
+
+  private showNew(ran: Ran | null, why: string) {
+    const { time, isPlaying } = this.state();
+    this.stop();
+    this.dialog.querySelector(":scope > .about")?.remove();
+    this.dialog.firstElementChild?.replaceWith(this.newHead(ran?.verdict ?? ""));
+    const units = new Map(this.store().page.requirements.map(({ id, unit }) => [id, unit]));
+    const margins = Object.entries(ran?.robustness ?? {}).map(([id, value]) => `${id}: robustness ${value === null ? "undecided" : withUnit(value, units.get(id) ?? null)}`);
+    this.outcome.replaceChildren(...(ran ? [
+      h("p", {}, margins.join("; ")),
+      h("p", { class: "muted" }, "This test is no test of the campaign. Its values: ", h("code", { class: "values" }, JSON.stringify(ran.test)), ", its trace hash: ", h("code", { class: "hash" }, ran.trace_hash ?? "none")),
+    ] : []));
+    this.stage.replaceChildren(h("p", { class: "note" }, why));
+    if (ran?.run) this.play(ran.run, "A new test", time, isPlaying);
+  }
+
+  private newHead(verdict: string): HTMLElement {
+    return h("header", {},
+      h("h2", {}, "A new test", verdict ? ": " : "", h("span", { class: `verdict ${verdict}` }, `${sign(verdict)} ${verdict}`)),
+      h("button", { type: "button", class: "quiet", "aria-label": "Close", click: () => this.dialog.close() }, "Close"),
+    );
   }
 
   private head(index: number, row: number): HTMLElement {
@@ -68,9 +149,9 @@ export class Film {
     return `This page does not have the run of test ${index}${why}.${command}`;
   }
 
-  private play(run: Run) {
+  private play(run: Run, name: string, begin = 0, isToPlay = true) {
     const motion = new Motion(run);
-    const player = new Player(motion, `Test ${run.index} from above`);
+    const player = new Player(motion, `${name} from above`);
     const clock = h("output", { class: "clock" });
     const scrub = h("input", { type: "range", min: 0, max: motion.duration, step: 0.01, value: 0, "aria-label": "Time", input: () => seek(Number(scrub.value)) });
     const button = h("button", { type: "button", class: "play", click: () => (isPlaying ? pause() : start()) });
@@ -101,15 +182,15 @@ export class Film {
     const start = () => {
       if (player.isAtEnd) seek(0);
       [isPlaying, last] = [true, performance.now()];
-      name();
+      tell();
       frame = requestAnimationFrame(tick);
     };
     const pause = () => {
       isPlaying = false;
       cancelAnimationFrame(frame);
-      name();
+      tell();
     };
-    const name = () => {
+    const tell = () => {
       button.textContent = isPlaying ? "Pause" : "Play";
       this.dialog.dataset.playing = String(isPlaying);
     };
@@ -121,18 +202,21 @@ export class Film {
       event.preventDefault();
     };
     this.dialog.addEventListener("keydown", keys);
+    this.state = () => ({ time: player.time, isPlaying });
     this.stop = () => {
       pause();
       this.dialog.removeEventListener("keydown", keys);
       plots.destroy();
+      this.state = () => ({ time: 0, isPlaying: true });
       this.stop = () => {};
     };
-    this.dialog.append(h("div", { class: "stage" },
+    this.stage.replaceChildren(
       h("div", { class: "world" }, player.sheet.canvas, h("div", { class: "controls" }, button, scrub, clock, speeds, view)),
       plots.element,
-    ));
-    seek(0);
-    start();
+    );
+    seek(begin);
+    if (isToPlay) start();
+    else pause();
   }
 
   /** The plots of a run: the bounds of the robustness of each requirement, and signals. */
@@ -181,9 +265,14 @@ export class Film {
         shown.delete(name);
       }
     };
-    FIRST.forEach((name) => toggle(name, true));
+    this.signals.forEach((name) => toggle(name, true));
     const more = h("details", {}, h("summary", {}, "Signals"), h("div", { class: "choices" }, ...run.signals.map(({ name }) =>
-      h("label", {}, h("input", { type: "checkbox", checked: FIRST.includes(name), change: (event: Event) => toggle(name, (event.target as HTMLInputElement).checked) }), ` ${name}`))));
+      h("label", {}, h("input", { type: "checkbox", checked: this.signals.has(name), change: (event: Event) => {
+        const { checked } = event.target as HTMLInputElement;
+        if (checked) this.signals.add(name);
+        else this.signals.delete(name);
+        toggle(name, checked);
+      } }), ` ${name}`))));
     return {
       element: h("div", { class: "beside" }, element, more),
       cursor: (time: number) => all.forEach((made) => made.setCursor({ left: made.valToPos(time, "x"), top: -10 }, false)),
@@ -204,6 +293,8 @@ export class Film {
     );
   }
 }
+
+const reason = (error: unknown) => (error instanceof Error ? error.message : String(error));
 
 function zeroLine(u: uPlot) {
   const y = u.valToPos(0, "y", true);

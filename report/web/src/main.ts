@@ -1,27 +1,37 @@
 // The page: reads its data, and shows the first screen before all else.
 
 import "./style.css";
-import { readDocument, readRun, readTests } from "./data";
-import { h, themeButton } from "./dom";
+import { type Document as Page, readDocument, readRun, readTests } from "./data";
+import { forgetThemes, h, themeButton } from "./dom";
 import { Film } from "./film";
 import { MapView } from "./map";
 import { Parallel } from "./parallel";
 import * as sections from "./sections";
+import { pageByNow, testsByNow } from "./server";
 import { Store } from "./store";
 import { Table } from "./table";
 
-async function start(root: HTMLElement) {
+/** What a page keeps when it is made again: the axes of the map, and how far it is scrolled. */
+interface Kept {
+  axes: [number, number] | null;
+  scroll: number;
+}
+
+async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0 }) {
   const page = await readDocument();
   const tests = await readTests(page.tests);
   const film = new Film(() => store);
-  const store: Store = new Store(page, tests, (index) => void film.show(index), (index) => readRun(page, index));
+  const store: Store = new Store(page, tests, (index) => void film.show(index), (index) => readRun(page, index), (numbers) => void film.attempt(numbers));
   const { study } = page;
-  const map = page.axes === null ? null : new MapView(store);
+  const map = page.axes === null ? null : new MapView(store, kept.axes);
+  const canTry = page.served && page.coordinates.length > 0;
   const effects = page.without_effect.map(({ name, why }) => h("li", {}, h("strong", {}, name), ` had no effect: ${why}`));
+  const unfinished = h("p", { class: "unfinished", hidden: !study.unfinished }, soFar(page, page.tests.all));
   root.replaceChildren(
-    h("header", { class: "top" }, h("h1", {}, study.title), themeButton()),
+    h("header", { class: "top" }, h("h1", {}, study.title),
+      canTry ? h("button", { type: "button", class: "quiet", click: () => store.attempt(store.middle()) }, "New test") : null, themeButton()),
     sections.verdict(page),
-    study.unfinished ? h("p", { class: "unfinished" }, `The campaign has not ended: ${page.tests.all.toLocaleString("en")} of at most ${study.budget.toLocaleString("en")} tests have run.`) : h("span", { hidden: true }),
+    unfinished,
     effects.length > 0 ? h("ul", { class: "effects" }, ...effects) : h("span", { hidden: true }),
     h("div", { class: "first" },
       ...[sections.worstCard(store), map ? h("section", { class: "card" }, h("h2", {}, "Failure map"), map.element) : null].filter((part) => part !== null)),
@@ -44,10 +54,49 @@ async function start(root: HTMLElement) {
     ];
     root.append(...more.filter((part) => part !== null));
     root.dataset.ready = "true";
+    if (kept.scroll > 0) scrollTo(0, kept.scroll);
     // Not every browser says when it is idle.
     setTimeout(() => map?.prepare(), 300);
+    if (page.served && study.unfinished) {
+      follow(page, unfinished, {
+        isBusy: () => store.isFiltered || store.tried.length > 0 || film.dialog.open,
+        restart: () => start(root, { axes: map?.shown ?? null, scroll: scrollY }),
+      });
+    }
   }));
 }
+
+const soFar = (page: Page, tests: number) => `The campaign has not ended: ${tests.toLocaleString("en")} of at most ${page.study.budget.toLocaleString("en")} tests have run.`;
+
+/** Follows a campaign that still runs: tells of new tests, and shows them unless the user is busy with the tests on the page. */
+function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; restart: () => Promise<void> }) {
+  const shown = page.tests.all;
+  const refresh = async () => {
+    const begun = performance.now();
+    const fresh = await pageByNow();
+    for (const id of ["document", "tests"]) document.getElementById(id)!.textContent = fresh.getElementById(id)!.textContent;
+    forgetThemes();
+    await part.restart();
+    // A page that takes long to make is made less often.
+    pause = Math.max(PAUSE, 4 * (performance.now() - begun));
+  };
+  const look = async () => {
+    try {
+      const tests = await testsByNow();
+      if (tests > shown && !part.isBusy()) return await refresh();
+      place.replaceChildren(soFar(page, tests), tests > shown ? h("button", { type: "button", class: "quiet", click: () => void refresh() }, `Show ${tests - shown} new tests`) : "");
+    } catch (error) {
+      place.textContent = `The page no longer follows the campaign: ${error instanceof Error ? error.message : String(error)}`;
+      return;
+    }
+    setTimeout(look, pause);
+  };
+  setTimeout(look, pause);
+}
+
+/** The milliseconds between two looks at a campaign that still runs. */
+const PAUSE = 1500;
+let pause = PAUSE;
 
 const root = document.getElementById("page");
 if (root) {

@@ -8,6 +8,7 @@ import { plain, type Grid } from "./data";
 import { colour, h, Sheet } from "./dom";
 import type { Store } from "./store";
 import { type Line, paintTests } from "./cloud";
+import { mark, sign, verdictColour } from "./marks";
 
 const MARGIN = { left: 62, right: 14, top: 12, bottom: 46 };
 /** The distance in pixels within which a test answers to the pointer. */
@@ -48,10 +49,11 @@ export class MapView {
   private readonly note = h("p", { class: "note" });
   private readonly images = new Map<Grid, HTMLCanvasElement>();
 
-  constructor(private readonly store: Store) {
+  /** `shown` are the axes that the map shows first, in place of the axes of the page. */
+  constructor(private readonly store: Store, shown: [number, number] | null = null) {
     const { page } = store;
     const continuous = page.coordinates.map((_, at) => at).filter((at) => page.coordinates[at].range);
-    this.axes = page.axes ?? [continuous[0], continuous[1] ?? continuous[0]];
+    this.axes = shown ?? page.axes ?? [continuous[0], continuous[1] ?? continuous[0]];
     this.sheet = new Sheet((context) => this.paint(context), "Failure map: the tests over two parameters. The table of tests below has the same tests.");
     this.overlay = new Sheet((context) => this.highlight(context), "The test under the pointer");
     this.overlay.canvas.setAttribute("aria-hidden", "true");
@@ -78,7 +80,10 @@ export class MapView {
     );
     const canvases = h("div", { class: "canvases" }, this.sheet.canvas, this.overlay.canvas, this.panes, this.tip);
     this.element = h("div", { class: "map" }, controls, canvases, this.note);
-    store.onFilter(() => this.sheet.draw());
+    store.onFilter(() => {
+      this.sheet.draw();
+      this.overlay.draw();
+    });
     let isFollowing = false;
     this.zooming = zoom<HTMLElement, unknown>().scaleExtent([1, 64]).on("zoom", (event: { transform: ZoomTransform }) => {
       if (isFollowing) return;
@@ -94,6 +99,10 @@ export class MapView {
   }
 
   private readonly zooming;
+
+  get shown(): [number, number] {
+    return this.axes;
+  }
 
   /** Prepares the answers to the pointer, which takes a while if there are many tests. */
   prepare() {
@@ -118,6 +127,7 @@ export class MapView {
     const hole = this.hole();
     const isWhole = page.coordinates.length === 2;
     const parts = [
+      page.served ? "Click an empty place to run a test there." : null,
       grid ? "Shade: estimated probability of failure." : this.store.page.maps.length > 0 ? "The page has no estimate for this pair." : null,
       hole ? (isWhole ? "Dashed: the largest empty box, which was never tested." : "Dashed: the largest empty box; other parameters bound it, too.") : null,
       x === y ? "Both axes show the same parameter." : null,
@@ -185,8 +195,9 @@ export class MapView {
       Object.assign(pane.style, { left: `${facet.left}px`, top: `${facet.top}px`, width: `${facet.width}px`, height: `${facet.height}px` });
       pane.addEventListener("pointermove", (event) => this.hover(facet, event));
       pane.addEventListener("pointerleave", () => this.leave());
-      pane.addEventListener("click", () => {
+      pane.addEventListener("click", (event) => {
         if (this.hovered) this.store.show(this.store.tests.index[this.hovered.row]);
+        else if (this.store.page.served) this.store.attempt(this.numbersAt(facet, event.offsetX, event.offsetY));
       });
       select<HTMLElement, unknown>(pane).call(this.zooming).on("dblclick.zoom", null);
     }
@@ -357,6 +368,21 @@ export class MapView {
     return [h("div", { class: "muted" }, `estimate here: ${share} % fail${sure}`)];
   }
 
+  /** The numbers of a new test at a place of a map. Other parameters are those of the nearest test. */
+  private numbersAt(facet: Facet, px: number, py: number): number[] {
+    const { store } = this;
+    const [x, y] = this.scales(facet);
+    const [bx, by] = this.base(facet);
+    const near = this.treeOf(facet).find(bx(x.invert(px)), by(y.invert(py)));
+    const numbers = near === undefined ? store.middle() : store.numbersOf(near);
+    [x.invert(px), y.invert(py)].forEach((value, i) => {
+      const [lo, hi] = store.page.coordinates[this.axes[i]].range ?? [0, 1];
+      numbers[this.axes[i]] = Math.min(hi, Math.max(lo, Number(value.toPrecision(4))));
+    });
+    if (this.facetBy >= 0) numbers[this.facetBy] = this.facets.indexOf(facet);
+    return numbers;
+  }
+
   private treeOf(facet: Facet): Quadtree<number> {
     const [bx, by] = this.base(facet);
     const [cx, cy] = this.axes.map((at) => this.store.tests.coordinates[at]);
@@ -373,6 +399,28 @@ export class MapView {
     return row === undefined || !mask[row] ? null : { facet, row, x: x(cx[row]), y: y(cy[row]) };
   }
 
+  /** Draws the tests that were run from the page: a diamond with the sign of the verdict. */
+  private paintTried(context: CanvasRenderingContext2D) {
+    for (const { numbers, verdict } of this.store.tried) {
+      const facet = this.facets[this.facetBy < 0 ? 0 : numbers[this.facetBy]];
+      if (!facet) continue;
+      const [x, y] = this.scales(facet).map((scale, i) => scale(numbers[this.axes[i]]));
+      if (x < 0 || y < 0 || x > facet.width || y > facet.height) continue;
+      const [left, top] = [facet.left + x, facet.top + y];
+      mark(context, 4, left, top, 9, colour("halo"));
+      context.strokeStyle = context.fillStyle = verdictColour(verdict);
+      context.lineWidth = 1.5;
+      context.beginPath();
+      for (const [dx, dy] of [[0, -10], [9, 0], [0, 10], [-9, 0]]) context.lineTo(left + dx, top + dy);
+      context.closePath();
+      context.stroke();
+      context.font = "11px system-ui, sans-serif";
+      context.textAlign = "center";
+      context.textBaseline = "middle";
+      context.fillText(sign(verdict), left, top);
+    }
+  }
+
   private leave() {
     this.hovered = null;
     this.tip.hidden = true;
@@ -381,6 +429,7 @@ export class MapView {
   }
 
   private highlight(context: CanvasRenderingContext2D) {
+    this.paintTried(context);
     if (!this.hovered) return;
     const { facet, x, y } = this.hovered;
     context.strokeStyle = colour("ink");

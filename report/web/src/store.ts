@@ -10,6 +10,8 @@ export class Store {
   readonly ranges = new Map<number, [number, number]>();
   verdict: number | null = null;
   mode: number | null = null;
+  /** New tests that were run from the page, which are no tests of the campaign. */
+  readonly tried: { numbers: number[]; verdict: string }[] = [];
   private readonly listeners: (() => void)[] = [];
 
   constructor(
@@ -17,6 +19,8 @@ export class Store {
     readonly tests: Tests,
     readonly show: (index: number) => void,
     readonly run: (index: number) => Promise<Run | null>,
+    /** Runs a new test with a number for each coordinate, and plays it. */
+    readonly attempt: (numbers: number[]) => void,
   ) {
     this.mask = new Uint8Array(tests.rows).fill(1);
     this.kept = tests.rows;
@@ -42,6 +46,26 @@ export class Store {
     for (let i = 0; i < tests.rows; i++) kept += mask[i];
     this.kept = kept;
     this.listeners.forEach((listener) => listener());
+  }
+
+  /** Tells all parts of a new test. */
+  add(numbers: number[], verdict: string) {
+    this.tried.push({ numbers, verdict });
+    this.listeners.forEach((listener) => listener());
+  }
+
+  /** The numbers of a test: the value of each continuous coordinate, and the position of each level. */
+  numbersOf(row: number): number[] {
+    return this.page.coordinates.map(({ range }, at) => {
+      const value = this.tests.coordinates[at][row];
+      // The table has 32-bit numbers, which may lie just outside of the range.
+      return range ? Math.min(range[1], Math.max(range[0], Number(value.toPrecision(7)))) : value;
+    });
+  }
+
+  /** The numbers of a test in the middle of the space. */
+  middle(): number[] {
+    return this.page.coordinates.map(({ range }) => (range ? (range[0] + range[1]) / 2 : 0));
   }
 
   clear() {

@@ -1,0 +1,72 @@
+//! `paracosm-fuzz view`: shows a campaign in a browser, also while it runs, and runs further tests.
+
+use super::{Failure, Status, Verbosity, on_interrupt, print, program, trust};
+use crate::Report;
+use crate::report::viewer::{Doorway, Viewer};
+use clap::Args;
+use paracosm_campaign::{Catalogue, Error, Log};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz view paracosm-out --open
+      opens the page of the campaign in a browser; Ctrl-C ends it
+
+The page is the page of `report`, and more: it plays every test, and a click on the map runs a test there. In the window of a test, each \
+    parameter can be dragged, and the test runs with the new value. The campaign may still run: the page tells of new tests.
+
+The page is served on this machine alone, at an address with a secret. Nothing is written: a test that is run here is no test of the campaign.";
+
+/// The programs that open an address in the browser of the user, on this system.
+const OPENERS: &[&str] = if cfg!(target_os = "macos") {
+    &["open"]
+} else if cfg!(windows) {
+    &["explorer"]
+} else {
+    &["xdg-open", "gio", "wslview"]
+};
+
+/// The options of `view`.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The folder of the campaign, which may still run
+    dir: PathBuf,
+    /// Open the page in a browser
+    #[arg(long)]
+    open: bool,
+    #[command(flatten)]
+    trust: trust::Options,
+}
+
+impl Options {
+    pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let (log, _) = self.trust.read(&self.dir, catalogue, verbosity)?;
+        let supervision = verbosity.supervision();
+        let read = || Log::read(&self.dir, catalogue);
+        let page = || -> Result<String, Error> {
+            Report::read(read()?, &self.dir)?.page(&self.dir, program::name(), None)?.served()
+        };
+        let viewer = Viewer { study: log.study(), read: &read, page: &page, supervision: supervision.clone() };
+        let doorway = Doorway::new().map_err(Error::unavailable)?;
+        on_interrupt(supervision.stop.clone());
+        print(&format!("{doorway}\n"))?;
+        verbosity.note("Ctrl-C ends the viewer");
+        if self.open && !opened(&doorway.to_string()) {
+            verbosity.note("found no program that opens a browser: open the address yourself");
+        }
+        viewer.serve(doorway)?;
+        Ok(Status::Nothing)
+    }
+}
+
+/// Opens an address in the browser of the user; returns `true` if a program for this was found.
+fn opened(address: &str) -> bool {
+    OPENERS.iter().any(|opener| {
+        let mut command = Command::new(opener);
+        if *opener == "gio" {
+            command.arg("open");
+        }
+        command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().is_ok()
+    })
+}

@@ -1,0 +1,81 @@
+// Opens the page of a viewer in a browser, uses it, and prints what it saw as JSON. Arguments: the folder of playwright-core, the browser, the
+// address, and `use` or `follow`.
+import { createRequire } from "node:module";
+
+const [modules, browserPath, address, task] = process.argv.slice(2);
+const { chromium } = createRequire(`${modules}/`)("playwright-core");
+const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox"] });
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+const seen = { foreign: 0, errors: [] };
+page.on("request", (request) => (seen.foreign += request.url().startsWith(address) ? 0 : 1));
+page.on("pageerror", (error) => seen.errors.push(error.message));
+page.on("console", (message) => message.type() === "error" && seen.errors.push(message.text()));
+await page.goto(address);
+await page.waitForSelector("main[data-ready]", { timeout: 30000 });
+seen.headline = await page.textContent(".headline");
+
+/** The outcome of the new test that the dialog shows, once it is another one than before. */
+async function outcome(before) {
+  await page.waitForFunction((old) => (document.querySelector("dialog .values")?.textContent ?? old) !== old, before, { timeout: 20000 });
+  return {
+    verdict: await page.textContent("dialog h2"),
+    values: await page.textContent("dialog .values"),
+    hash: await page.textContent("dialog .hash"),
+  };
+}
+
+if (task === "use") {
+  // A place far from every test, and a click on it.
+  const pane = await page.locator(".pane").first().boundingBox();
+  const places = [];
+  for (let i = 1; i < 24; i++) for (let j = 1; j < 24; j++) places.push([pane.x + (pane.width * i) / 24, pane.y + (pane.height * j) / 24]);
+  for (const place of places) {
+    await page.mouse.move(...place);
+    if (await page.locator(".tip").isHidden()) {
+      await page.mouse.click(...place);
+      break;
+    }
+  }
+  seen.clicked = await outcome("");
+  await page.waitForSelector("dialog .world canvas[data-time]");
+  const time = () => page.locator("dialog .world canvas").getAttribute("data-time").then(Number);
+  await page.waitForFunction(() => Number(document.querySelector("dialog .world canvas").dataset.time) > 0.2, undefined, { timeout: 10000 });
+  seen.plays = (await time()) > 0.2;
+  // A value is dragged, and the test runs with it.
+  const slider = await page.locator("dialog .sliders input").first().boundingBox();
+  await page.mouse.move(slider.x + slider.width / 2, slider.y + slider.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(slider.x + slider.width * 0.8, slider.y + slider.height / 2, { steps: 5 });
+  await page.mouse.up();
+  seen.dragged = await outcome(seen.clicked.values);
+  await page.click("dialog header button:last-child");
+  // Any test of the table is played: the last one, too.
+  await page.locator(".scroll").focus();
+  await page.keyboard.press("End");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("dialog[open] .world canvas[data-time]");
+  seen.row = await page.textContent("dialog h2");
+  await page.click("dialog header button:last-child");
+  // A new test by keyboard alone.
+  await page.locator("text=New test").first().focus();
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("dialog[open] .values");
+  seen.middle = await page.textContent("dialog .values");
+} else {
+  const tests = async () => Number((await page.textContent(".headline")).replaceAll(",", "").match(/(\d+) tests/)?.[1]);
+  seen.counts = [await tests()];
+  while (seen.counts.length < 3) {
+    const last = seen.counts.at(-1);
+    await page.waitForFunction((count) => Number(document.querySelector(".headline")?.textContent.replaceAll(",", "").match(/(\d+) tests/)?.[1]) > count, last, { timeout: 60000 });
+    seen.counts.push(await tests());
+  }
+  // While a test is shown, the page only tells of new tests.
+  await page.waitForSelector(".worst .thumb canvas");
+  await page.click(".worst .thumb");
+  await page.waitForSelector("dialog[open]");
+  await page.waitForSelector(".unfinished button", { state: "attached", timeout: 60000 });
+  seen.told = await page.textContent(".unfinished");
+  seen.open = await page.locator("dialog[open]").count();
+}
+console.log(JSON.stringify(seen));
+await browser.close();
