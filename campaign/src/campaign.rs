@@ -212,17 +212,28 @@ impl<'a> Campaign<'a> {
         Ok(finish)
     }
 
-    /// Checks that known tests still end as they did, by the last test of each verdict: code that has changed shows in nothing else. Only a
-    /// driver in this process that needs no images is sure to repeat a test.
+    /// Checks that known tests still end as they did: code that has changed shows in nothing else. A driver in this process that needs no images is
+    /// sure to repeat a test, so the last test of each verdict has to end as before. Of other programs the last test is run, and if it ends
+    /// otherwise, the campaign goes on with a doubt.
     fn check_known(&self) -> Result<(), Error> {
-        if self.known.is_empty() || !self.study.repeats_in_process() || self.darkroom.is_some() {
+        let is_sure = self.study.repeats_in_process() && self.darkroom.is_none();
+        let counts = |trial: &&Trial| trial.verdict != Verdict::Error;
+        let mut last: Vec<&Trial> = Vec::new();
+        for trial in self.known.iter().rev().filter(counts) {
+            if last.iter().all(|other| is_sure && other.verdict != trial.verdict) {
+                last.push(trial);
+            }
+        }
+        if last.is_empty() {
             return Ok(());
         }
         let mut worker = self.worker()?;
-        for verdict in Verdict::ALL.into_iter().filter(|verdict| *verdict != Verdict::Error) {
-            let last = self.known.iter().rev().find(|trial| trial.verdict == verdict);
-            if let Some(trial) = last.filter(|trial| !worker.run(trial.index, &trial.test).0.repeats(trial)) {
-                return Err(OtherResult { index: trial.index }.into());
+        for trial in last {
+            let ends_as_before = worker.run(trial.index, &trial.test).0.repeats(trial) || self.is_stopped();
+            match (ends_as_before, is_sure) {
+                (true, _) => {}
+                (false, true) => return Err(OtherResult { index: trial.index }.into()),
+                (false, false) => self.supervision.doubts.differ(trial.index),
             }
         }
         self.dismiss(worker);

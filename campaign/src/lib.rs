@@ -27,6 +27,7 @@ pub mod darkroom;
 #[cfg(not(feature = "camera"))]
 #[path = "darkroom/none.rs"]
 pub mod darkroom;
+mod doubts;
 mod drivers;
 mod error;
 pub mod executor;
@@ -70,6 +71,7 @@ pub use artefact::{Artefact, JsonArtefact};
 pub use black_box::{Answer, BlackBox};
 pub use campaign::{Campaign, Finish};
 pub use catalogue::{Catalogue, ConcreteValue, Reader, TestsOf};
+pub use doubts::Doubts;
 pub use error::{BadFile, Error, Failure, Reason};
 pub use expected::Expected;
 pub use extension::{Extension, ExtensionRecord};
@@ -85,7 +87,7 @@ pub use space_file::{SpaceFile, is_model};
 pub use steering::Steering;
 pub use study::{NamedCommand, Sampling, StatedRequirement, Study, StudyBuilder, Subject};
 pub use study_file::StudyFile;
-pub use supervision::{Output, Recoveries, Supervision};
+pub use supervision::{Output, Supervision};
 pub use test_set::{PartialRow, TestSet, tests_as_csv};
 pub use trace_file::{Skipped, read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};

@@ -140,8 +140,15 @@ impl Perceiver for SeeingProcess {
         pictures.iter().for_each(|picture| question.extend_from_slice(picture.rgb));
         let has_past = self.process.is_some();
         let mut answered = self.ask(&question, pictures);
-        if answered.is_err() && has_past && !self.supervision.stop.load(Ordering::Relaxed) {
+        if let Err(first) = &answered
+            && has_past
+            && !self.supervision.stop.load(Ordering::Relaxed)
+        {
+            let first = first.message.clone();
             answered = self.ask(&question, pictures);
+            if answered.is_ok() {
+                self.supervision.doubts.recover_images(&first);
+            }
         }
         answered.map_err(|problem| PerceiverError::Failed(Arc::new(problem)))
     }

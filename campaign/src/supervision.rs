@@ -1,7 +1,8 @@
-//! Holds the things that a campaign shares with everything that runs its tests: the flag that ends the tests, the errors that did not repeat, and
-//! for programs that it starts their folder and the place for their output.
+//! Holds the things that a campaign shares with everything that runs its tests: the flag that ends the tests, what its log
+//! does not show, and for programs that it starts their folder and the place for their output.
 
-use std::collections::{BTreeMap, HashMap};
+use crate::doubts::Doubts;
+use std::collections::HashMap;
 use std::fmt;
 use std::fs::File;
 use std::io::Write;
@@ -11,9 +12,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The most bytes that wait for the folder of the campaign.
 const MOST_WAITING: usize = 1 << 20;
-
-/// The most characters of an error that did not repeat.
-const LONGEST_ERROR: usize = 500;
 
 /// The most bytes of a log.
 const MOST_KEPT: usize = 64 << 20;
@@ -27,41 +25,13 @@ pub struct Supervision {
     pub output: Output,
     /// The folder in which programs start; `None` for the folder of this process.
     pub folder: Option<PathBuf>,
-    /// The tests whose errors did not repeat.
-    pub recoveries: Recoveries,
+    /// What the campaign has seen of its programs, and its log does not show.
+    pub doubts: Doubts,
 }
 
 impl From<Arc<AtomicBool>> for Supervision {
     fn from(stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..Self::default() }
-    }
-}
-
-/// The tests that ended in an error, and that had a result when a new process was asked once more.
-///
-/// Such a program may carry something from one test to the next. The log of the campaign does not have these errors, because they depend on
-/// the tests that the process had before.
-#[derive(Debug, Clone, Default)]
-pub struct Recoveries(Arc<Mutex<BTreeMap<usize, String>>>);
-
-impl Recoveries {
-    /// Returns the number of these tests.
-    pub fn tests(&self) -> usize {
-        self.held().len()
-    }
-
-    /// Returns the first of these tests, with the index and the error of its first run; `None` if there is no such test.
-    pub fn first(&self) -> Option<(usize, String)> {
-        self.held().first_key_value().map(|(index, error)| (*index, error.clone()))
-    }
-
-    /// Adds a test with the error of its first run.
-    pub(crate) fn add(&self, index: usize, error: &str) {
-        self.held().entry(index).or_insert_with(|| error.chars().take(LONGEST_ERROR).collect());
-    }
-
-    fn held(&self) -> MutexGuard<'_, BTreeMap<usize, String>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

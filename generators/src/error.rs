@@ -46,6 +46,23 @@ pub enum GeneratorError {
         /// The number of sets of this size.
         sets: usize,
     },
+    /// Points of a given set break a constraint.
+    #[error(
+        "`{strategy}`, set {number}: {broken} of {} break a constraint such as `{constraint}`; give sets whose points all keep the constraints",
+        plural(*points, "point")
+    )]
+    BrokenSet {
+        /// The name of the strategy that cannot serve the request.
+        strategy: &'static str,
+        /// The number of the set, from 1.
+        number: u64,
+        /// The number of points of the set.
+        points: usize,
+        /// The number of points that break a constraint.
+        broken: usize,
+        /// The first broken constraint.
+        constraint: String,
+    },
     /// The strategy runs the tests of a file, and there are none.
     #[error(
         "`{strategy}` runs the tests of a file, and no file has a test: `paracosm-fuzz run --tests TESTS.csv` names one"

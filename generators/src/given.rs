@@ -20,6 +20,12 @@ impl PointSets {
         let sets = self.count(dims, points);
         let set =
             self.set(dims, points, number).ok_or(GeneratorError::NoSet { strategy, dims, points, number, sets })?;
+        // A strategy with fewer tests than the others would not be compared with them.
+        let mut broken = set.iter().filter_map(|point| request.space.broken(point));
+        if let Some(constraint) = broken.next() {
+            let (constraint, broken) = (constraint.text().to_owned(), 1 + broken.count());
+            return Err(GeneratorError::BrokenSet { strategy, number, points, broken, constraint });
+        }
         Ok(Box::new(Given { points: set.iter() }))
     }
 }
@@ -124,5 +130,11 @@ mod tests {
         assert_eq!(error, "`mine` has 2 sets of 5 points in 2 dimensions, and no set 3");
         let error = ask(Some(1), 6).err().expect("no set has this size").to_string();
         assert_eq!(error, "`mine` has 0 sets of 6 points in 2 dimensions, and no set 1");
+        // With constraints, a set has as many points as the budget, and all of them keep the constraints.
+        let space = space.with_constraints(["x1 < 0.15"]).unwrap();
+        let ask = |seed| strategy.build(&Request { seed: Some(seed), ..Request::new(&space, 5) });
+        assert_eq!(ask(1).unwrap().ask(9), points(0.1, 5));
+        let says = "`mine`, set 2: 5 of 5 points break a constraint such as `x1 < 0.15`; give sets whose points all keep the constraints";
+        assert_eq!(ask(2).err().expect("its points break it").to_string(), says);
     }
 }

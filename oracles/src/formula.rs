@@ -181,6 +181,18 @@ impl Formula {
         }
     }
 
+    /// Returns the leftmost comparison or signal outside of every temporal operator. It counts at the first sample of a trace alone, which deserves a
+    /// note: most requirements are about the whole trace.
+    pub fn only_at_begin(&self) -> Option<&Formula> {
+        match self {
+            Formula::Flag(_) | Formula::Compare(..) => Some(self),
+            Formula::Constant(_) | Formula::Modal(..) | Formula::Sequence(..) => None,
+            Formula::Not(_) | Formula::Join(..) => {
+                self.operands().into_iter().flatten().find_map(Formula::only_at_begin)
+            }
+        }
+    }
+
     fn operands(&self) -> [Option<&Formula>; 2] {
         match self {
             Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => [None, None],

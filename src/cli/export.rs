@@ -106,7 +106,7 @@ impl Options {
         };
         let motion = &recording.motion;
         let export = Export { about: &about, date: DATE, roads: ROADS, map: &map, motion, originals: &originals, ego };
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = unwritten(study, logged)?.into_iter().collect();
         let missing: Vec<&str> = export.never_there().collect();
         if !missing.is_empty() {
             let (count, names) = (plural(missing.len(), "road user is"), missing.join(", "));
@@ -121,6 +121,28 @@ impl Options {
         }
         Ok(([export.text(), roads], notes))
     }
+}
+
+/// The parameters of the surroundings, which the scenario of an export does not have.
+const SURROUNDINGS: [&str; 6] = ["friction", "fog", "light", "rain", "sun_elevation", "sun_azimuth"];
+
+/// Says which values of the surroundings the export does not have; `None` if all are nominal.
+fn unwritten(study: &Study, logged: &Trial) -> Result<Option<String>, Error> {
+    let declared = study.program()?.declare().map_err(Error::from)?;
+    let nominal = declared.nominal();
+    let test = study.complete(&logged.test);
+    let is_other = |name: &&str| test.get(name).is_some_and(|value| nominal.get(name) != Some(value));
+    let values: Vec<String> = SURROUNDINGS
+        .iter()
+        .filter(|name| is_other(name))
+        .map(|name| format!("{name} = {}", test.get(name).expect("it was found")))
+        .collect();
+    Ok((!values.is_empty()).then(|| {
+        format!(
+            "the export does not have {}: a driver that takes the car in another simulator meets a dry road in clear air by day, and may end otherwise",
+            values.join(", ")
+        )
+    }))
 }
 
 /// The texts of the scenario and of its roads, and notes on them.

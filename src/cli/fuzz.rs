@@ -49,7 +49,7 @@ Examples:
   paracosm-fuzz list
       scenarios, strategies, drivers
 
-Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input, a failed run, \
+Exit status: 0 done; 1 a test failed (with --fail-on-violation); 2 wrong use, bad input, a failed run, \
     or tests that show nothing (with --fail-on-violation).";
 
 const REPLAYS: &str = "\

@@ -1,6 +1,7 @@
 //! `paracosm-fuzz monitor`: evaluates formulas on a trace, sample by sample.
 
 use super::output::{Format, FormatOption, Table, digits, json, plural};
+use super::subject::note_at_begin;
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
 use crate::oracles::{Cause, Evaluation, Formula, Monitor, Semantics, Trace, Truth};
@@ -68,7 +69,9 @@ impl Options {
         let mut asked = Vec::new();
         for (i, text) in self.spec.iter().enumerate() {
             let formula = text.parse().map_err(|error| usage(format!("--spec {text}: {error}")))?;
-            asked.push(Asked { id: format!("spec-{}", i + 1), formula, monitor: None, decided_at: None });
+            let id = format!("spec-{}", i + 1);
+            note_at_begin(&id, Some(&formula), verbosity);
+            asked.push(Asked { id, formula, monitor: None, decided_at: None });
         }
         let source: Box<dyn Read> = if self.trace.as_os_str() == "-" {
             Box::new(Lines::of(io::stdin().lock()))

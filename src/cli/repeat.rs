@@ -3,7 +3,6 @@
 use super::arguments::{OUTPUT, RUNNING};
 use super::output::{Format, FormatOption, Table, json, plural};
 use super::progress::Progress;
-use super::run::note_recoveries;
 use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
 use crate::Runner;
 use crate::analysis::{Repetition, repetition::Differing};
@@ -54,7 +53,7 @@ impl Options {
         on_interrupt(supervision.stop.clone());
         let ran = runner.run_into(&self.out, &mut [&mut progress]);
         progress.bar.finish_and_clear();
-        note_recoveries(&supervision.recoveries, verbosity);
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         let repetition = Repetition::of(&log, &ran?.log);
         print(&match self.form.format {
             Format::Table => self.table(&repetition),

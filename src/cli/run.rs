@@ -14,8 +14,8 @@ use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
 use paracosm_campaign::{
-    Catalogue, Error, Extension, Failure as Breakdown, Finish, Recoveries, StatedRequirement, Study, StudyBuilder,
-    Supervision, Trial,
+    Catalogue, Error, Extension, Failure as Breakdown, Finish, StatedRequirement, Study, StudyBuilder, Supervision,
+    Trial,
 };
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -160,7 +160,7 @@ impl Options {
             false => error.into(),
         })?;
         self.note_end(&report, done_before, verbosity);
-        note_recoveries(&supervision.recoveries, verbosity);
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         let printed =
             report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
         print(&match self.form.format {
@@ -326,22 +326,11 @@ impl Options {
     }
 }
 
-/// Notes the tests whose errors did not repeat with a new process: the program carries something from test to test, or fails by chance.
-pub(super) fn note_recoveries(recoveries: &Recoveries, verbosity: Verbosity) {
-    if let Some((index, error)) = recoveries.first() {
-        verbosity.note(format!(
-            "{} ended in an error, and had a result when a new process ran them again: the program may keep something from test to test, or fail by \
-             chance; the first, test {index}: {error}",
-            plural(recoveries.tests(), "test")
-        ));
-    }
-}
-
 /// Returns the reason why the tests of a campaign show nothing; `None` if at least one test shows whether it passes.
 fn untested(summary: &Summary) -> Option<String> {
-    let judged = [Verdict::Pass, Verdict::Fail, Verdict::Unpreventable];
-    if judged.iter().all(|verdict| summary.count(*verdict) == 0) {
-        let counts = [Verdict::Inconclusive, Verdict::Invalid].map(|verdict| (summary.count(verdict), verdict));
+    if [Verdict::Pass, Verdict::Fail].iter().all(|verdict| summary.count(*verdict) == 0) {
+        let counts = [Verdict::Unpreventable, Verdict::Inconclusive, Verdict::Invalid]
+            .map(|verdict| (summary.count(verdict), verdict));
         let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, verdict)| format!("{count} {verdict}"));
         return Some(format!("no test passed or failed ({})", words.collect::<Vec<_>>().join(", ")));
     }

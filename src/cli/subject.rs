@@ -6,7 +6,7 @@ use super::system::System;
 use super::usage;
 use crate::campaign;
 use crate::engine::vehicle::VehicleModel;
-use crate::oracles::Semantics;
+use crate::oracles::{Formula, Semantics};
 use crate::space::{Domain, Value, did_you_mean, nearest};
 use crate::standards::openscenario::{DURATION, EGO};
 use clap::Args;
@@ -200,6 +200,9 @@ impl Subject {
             verbosity.note("there is no requirement, so every test passes; --spec or --requirements states one");
         }
         self.note_unjudged(study, verbosity);
+        for requirement in study.given() {
+            note_at_begin(&requirement.id, requirement.formula.as_ref(), verbosity);
+        }
         Ok(())
     }
 
@@ -215,6 +218,15 @@ impl Subject {
                 "requirement `{id}` is not judged: it has no formula, and the scenario has no requirement of this name{meant}"
             ));
         }
+    }
+}
+
+/// Notes the part of a formula that counts at the beginning of a run alone.
+pub(super) fn note_at_begin(id: &str, formula: Option<&Formula>, verbosity: Verbosity) {
+    if let Some(part) = formula.and_then(Formula::only_at_begin) {
+        verbosity.note(format_args!(
+            "{id}: `{part}` counts at the beginning of a run alone; `always {part}` is about the whole run"
+        ));
     }
 }
 

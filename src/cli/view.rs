@@ -47,7 +47,13 @@ impl Options {
         let page = || -> Result<String, Error> {
             Report::read(read()?, &self.dir)?.page(&self.dir, program::name(), None)?.served()
         };
-        let viewer = Viewer { study: log.study(), read: &read, page: &page, supervision: supervision.clone() };
+        let viewer = Viewer {
+            study: log.study(),
+            folder: &self.dir,
+            read: &read,
+            page: &page,
+            supervision: supervision.clone(),
+        };
         let doorway = Doorway::new().map_err(Error::unavailable)?;
         on_interrupt(supervision.stop.clone());
         print(&format!("{doorway}\n"))?;

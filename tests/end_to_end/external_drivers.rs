@@ -10,6 +10,7 @@ use std::fs;
 use std::net::TcpListener;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -17,7 +18,12 @@ use std::time::Duration;
 struct Served {
     aeb: Box<dyn Driver>,
     options: SessionOptions,
+    /// True if the driver only accelerates.
+    races: bool,
 }
+
+/// The number of tests of this process.
+static TESTS: AtomicU32 = AtomicU32::new(0);
 
 impl Served {
     fn wish(&self, name: &str) -> f64 {
@@ -31,7 +37,12 @@ impl Driver for Served {
     }
 
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
-        // It counts over all its tests, as no driver should.
+        // These count over all tests of the process, and over all tests of the session, as no driver should.
+        let before = f64::from(TESTS.fetch_add(1, Ordering::Relaxed));
+        if before >= self.wish("stale") {
+            return Err(Fault::new("stale"));
+        }
+        self.races = before >= self.wish("tires");
         let tests = self.wish("lives") - 1.0;
         if tests < 0.0 {
             eprintln!("worn out");
@@ -46,6 +57,9 @@ impl Driver for Served {
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         let runs = |limit: f64| observation.others.iter().any(|other| other.velocity.norm() > limit);
         // Relative to the ground, so that it is how fast somebody walks.
+        if self.races || self.wish("tires").is_finite() && runs(5.0) {
+            return Ok(Control { throttle: 1.0, steering: 0.0 });
+        }
         if runs(self.wish("exits")) {
             eprintln!("out of fuel");
             std::process::exit(3);
@@ -79,7 +93,7 @@ fn served_to_others() {
         if options.settings.contains_key("sees") {
             return find("lane-camera").unwrap().build(&[]).map_err(|error| Fault::new(error.to_string()));
         }
-        Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), options: options.clone() }))
+        Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), options: options.clone(), races: false }))
     };
     serve(TcpListener::bind(address).unwrap(), "served", make).unwrap();
 }
@@ -222,10 +236,46 @@ fn a_test_is_not_held_against_a_driver_that_earlier_tests_have_worn_out() {
     let worn = succeeds(run(dir, "worn", &["--budget", "20", "--set", "driver.lives=3", "--jobs", "2"]));
     assert_eq!(log(dir, "worn"), log(dir, "near"));
     // Nobody may take such a driver for a sound one.
-    let note = "tests ended in an error, and had a result when a new process ran them again: the program may keep something from test to test";
+    let note = "tests ended in an error, and had a result when a new process or a new connection ran them again: the program may keep something from test to test";
     assert!(stderr(&worn).contains(note), "{}", stderr(&worn));
+    // It keeps a number in the process, where a new session does not help.
+    let stale = succeeds(run(dir, "stale", &["--budget", "20", "--set", "driver.stale=3", "--jobs", "2"]));
+    assert_eq!(log(dir, "stale"), log(dir, "near"));
+    assert!(stderr(&stale).contains(note), "{}", stderr(&stale));
     let sound = succeeds(run(dir, "sound", &["--budget", "20"]));
     assert!(!stderr(&sound).contains("ran them again"), "{}", stderr(&sound));
+}
+
+#[test]
+fn a_campaign_whose_driver_answers_otherwise_by_now_is_continued_with_a_note() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    succeeds(run(dir, "out", &["--budget", "12"]));
+    let whole = whole_log(dir, "out");
+    let log = dir.join("out/trials.jsonl");
+    let first: Vec<&str> = whole.lines().take(6).collect();
+    let resume = || stderr(&succeeds(run(dir, "out", &["--budget", "12", "--resume"])));
+    fs::write(&log, first.join("\n") + "\n").unwrap();
+    assert!(!resume().contains("ends otherwise"));
+    assert_eq!(whole_log(dir, "out"), whole);
+    // To the campaign, a log of another driver is a log that was edited.
+    fs::write(&log, first.join("\n").replace("trace_hash\":\"", "trace_hash\":\"0") + "\n").unwrap();
+    let notes = resume();
+    assert!(notes.contains("test 5 ends otherwise now than before the campaign was continued"), "{notes}");
+}
+
+#[test]
+fn shrink_trusts_no_test_that_fails_only_after_other_tests_of_the_process() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    // From its second test on, a process only accelerates. In its first test, it does so only for somebody who runs.
+    fs::write(dir.join("t.csv"), "speed,distance\n9,60\n").unwrap();
+    let calm = ["--spec", "always (car.throttle < 1)"];
+    succeeds(run(dir, "out", &[&["--tests", "t.csv", "--set", "driver.tires=1"], &calm[..]].concat()));
+    assert_eq!(trials(dir, "out")[0]["verdict"], "fail");
+    let says = "fails in a process that ran other tests, and not in a new process";
+    refused(&fuzz(dir, &["shrink", "out", "0", "--trust", "--save", "saved.json"]), &["test 0", says]);
+    assert!(!dir.join("saved.json").exists());
 }
 
 #[test]

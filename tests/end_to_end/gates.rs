@@ -200,3 +200,45 @@ fn a_gate_refuses_a_requirement_that_nobody_judges() {
     let failing = ["--requirements", "R.toml", "--budget", "60", "--fail-on-violation", "--out", "failing"];
     assert_eq!(fuzz(dir.path(), &failing).status.code(), Some(1));
 }
+
+#[test]
+fn a_formula_that_counts_at_the_beginning_alone_has_a_note() {
+    let dir = tempfile::tempdir().unwrap();
+    for (out, spec, part) in [
+        ("one", "car.clearance_to_pedestrian > 1", Some("(car.clearance_to_pedestrian > 1)")),
+        ("two", "always (car.speed < 5) implies car.speed < 3", Some("(car.speed < 3)")),
+        ("three", "always (car.speed < 50 or car.clearance > 1)", None),
+    ] {
+        let said = stderr(&succeeds(fuzz(dir.path(), &["--spec", spec, "--budget", "3", "--out", out])));
+        let note =
+            part.map(|part| format!("spec-1: `{part}` counts at the beginning of a run alone; `always {part}` is"));
+        assert_eq!(said.contains("counts at the beginning"), note.is_some(), "{said}");
+        assert!(note.is_none_or(|note| said.contains(&note)), "{said}");
+    }
+    fs::write(dir.path().join("t.csv"), "time,x\n0,0\n0.1,9\n").unwrap();
+    let monitored = succeeds(fuzz(dir.path(), &["monitor", "t.csv", "--spec", "x < 1", "--fail-on-violation"]));
+    assert!(stderr(&monitored).contains("spec-1: `(x < 1)` counts at the beginning"), "{}", stderr(&monitored));
+}
+
+#[test]
+fn a_driver_does_not_excuse_its_own_failures_and_excused_failures_alone_show_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let own = fuzz(dir.path(), &["--driver", "cruise", "--reference", "cruise", "--budget", "5"]);
+    refused(&own, &["--reference cruise: the driver under test avoids none of its own failures"]);
+    let excused = ["--set", "speed=9", "--set", "distance=8", "--reference", "ideal,cc", "--fail-on-violation"];
+    let output = fuzz(dir.path(), &excused);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no test passed or failed (1 unpreventable)"), "{}", stderr(&output));
+}
+
+#[test]
+fn an_export_says_which_surroundings_it_lacks() {
+    let dir = tempfile::tempdir().unwrap();
+    let slippery = ["--budget", "2", "--set", "friction=0.4", "--open", "fog=0.2..0.5", "--out", "slip", "-q"];
+    succeeds(fuzz(dir.path(), &slippery));
+    let said = stderr(&succeeds(fuzz(dir.path(), &["export", "slip", "1", "--out", "case"])));
+    assert!(said.contains("the export does not have friction = 0.4, fog = 0."), "{said}");
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "dry", "-q"]));
+    let said = stderr(&succeeds(fuzz(dir.path(), &["export", "dry", "1", "--out", "dry-case"])));
+    assert!(!said.contains("does not have"), "{said}");
+}

@@ -1,7 +1,7 @@
 //! Perceivers in their own processes, by the command line.
 
 use crate::cameras::can_draw;
-use crate::common::{fuzz, refused, stdout, succeeds};
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
 use crate::python::python;
 use serde_json::Value;
 use std::fs;
@@ -165,6 +165,18 @@ fn a_perceiver_that_raises_dies_is_late_or_answers_wrongly_is_an_error_of_its_te
             assert!(log.contains("Traceback") && log.contains("ValueError: no lens"), "{log}");
         }
     }
+}
+
+#[test]
+fn a_perceiver_that_fails_and_answers_when_it_sees_the_images_again_is_doubted() {
+    let dir = tempfile::tempdir().unwrap();
+    let body = "classes = ('car',)\nseen = 0\ndef detect(self, image):\n    self.seen += 1\n    \
+                if self.seen == 60: raise ValueError('tired')\n    return []";
+    let Some(command) = perceiver(dir.path(), body) else { return };
+    let output = succeeds(perceive(dir.path(), &command, &["--budget", "3", "--jobs", "1"]));
+    assert!(trials(dir.path()).iter().all(|trial| trial["error"].is_null()));
+    let note = "the perceiver failed ";
+    assert!(stderr(&output).contains(note) && stderr(&output).contains("ValueError: tired"), "{}", stderr(&output));
 }
 
 #[test]

@@ -255,7 +255,7 @@ fn a_process_that_ends_between_tests_is_started_again() {
             dir.path(),
             &["--system", "sh system.sh", "--space", "SPACE.toml", "--out", out, "--budget", "8", "--jobs", "1"],
         ));
-        let note = "7 tests ended in an error, and had a result when a new process ran them again";
+        let note = "7 tests ended in an error, and had a result when a new process or a new connection ran them again";
         assert!(
             stderr(&printed).contains(note) && stderr(&printed).contains("the first, test 1: "),
             "{}",

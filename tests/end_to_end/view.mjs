@@ -71,8 +71,11 @@ if (task === "use") {
   }
   // While a test is shown, the page only tells of new tests.
   await page.waitForSelector(".worst .thumb canvas");
-  await page.click(".worst .thumb");
-  await page.waitForSelector("dialog[open]");
+  // The page may be made again between the search for the button and the click.
+  for (let i = 0; i < 20 && (await page.locator("dialog[open]").count()) === 0; i++) {
+    await page.click(".worst .thumb").catch(() => {});
+    await page.waitForTimeout(500);
+  }
   await page.waitForSelector(".unfinished button", { state: "attached", timeout: 60000 });
   seen.told = await page.textContent(".unfinished");
   seen.open = await page.locator("dialog[open]").count();

@@ -80,7 +80,7 @@ type IsEnough<'a> = dyn Fn(&PointSet, Deadline) -> Option<bool> + 'a;
 
 /// A number of points that is enough.
 enum Enough {
-    /// The least number of points that is enough.
+    /// The least number of points that is shown to be enough.
     Least(u64),
     /// More points than this are needed.
     Over(u64),
@@ -121,7 +121,8 @@ fn enough_of(
     loop {
         match are_enough(long, generator.as_mut())? {
             Some(true) => break,
-            Some(false) if 2 * long <= most => (short, long) = (long, 2 * long),
+            // Within the valid part, a bracket may stay around epsilon. Only points that are shown to be enough count.
+            found if 2 * long <= most && (found.is_some() || !deadline.passed()) => (short, long) = (long, 2 * long),
             _ => return Ok(Enough::Over(short as u64)),
         }
     }
@@ -130,6 +131,7 @@ fn enough_of(
         match are_enough(middle, generator.as_mut())? {
             Some(true) => long = middle,
             Some(false) => short = middle,
+            None if !deadline.passed() => short = middle,
             None => return Ok(Enough::Over(short as u64)),
         }
     }

@@ -83,7 +83,8 @@ pub struct Plan {
     pub delta: f64,
     /// The numbers of rows that cover the discrete parameters k-wise; `None` if the space has no discrete parameters.
     pub rows: Option<Vec<Need>>,
-    /// The numbers of points that leave no hole above epsilon; `None` if the space has no continuous parameters.
+    /// The numbers of points that leave no hole above epsilon; `None` if the space has no continuous parameters, or if rows of discrete values
+    /// may have different valid parts.
     pub points: Option<Vec<Need>>,
     /// The numbers of tests that satisfy both k and epsilon, with separate points for each row; `None` if the space
     /// lacks discrete or continuous parameters. If constraints depend on continuous parameters, rows have different valid parts, and the number
@@ -156,16 +157,14 @@ impl Plan {
         let validity = Validity::of(space, &rules);
         let points = match &validity {
             _ if dims == 0 => None,
-            Some(validity) => {
-                let share = if levels.is_empty() { 1.0 } else { 0.5 };
-                Some(valid_points_needed(space, validity, epsilon, deadline.part(share))?)
-            }
+            // Rows with different valid parts need different points.
+            Some(_) if !levels.is_empty() => None,
+            Some(validity) => Some(valid_points_needed(space, validity, epsilon, deadline)?),
             None => Some(points_needed(dims, epsilon, delta, deadline)?),
         };
-        let tests = match (rows.as_ref().zip(points.as_ref()), &validity) {
-            (Some((rows, points)), None) => Some(joined(rows, points)),
-            // Rows with different valid parts need different points.
-            (Some((rows, _)), Some(validity)) => {
+        let tests = match (&rows, &points, &validity) {
+            (Some(rows), Some(points), None) => Some(joined(rows, points)),
+            (Some(rows), None, Some(validity)) => {
                 let wanted = Request {
                     epsilon: Some(epsilon),
                     k: Some(k),
@@ -175,7 +174,7 @@ impl Plan {
                 };
                 Some(vec![made(&wanted, validity, rows)?])
             }
-            (None, _) => None,
+            _ => None,
         };
         Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
     }

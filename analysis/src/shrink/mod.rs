@@ -98,6 +98,15 @@ pub enum ShrinkFlaw {
         /// The verdict of the test when it was run again.
         verdict: Verdict,
     },
+    /// The simpler test fails only after other tests of the same process.
+    #[error(
+        "the simpler test found for test {index} fails in a process that ran other tests, and not in a new process: the driver, the system or the \
+         perceiver keeps something from test to test, so no shorter test can be trusted"
+    )]
+    Unsteady {
+        /// The index of the test in its campaign.
+        index: usize,
+    },
 }
 
 impl Reason for ShrinkFlaw {}
@@ -106,7 +115,8 @@ impl Shrunk {
     /// Shrinks a failing trial of a campaign in at most `budget` runs.
     ///
     /// # Errors
-    /// The trial did not fail, or does not fail in the same way when it is run again; or the study cannot be run.
+    /// The trial did not fail, or does not fail in the same way when it is run again; the simpler test does not fail in a new process; or the study
+    /// cannot be run.
     pub fn of(log: &Log, trial: &Trial, same: Sameness, budget: usize) -> Result<Self, Error> {
         let study = log.study();
         let violates: Vec<String> = trial.violated().map(str::to_owned).collect();
@@ -137,6 +147,12 @@ impl Shrunk {
         // The last failing run may be of another test than the result, because bisection looks further.
         if last.test != found.test {
             last = run(&found.test)?;
+        }
+        if !study.repeats_in_process() {
+            let anew = Campaign::new(study)?.jobs(NonZeroUsize::MIN).run_test(&found.test, trial.index)?;
+            if !fails(&anew) {
+                return Err(ShrinkFlaw::Unsteady { index: trial.index }.into());
+            }
         }
         let parameters = study.space().parameters().iter().map(|parameter| {
             let value = |values: &Values| values.get(&parameter.name).cloned().expect("a value for every parameter");

@@ -126,7 +126,7 @@ impl Connection {
             Err(first) if has_past && !self.supervision.stop.load(Ordering::Relaxed) => {
                 let answer = self.ask_process(index, &question);
                 if answer.is_ok() {
-                    self.supervision.recoveries.add(index, &first.message);
+                    self.supervision.doubts.recover(index, &first.message);
                 }
                 answer
             }

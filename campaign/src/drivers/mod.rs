@@ -3,7 +3,7 @@
 //! A driver is kept from one test to the next as long as all goes well. For a driver in an external process, the worker
 //! opens a session; a server can have many sessions. If a test ends in an error with a driver that has run tests
 //! before, or that runs beside other tests, the error may not be due to the test. The test therefore runs again, alone
-//! and with a new driver. A driver whose answers depend only on the test thus gives the same trials for any number of
+//! and with a driver in a new process. A process with an error drives no further tests. A driver whose answers depend only on the test thus gives the same trials for any number of
 //! workers. A server that somebody else started cannot be started again; the effects of its end on other tests are not
 //! covered by this rule.
 
@@ -11,7 +11,7 @@ mod late;
 mod process;
 
 use crate::study::{DriverChoice, Origin};
-use crate::{Error, Problem, ProblemKind, Reason, Recoveries, Supervision};
+use crate::{Doubts, Error, Problem, ProblemKind, Reason, Supervision};
 use late::Late;
 use paracosm_engine::driver::Driver;
 use paracosm_rpc::{Address, OpenError, Session};
@@ -28,7 +28,7 @@ pub struct Drivers<'a> {
     /// The drivers that are idle.
     idle: Vec<Box<dyn Driver>>,
     stop: Arc<AtomicBool>,
-    recoveries: Recoveries,
+    doubts: Doubts,
 }
 
 /// The source of new drivers.
@@ -115,12 +115,12 @@ impl<'a> Drivers<'a> {
     /// # Errors
     /// The choice was read from a file, and the driver or a setting of it does not exist.
     pub fn new(choice: &'a DriverChoice, supervision: Supervision) -> Result<Self, Error> {
-        let (latency, stop, recoveries) = (choice.latency(), supervision.stop.clone(), supervision.recoveries.clone());
+        let (latency, stop, doubts) = (choice.latency(), supervision.stop.clone(), supervision.doubts.clone());
         let ended = stop.clone();
         let source = match choice.origin() {
             Origin::Here => {
                 let made = Self::made_by(move || Ok(Box::new(Late { driver: choice.build()?, latency })));
-                let mut drivers = Self { stop, recoveries, ..made };
+                let mut drivers = Self { stop, doubts, ..made };
                 let first = drivers.hire()?;
                 drivers.dismiss(Some(first));
                 return Ok(drivers);
@@ -134,13 +134,13 @@ impl<'a> Drivers<'a> {
                 Source::Process(Box::new(Launcher::new(words.clone(), terms.clone(), latency, supervision)))
             }
         };
-        Ok(Self { source, external: true, idle: Vec::new(), stop, recoveries })
+        Ok(Self { source, external: true, idle: Vec::new(), stop, doubts })
     }
 
     /// Makes a source of drivers that the given function makes in this process.
     pub fn made_by(make: impl Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a) -> Self {
         let source = Source::Made(Box::new(make));
-        Self { source, external: false, idle: Vec::new(), stop: Arc::default(), recoveries: Recoveries::default() }
+        Self { source, external: false, idle: Vec::new(), stop: Arc::default(), doubts: Doubts::default() }
     }
 
     /// Returns the flag that ends runs and waiting.
@@ -148,9 +148,9 @@ impl<'a> Drivers<'a> {
         &self.stop
     }
 
-    /// Returns the tests whose errors did not repeat.
-    pub fn recoveries(&self) -> &Recoveries {
-        &self.recoveries
+    /// Returns the doubts about the driver.
+    pub fn doubts(&self) -> &Doubts {
+        &self.doubts
     }
 
     /// Returns `true` if a driver is idle.
@@ -170,9 +170,20 @@ impl<'a> Drivers<'a> {
         }
     }
 
-    /// Takes back a driver that has finished a test.
+    /// Takes back a driver that has finished a test; `None` after an error, whose process drives no further tests.
     pub fn dismiss(&mut self, driver: Option<Box<dyn Driver>>) {
-        self.idle.extend(driver);
+        match driver {
+            Some(driver) => self.idle.push(driver),
+            None => self.leave(),
+        }
+    }
+
+    /// Drops the idle drivers, and lets their process end as soon as no test needs it: the next driver has a new process.
+    pub fn leave(&mut self) {
+        self.renew();
+        if let Source::Process(launcher) = &mut self.source {
+            launcher.leave();
+        }
     }
 
     /// Drops the idle drivers if earlier tests could influence the answers of the drivers.

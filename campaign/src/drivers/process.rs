@@ -52,6 +52,11 @@ impl Launcher {
         Self { words, terms, latency, supervision, running: None }
     }
 
+    /// Lets the process end as soon as no driver uses it.
+    pub fn leave(&mut self) {
+        self.running = None;
+    }
+
     /// Returns a driver in the external process, and starts the process if necessary.
     ///
     /// # Errors

@@ -101,9 +101,10 @@ impl<'a> Simulator<'a> {
     /// Returns the outcome of a test, which runs once more if it broke with a driver that other tests may have influenced.
     fn checked(&mut self, index: usize, test: Test<'_>, outcome: Result<Outcome, Problem>) -> Result<Outcome, Problem> {
         let Some(error) = error_of(&outcome).filter(|_| self.drivers.gives_another_chance()) else { return outcome };
+        self.drivers.leave();
         let again = self.watch(test, None, |_| ());
         if error_of(&again).is_none() {
-            self.drivers.recoveries().add(index, &error);
+            self.drivers.doubts().recover(index, &error);
         }
         again
     }

@@ -409,6 +409,11 @@ impl StudyBuilder {
             DriverChoice::new(&Wish::Name(name.clone()), &[], None, scenario)
         };
         let references = self.references.iter().map(reference).collect::<Result<Vec<_>, Error>>()?;
+        if let Ok(simulation) = study.subject.scenario()
+            && references.iter().any(|reference| reference == simulation.driver())
+        {
+            return Err(DriverFlaw::OwnReference { name: simulation.driver().name().to_owned() }.into());
+        }
         if !references.is_empty() {
             if study.perceiver().is_some() {
                 return Err(PerceiverFlaw::References.into());

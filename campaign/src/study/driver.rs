@@ -129,6 +129,12 @@ pub enum DriverFlaw {
         /// The most similar name of a driver; `None` if no name is similar.
         nearest: Option<&'static str>,
     },
+    /// The driver under test should be its own reference.
+    #[error("--reference {name}: the driver under test avoids none of its own failures; name another driver")]
+    OwnReference {
+        /// The name of the driver.
+        name: String,
+    },
     /// A driver of the user's own has the name of a driver that comes with the software.
     #[error("a driver is called `{name}` already: give your driver another name")]
     Taken {

@@ -67,7 +67,8 @@ impl Strategy {
         let knows_the_share = share.as_ref().ok().filter(|share| !share.is_rare());
         let proposals = knows_the_share.map_or(request.budget, |share| share.proposals(request.budget));
         let places_rows = request.space.dims() > 0 && self.has_rows(request);
-        let keeps_the_budget = request.space.dims() > 0 && (places_rows || self.is_adaptive());
+        let keeps_the_budget =
+            request.space.dims() > 0 && (places_rows || self.is_adaptive()) || self.given().is_some();
         let budget = if keeps_the_budget { request.budget } else { proposals };
         let inner = self.assembled(&Request { budget, ..*request }, knows_the_share)?;
         share?.checked()?;

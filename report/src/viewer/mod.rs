@@ -8,9 +8,10 @@ mod server;
 pub use server::{Doorway, NoServer};
 
 use crate::html::{Record, Recorder};
-use paracosm_campaign::{Error, Log, Number, Reason, Study, Supervision, Trial, Worker};
+use paracosm_campaign::{Error, Folder, Log, Number, Reason, Study, Supervision, Trial, Worker};
 use paracosm_space::{Domain, Record as Named, Space, SpaceError, Value, Values, plural};
 use serde::Serialize;
+use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use thiserror::Error;
@@ -26,6 +27,8 @@ type MakePage<'a> = dyn Fn() -> Result<String, Error> + Sync + 'a;
 pub struct Viewer<'a> {
     /// The study of the campaign, whose tests run.
     pub study: &'a Study,
+    /// The folder of the campaign.
+    pub folder: &'a Path,
     /// Reads the log of the campaign as it is now: the campaign may still run.
     pub read: &'a ReadLog<'a>,
     /// Makes the page of the campaign as it is now, with [`Page::served`](crate::html::Page::served).
@@ -39,7 +42,7 @@ pub struct Viewer<'a> {
 enum Question {
     /// The page.
     Page,
-    /// The number of tests that the campaign has by now.
+    /// The number of tests that the campaign has by now, and whether more may come.
     Progress,
     /// The run of the test with an index.
     Run { index: usize },
@@ -75,10 +78,11 @@ enum NoTest {
 
 impl Reason for NoTest {}
 
-/// The number of tests of a campaign by now.
+/// The number of tests of a campaign by now, and whether more may come.
 #[derive(Debug, Serialize)]
 struct Progress {
     tests: usize,
+    unfinished: bool,
 }
 
 /// A test that was run for the page.
@@ -114,7 +118,10 @@ impl Viewer<'_> {
 
     fn about_campaign(&self, question: &Question) -> Result<String, Error> {
         match question {
-            Question::Progress => Ok(json(&Progress { tests: (self.read)()?.trials().len() })),
+            Question::Progress => {
+                let tests = (self.read)()?.trials().len();
+                Ok(json(&Progress { tests, unfinished: Folder::is_unfinished(self.folder, self.study, tests) }))
+            }
             _ => (self.page)(),
         }
     }

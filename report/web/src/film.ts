@@ -29,6 +29,8 @@ export class Film {
   /** The newest test that should run, while another one runs. */
   private waiting: [number[], boolean] | null = null;
   private isRunning = false;
+  /** The number of tests whose runs are asked for. */
+  private pending = 0;
 
   constructor(private readonly store: () => Store) {
     this.dialog.addEventListener("close", () => this.stop());
@@ -37,9 +39,15 @@ export class Film {
     });
   }
 
+  /** True while the dialog is open, or about to open. */
+  get isBusy(): boolean {
+    return this.dialog.open || this.pending > 0;
+  }
+
   /** Opens the dialog for a test, and plays its run if there is one. */
   async show(index: number) {
     const asked = ++this.asked;
+    this.pending += 1;
     const store = this.store();
     const row = store.rowOf(index);
     let [run, why]: [Run | null, string] = [null, this.without(index)];
@@ -48,6 +56,7 @@ export class Film {
     } catch (error) {
       why = reason(error);
     }
+    this.pending -= 1;
     if (this.asked !== asked) return;
     this.stop();
     this.stage.replaceChildren(h("p", { class: "note" }, why));

@@ -7,7 +7,7 @@ import { Film } from "./film";
 import { MapView } from "./map";
 import { Parallel } from "./parallel";
 import * as sections from "./sections";
-import { pageByNow, testsByNow } from "./server";
+import { pageByNow, progress } from "./server";
 import { Store } from "./store";
 import { Table } from "./table";
 
@@ -59,7 +59,7 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0 }) 
     setTimeout(() => map?.prepare(), 300);
     if (page.served && study.unfinished) {
       follow(page, unfinished, {
-        isBusy: () => store.isFiltered || store.tried.length > 0 || film.dialog.open,
+        isBusy: () => store.isFiltered || store.tried.length > 0 || film.isBusy,
         restart: () => start(root, { axes: map?.shown ?? null, scroll: scrollY }),
       });
     }
@@ -71,9 +71,11 @@ const soFar = (page: Page, tests: number) => `The campaign has not ended: ${test
 /** Follows a campaign that still runs: tells of new tests, and shows them unless the user is busy with the tests on the page. */
 function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; restart: () => Promise<void> }) {
   const shown = page.tests.all;
-  const refresh = async () => {
+  const refresh = async (isAsked: boolean) => {
     const begun = performance.now();
     const fresh = await pageByNow();
+    // The user may have begun something meanwhile.
+    if (!isAsked && part.isBusy()) return void setTimeout(look, pause);
     for (const id of ["document", "tests"]) document.getElementById(id)!.textContent = fresh.getElementById(id)!.textContent;
     forgetThemes();
     await part.restart();
@@ -82,9 +84,9 @@ function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; r
   };
   const look = async () => {
     try {
-      const tests = await testsByNow();
-      if (tests > shown && !part.isBusy()) return await refresh();
-      place.replaceChildren(soFar(page, tests), tests > shown ? h("button", { type: "button", class: "quiet", click: () => void refresh() }, `Show ${tests - shown} new tests`) : "");
+      const { tests, unfinished } = await progress();
+      if ((tests > shown || !unfinished) && !part.isBusy()) return await refresh(false);
+      place.replaceChildren(soFar(page, tests), tests > shown ? h("button", { type: "button", class: "quiet", click: () => void refresh(true) }, `Show ${tests - shown} new tests`) : "");
     } catch (error) {
       place.textContent = `The page no longer follows the campaign: ${error instanceof Error ? error.message : String(error)}`;
       return;

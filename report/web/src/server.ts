@@ -32,8 +32,8 @@ export const ranAgain = (index: number) => ask<Ran>(`run/${index}`);
 /** Runs a new test, with a number for each coordinate: the value, or the position of the level. */
 export const ranAt = (numbers: number[]) => ask<Ran>("try", numbers);
 
-/** The number of tests of the campaign by now. */
-export const testsByNow = async () => (await ask<{ tests: number }>("progress")).tests;
+/** The number of tests of the campaign by now, and whether more may come. */
+export const progress = () => ask<{ tests: number; unfinished: boolean }>("progress");
 
 /** The page as it is now. */
 export async function pageByNow(): Promise<globalThis.Document> {

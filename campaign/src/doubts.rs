@@ -1,0 +1,86 @@
+//! What a campaign sees of the programs that it starts, and what its log does not show: errors that did not repeat, and a test that ends otherwise now.
+//!
+//! Which tests a process had before depends on the workers and on their speed. So an error counts only if a new process has it, too, and the log is the
+//! same for any number of workers. A program with such errors may be unsound all the same, so the user has to know.
+
+use paracosm_space::plural;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The most characters of an error.
+const LONGEST_ERROR: usize = 500;
+
+/// The doubts of a campaign about its driver, its system or its perceiver.
+#[derive(Debug, Clone, Default)]
+pub struct Doubts(Arc<Mutex<Seen>>);
+
+#[derive(Debug, Default)]
+struct Seen {
+    /// The tests whose error did not repeat, with this error.
+    recovered: BTreeMap<usize, String>,
+    /// The number of questions about images whose error did not repeat, and the first of these errors.
+    images: Option<(usize, String)>,
+    /// A known test that ends otherwise now.
+    differing: Option<usize>,
+}
+
+impl Doubts {
+    /// Returns the number of tests that ended in an error, and that had a result when they ran again.
+    pub fn recovered(&self) -> usize {
+        self.seen().recovered.len()
+    }
+
+    /// Returns the index of a known test of a continued campaign that ends otherwise now.
+    pub fn differing(&self) -> Option<usize> {
+        self.seen().differing
+    }
+
+    /// Returns the doubts in words.
+    pub fn notes(&self) -> Vec<String> {
+        let Seen { recovered, images, differing } = &*self.seen();
+        let recovered = recovered.first_key_value().map(|(index, error)| {
+            let tests = plural(recovered.len(), "test");
+            format!(
+                "{tests} ended in an error, and had a result when a new process or a new connection ran them again: the program may keep something \
+                 from test to test, or fail by chance; the first, test {index}: {error}"
+            )
+        });
+        let images = images.as_ref().map(|(count, error)| {
+            let times = plural(*count, "time");
+            format!(
+                "the perceiver failed {times}, and answered when a new process saw the images again: it may keep something from image to image, \
+                 or fail by chance; the first error: {error}"
+            )
+        });
+        let differing = differing.map(|index| {
+            format!(
+                "test {index} ends otherwise now than before the campaign was continued: the driver, the system or the perceiver has changed since, or \
+                 it does not answer the same questions in the same way; so the log may hold the results of two programs"
+            )
+        });
+        [differing, recovered, images].into_iter().flatten().collect()
+    }
+
+    /// Adds a test whose error did not repeat.
+    pub(crate) fn recover(&self, index: usize, error: &str) {
+        self.seen().recovered.entry(index).or_insert_with(|| short(error));
+    }
+
+    /// Adds a question about images whose error did not repeat.
+    pub(crate) fn recover_images(&self, error: &str) {
+        self.seen().images.get_or_insert_with(|| (0, short(error))).0 += 1;
+    }
+
+    /// Says that a known test ends otherwise now.
+    pub(crate) fn differ(&self, index: usize) {
+        self.seen().differing.get_or_insert(index);
+    }
+
+    fn seen(&self) -> MutexGuard<'_, Seen> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn short(error: &str) -> String {
+    error.chars().take(LONGEST_ERROR).collect()
+}
