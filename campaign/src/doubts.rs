@@ -1,4 +1,4 @@
-//! What a campaign sees of the programs that it starts, and what its log does not show: errors that did not repeat, and a test that ends otherwise now.
+//! Doubts about the programs that a campaign starts, which its log does not show: errors that did not repeat, and a test that ends otherwise now.
 //!
 //! Which tests a process had before depends on the workers and on their speed. So an error counts only if a new process has it, too, and the log is the
 //! same for any number of workers. A program with such errors may be unsound all the same, so the user has to know.

@@ -25,7 +25,7 @@ pub struct Supervision {
     pub output: Output,
     /// The folder in which programs start; `None` for the folder of this process.
     pub folder: Option<PathBuf>,
-    /// What the campaign has seen of its programs, and its log does not show.
+    /// The doubts about the programs of the campaign, which its log does not show.
     pub doubts: Doubts,
 }
 
