@@ -152,14 +152,17 @@ fn a_range_that_is_not_there_and_a_space_without_tests_are_refused() {
 fn a_violation_that_no_reference_driver_avoids_is_unpreventable() {
     let dir = folder();
     let run = |out: &str, jobs: &str, more: &[&str]| {
-        let mut arguments = vec!["slow-leader.xosc", "--driver", "cruise", "--open", "gap=5..60", "--budget", "20"];
+        // This driver brakes when it is too late.
+        let late = ["--driver", "aeb", "--set", "driver.ttc=0.05"];
+        let mut arguments = vec!["slow-leader.xosc", "--open", "gap=10..60", "--budget", "20"];
+        arguments.extend(late);
         arguments.extend(["--jobs", jobs, "--out", out]);
         arguments.extend(more);
         succeeds(fuzz(dir.path(), &arguments));
         trials(dir.path(), out)
     };
     let alone = run("alone", "1", &[]);
-    assert!(alone.iter().all(|trial| trial["verdict"] == "fail"), "the driver never brakes: {alone:?}");
+    assert!(alone.iter().all(|trial| trial["verdict"] == "fail"), "the driver brakes too late: {alone:?}");
     // The scenario sets nobody in the way who cannot be avoided by braking, except a driver who does not brake, either.
     let cruise = run("cruise", "1", &["--reference", "cruise"]);
     assert!(cruise.iter().all(|trial| trial["verdict"] == "unpreventable"), "{cruise:?}");
