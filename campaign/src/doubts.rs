@@ -67,6 +67,7 @@ impl Doubts {
     }
 
     /// Adds a question about images whose error did not repeat.
+    #[cfg(feature = "camera")]
     pub(crate) fn recover_images(&self, error: &str) {
         self.seen().images.get_or_insert_with(|| (0, short(error))).0 += 1;
     }
