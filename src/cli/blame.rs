@@ -125,12 +125,12 @@ impl Options {
                 continue;
             }
             let meaning = meaning(fault, references);
-            table.row(&fault.to_string(), &format!("{count:<6}{:>7}  {meaning}", share(count)));
+            table.row(&fault.to_string(), &format!("{count:<5} {:>7}  {meaning}", share(count)));
         }
         for (i, name) in references.iter().enumerate() {
             let count = blame.prevented_by(name);
             let label = if i == 0 { "prevented by" } else { "" };
-            table.row(label, &format!("{count:<6}{:>7}  {name}", share(count)));
+            table.row(label, &format!("{count:<5} {:>7}  {name}", share(count)));
         }
         for failure in failures.iter().take(self.limit) {
             table.row(&format!("test {}", failure.index), &line(study, &log.trials()[failure.index], failure));

@@ -39,7 +39,7 @@ impl Printed<'_> {
             if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
                 let share = percent(count as f64 / summary.tests().max(1) as f64);
                 let meaning = meaning(verdict);
-                table.row(&verdict.to_string(), &format!("{count:<6}{share}{meaning}"));
+                table.row(&verdict.to_string(), &format!("{count:<5} {share}{meaning}"));
                 let first = self.report.log.trials().iter().find(|trial| trial.verdict == verdict);
                 if let Some((index, problem)) = first.and_then(|trial| Some((trial.index, trial.error()?))) {
                     table.row("", &format!("such as test {index}: {}", problem.lines().next().unwrap_or_default()));

@@ -107,11 +107,13 @@ impl Viewer<'_> {
     /// The driver of the study cannot be made, or the machine has no threads left.
     pub fn serve(&self, doorway: Doorway) -> Result<(), Error> {
         let mut worker = Worker::until(self.study, self.supervision.clone())?;
+        // A long log is read again only for tests that it did not have.
+        let mut known = None;
         // Pages take seconds, and nobody waits for them to see a run.
         let ((pages, page_questions), (runs, run_questions)) = (channel::<Asked>(), channel::<Asked>());
         std::thread::scope(|scope| {
             scope.spawn(|| answer_all(page_questions, |question| self.about_campaign(&question)));
-            scope.spawn(|| answer_all(run_questions, |question| self.about_test(&question, &mut worker)));
+            scope.spawn(|| answer_all(run_questions, |question| self.about_test(&question, &mut worker, &mut known)));
             doorway.open(pages, runs, &self.supervision.stop).map_err(Error::unavailable)
         })
     }
@@ -126,7 +128,7 @@ impl Viewer<'_> {
         }
     }
 
-    fn about_test(&self, question: &Question, worker: &mut Worker) -> Result<String, Error> {
+    fn about_test(&self, question: &Question, worker: &mut Worker, known: &mut Option<Log>) -> Result<String, Error> {
         let mut recorder = Recorder::default();
         let (trial, trace) = match question {
             Question::Try { numbers } => {
@@ -134,10 +136,13 @@ impl Viewer<'_> {
                 worker.watch(0, &test, |run| recorder.see(run))
             }
             Question::Run { index } => {
-                let log = (self.read)()?;
+                let log = match known.take().filter(|log| *index < log.trials().len()) {
+                    Some(log) => known.insert(log),
+                    None => known.insert((self.read)()?),
+                };
                 let logged = log.trials().get(*index);
                 let logged = logged.ok_or(NoTest::Index { index: *index, tests: log.trials().len() })?;
-                worker.replay(&log, logged, |run| recorder.see(run))
+                worker.replay(log, logged, |run| recorder.see(run))
             }
             Question::Page | Question::Progress => return self.about_campaign(question),
         };
