@@ -24,6 +24,9 @@ pub mod compare;
 pub mod hole;
 pub mod html;
 pub mod junit;
+mod margin;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 pub mod plot;
 #[cfg(feature = "camera")]
 pub mod record;

@@ -4,10 +4,10 @@ use super::draw::{FileKind, Target, has_folder, is_ours_to_write};
 use super::output::{Format, FormatOption, Table, digits, json, plural, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions, trust};
-use crate::engine::sensor::Cameras;
+use crate::engine::sensor::{Cameras, LidarSettings};
 use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
 use paracosm_campaign::files::is_no_link;
 use paracosm_campaign::{
@@ -15,6 +15,7 @@ use paracosm_campaign::{
 };
 use paracosm_render::Look;
 use paracosm_report::birds_eye::MotionRecord;
+use paracosm_report::mcap;
 use paracosm_report::plot;
 use paracosm_report::record::Clip;
 use std::path::{Path, PathBuf};
@@ -23,8 +24,9 @@ use std::sync::atomic::Ordering;
 
 /// The options of `replay`.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("seen").args(["camera", "mcap"]).multiple(true))]
 pub(super) struct Options {
-    /// The folder of a campaign and the index of a test, or regression files of `shrink --save`
+    /// A campaign and the index of a test, or files of `shrink --save`
     #[arg(required = true, value_name = "DIR INDEX | FILE")]
     what: Vec<PathBuf>,
     /// The file for the trace [default: DIR/trace-INDEX.csv]
@@ -40,14 +42,25 @@ pub(super) struct Options {
     /// The film goes into a FILE.mp4, a FILE.gif, or PNG files in a new FOLDER.
     #[arg(long, value_name = "FILE|FOLDER")]
     camera: Option<PathBuf>,
-    /// The file of cameras for --camera
+    /// Write the run for Foxglove or Rerun
+    ///
+    /// The file has the frames of all bodies, the roads, the signals, the margins of the requirements and the events; and the images of the
+    /// driver's cameras, or of the cameras of --cameras.
+    #[arg(long, value_name = "FILE.mcap")]
+    mcap: Option<PathBuf>,
+    /// Add the points of a LiDAR on the roof to --mcap
+    #[arg(long, requires = "mcap", hide_short_help = true)]
+    lidar: bool,
+    /// The file of cameras for --camera and --mcap
     ///
     /// `paracosm-fuzz record --print-cameras` prints an example [default: the cameras of the driver; for a driver without
-    /// cameras, a camera at the front with 640 x 480 pixels].
-    #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
+    /// cameras, --camera has a camera at the front with 640 x 480 pixels, and --mcap has no images].
+    #[arg(long, value_name = "CAMERAS.toml", requires = "seen")]
     cameras: Option<PathBuf>,
-    /// The name of the camera for --camera [default: the first by name]
-    #[arg(long, value_name = "NAME", requires = "camera")]
+    /// The camera for --camera [default: the first]
+    ///
+    /// The first camera is the first by name.
+    #[arg(long, value_name = "NAME", requires = "camera", hide_short_help = true)]
     through: Option<String>,
     /// Show the test also if it ends in another way than in the log
     ///
@@ -58,7 +71,7 @@ pub(super) struct Options {
     /// The expected end of the tests in regression files, instead of the expectation in the files
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
-    /// Write a JUnit report on the tests in regression files to this file
+    /// Write a JUnit report on regression files
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
     /// Exit with status 1 if a test does not end as its regression file expects
@@ -66,7 +79,9 @@ pub(super) struct Options {
     /// A known failure that still fails is expected, so it does not stop a pipeline. With --fail-on-violation, it does.
     #[arg(long, conflicts_with = "fail_on_violation")]
     fail_on_unexpected: bool,
-    /// Exit with status 1 if a test violates a requirement, expected or not
+    /// Exit with status 1 if any test fails
+    ///
+    /// A failure that its regression file expects counts, too.
     #[arg(long)]
     fail_on_violation: bool,
     #[command(flatten)]
@@ -92,8 +107,14 @@ impl Options {
                 let message = format!("{} is a folder: expected the index of a test after it", dir.display());
                 return Err(usage(message).into());
             }
-            _ if self.trace.is_some() || self.draw.is_some() || self.camera.is_some() || self.changed => {
-                let message = "--trace, --draw, --camera and --changed are for a test of a campaign: replay DIR INDEX";
+            _ if self.trace.is_some()
+                || self.draw.is_some()
+                || self.camera.is_some()
+                || self.mcap.is_some()
+                || self.changed =>
+            {
+                let message =
+                    "--trace, --draw, --camera, --mcap and --changed are for a test of a campaign: replay DIR INDEX";
                 return Err(usage(message.into()).into());
             }
             files => {
@@ -132,10 +153,12 @@ impl Options {
         let inputs: Vec<&Path> = self.cameras.as_deref().into_iter().collect();
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Gif];
         let target = self.draw.as_ref().map(|file| Target::new("--draw", file, &kinds, &inputs)).transpose()?;
-        for (option, file) in [("--trace", &self.trace), ("--camera", &self.camera)] {
+        for (option, file) in [("--trace", &self.trace), ("--camera", &self.camera), ("--mcap", &self.mcap)] {
             file.as_deref().map_or(Ok(()), |file| is_ours_to_write(option, file, &inputs))?;
         }
-        self.trace.as_deref().map_or(Ok(()), |file| has_folder("--trace", file))?;
+        for (option, file) in [("--trace", &self.trace), ("--mcap", &self.mcap)] {
+            file.as_deref().map_or(Ok(()), |file| has_folder(option, file))?;
+        }
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
         let look = given.as_ref().map(VariedCameras::look);
@@ -148,6 +171,7 @@ impl Options {
             return Err(usage(message).into());
         }
         let mut record = MotionRecord::default();
+        let mut tape = self.mcap.as_ref().map(|_| self.recorder()).transpose()?;
         let supervision = verbosity.supervision();
         let stop = Arc::clone(&supervision.stop);
         on_interrupt(Arc::clone(&stop));
@@ -157,6 +181,9 @@ impl Options {
         let (trial, trace) = worker.replay(&log, logged, |run| {
             if watched {
                 record.see(run);
+            }
+            if let Some(tape) = &mut tape {
+                tape.see(run);
             }
         });
         if stop.load(Ordering::Relaxed) {
@@ -179,6 +206,12 @@ impl Options {
                 .write(&mut worker, &trial, &cameras)?
                 .iter()
                 .for_each(|line| verbosity.note(line));
+        }
+        if let (Some(tape), Some(file)) = (&tape, &self.mcap) {
+            let filmed = self.filmed(&mut worker, &trial)?;
+            let recorded = mcap::Recorded { study, hash: log.hash(), trial: &trial, trace: trace.as_ref() };
+            let filmed = filmed.as_ref().map(|filmed| (&mut worker, filmed));
+            recorded.write(tape, filmed, file)?.iter().for_each(|line| verbosity.note(line));
         }
         // In the folder of the campaign, a trace of a test that differs from the log would mislead.
         if self.trace.is_some() || trial.repeats(logged) {
@@ -224,6 +257,27 @@ impl Options {
             (None, None) => {}
         }
         Ok(())
+    }
+
+    /// Returns the recorder of a run for --mcap.
+    fn recorder(&self) -> Result<mcap::Recorder, Error> {
+        let recorder = mcap::Recorder::default();
+        if !self.lidar {
+            return Ok(recorder);
+        }
+        // A file is not compressed, so a turn has half of the usual columns: 0.4 degrees between two columns.
+        let settings = LidarSettings { columns: 900, ..LidarSettings::default() };
+        Ok(recorder.with_lidar(settings).expect("the settings of the LiDAR are valid"))
+    }
+
+    /// Returns the cameras whose images --mcap has; `None` if there are none.
+    fn filmed(&self, worker: &mut Worker, trial: &Trial) -> Result<Option<mcap::Filmed>, Error> {
+        if let Some(file) = &self.cameras {
+            let cameras = read_cameras(file)?;
+            return Ok(Some(mcap::Filmed { look: cameras.look(), cameras: cameras.of_test(&trial.test) }));
+        }
+        let eyes = worker.eyes()?;
+        Ok((!eyes.all.is_empty()).then(|| mcap::Filmed { cameras: eyes, look: Look::default() }))
     }
 
     /// Returns the camera of --through, or the first camera.

@@ -34,6 +34,7 @@ mod library;
 mod likelihood;
 mod map_traffic;
 mod maps;
+mod mcap;
 mod mixed_space;
 mod monitor;
 mod networks;

@@ -5,11 +5,12 @@
 
 use super::roads::{Ground, near};
 use super::whole::differences;
+use crate::margin;
 use paracosm_campaign::{Number, Study};
 use paracosm_engine::object::{Body, Class, Outline};
 use paracosm_engine::road::{Bounds, RoadNetwork};
 use paracosm_engine::{Pose, Run};
-use paracosm_oracles::{Monitor, Trace, Truth};
+use paracosm_oracles::Trace;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -177,23 +178,11 @@ fn signals(trace: &Trace, ticks: &[usize]) -> Vec<Curve> {
 }
 
 fn robustness(study: &Study, trace: &Trace, ticks: &[usize]) -> Vec<Margin> {
-    let margin = |requirement: &paracosm_campaign::StatedRequirement| {
-        let mut monitor = Monitor::new(requirement.formula.as_ref()?, trace.signals(), trace.dt()).ok()?;
-        let mut bounds = Vec::with_capacity(trace.len());
-        for row in trace.rows() {
-            monitor.step(row).ok()?;
-            bounds.push(monitor.bounds());
-        }
-        // At the end, the evaluation is exact, unless the run ended too early for the requirement.
-        let end = monitor.finish(trace.is_complete());
-        let is_decided = end.truth != Truth::Undecided;
-        if is_decided {
-            *bounds.last_mut()? = (end.robustness, end.robustness);
-        }
-        let of = |side: fn(&(f64, f64)) -> f64| ticks.iter().map(|tick| rounded(side(&bounds[*tick]))).collect();
+    let told = |margin: margin::Margin<'_>| {
+        let of = |side: fn(&(f64, f64)) -> f64| ticks.iter().map(|tick| rounded(side(&margin.bounds[*tick]))).collect();
         let (lower, upper) = (of(|bounds| bounds.0), of(|bounds| bounds.1));
-        let end = Number(is_decided.then_some(end.robustness));
-        Some(Margin { id: requirement.id.clone(), unit: requirement.unit.clone(), lower, upper, end })
+        let (id, unit) = (margin.requirement.id.clone(), margin.requirement.unit.clone());
+        Margin { id, unit, lower, upper, end: Number(margin.end) }
     };
-    study.requirements().iter().filter_map(margin).collect()
+    margin::margins(study, trace).into_iter().map(told).collect()
 }

@@ -9,7 +9,7 @@ pub(super) const DEPTH_STEPS: f32 = 256.0;
 
 /// The pixels of an image, in the form in which they are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Pixels<'a> {
+pub(crate) enum Pixels<'a> {
     /// The red, green and blue of each pixel, with 8 bits each.
     Colours(&'a [u8]),
     /// A number with 8 bits for each pixel, which viewers show in the colour of the palette at this number.
@@ -19,7 +19,7 @@ pub(super) enum Pixels<'a> {
 }
 
 /// Returns the contents of a PNG file with the given width and height in pixels.
-pub(super) fn png(pixels: Pixels<'_>, [width, height]: [u32; 2]) -> Result<Vec<u8>, png::EncodingError> {
+pub(crate) fn png(pixels: Pixels<'_>, [width, height]: [u32; 2]) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, width, height);
     let (colour, depth, bytes) = match pixels {

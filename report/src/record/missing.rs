@@ -6,7 +6,7 @@ use paracosm_space::plural;
 
 /// The notes on the shots of one camera in a test.
 #[derive(Debug)]
-pub(super) struct Missing<'a> {
+pub(crate) struct Missing<'a> {
     camera: (&'a str, &'a CameraSpec),
     shots: usize,
     /// The objects that the camera was inside, each with its name, the time of the first such image and the number of

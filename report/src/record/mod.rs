@@ -10,9 +10,9 @@ mod clip;
 mod coco;
 mod dataset;
 mod film;
-mod image;
+pub(crate) mod image;
 mod mask;
-mod missing;
+pub(crate) mod missing;
 mod projector;
 #[cfg(test)]
 pub mod tests;
