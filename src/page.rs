@@ -1,8 +1,9 @@
-//! Shows the results of a campaign as one HTML page.
+//! Shows the results of a campaign as one HTML page, and in Markdown for the summary of a step of a workflow.
 
 use crate::Report;
 use crate::analysis::{Difference, Effects, Growth, Inconclusive, Modes};
 use crate::campaign::{Error, Folder, JsonArtefact};
+use crate::report::StepSummary;
 use crate::report::html::{Finding, Page};
 use serde_json::{Map, Value};
 use std::io::ErrorKind;
@@ -55,6 +56,20 @@ impl Report {
             results,
             changes: changes.map(|changes| serde_json::to_value(changes).unwrap_or(Value::Null)),
         })
+    }
+
+    /// Makes the summary of the campaign in a folder for a step of a GitHub workflow. `program` is the name of the program in its commands.
+    pub fn step_summary(&self, folder: &Path, program: &str) -> StepSummary<'_> {
+        StepSummary {
+            log: &self.log,
+            summary: &self.summary,
+            plausible: self.plausible.as_ref(),
+            map: self.map.as_ref(),
+            modes: &self.modes,
+            findings: self.findings(),
+            folder: folder.display().to_string(),
+            program: program.to_owned(),
+        }
     }
 
     /// Returns the results in words.

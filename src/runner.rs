@@ -271,7 +271,7 @@ impl<'a> Runner<'a> {
         all.extend(observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer));
         let finish = campaign.resume(known).run(&mut all)?;
         let Record { folder: kept, trials, learned, summary, .. } = record;
-        let log = Log::new(self.study.clone(), learned, self.extension.cloned(), trials);
+        let log = Log::new(self.study.clone(), learned, self.extension.cloned(), trials).written_to(&kept);
         if !log.scales().learned().is_empty() {
             kept.write_study(self.study, log.scales().learned(), self.extension)?;
         }

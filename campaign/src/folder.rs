@@ -170,6 +170,11 @@ impl Folder {
         &self.path
     }
 
+    /// Returns the hash of the study, which every line of the log has; `None` in a log of an older version.
+    pub(crate) fn hash(&self) -> Option<&str> {
+        self.study.as_deref()
+    }
+
     /// Writes `campaign.json` again, with the scales that the campaign has learned.
     ///
     /// # Errors

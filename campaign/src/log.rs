@@ -6,7 +6,7 @@ use crate::scales::{Learned, Scales};
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::test_set::TestSet;
 use crate::trials_file::{TRIALS, read_trials};
-use crate::{Catalogue, Error, Extension, Reason, SpaceFile, Study, Trial, Trust, run_in};
+use crate::{Catalogue, Error, Extension, Folder, Reason, SpaceFile, Study, Trial, Trust, run_in};
 use paracosm_space::Point;
 use paracosm_space::pict::Aliases;
 use std::io::Read;
@@ -20,7 +20,7 @@ pub struct Log {
     scales: Scales,
     extension: Option<Extension>,
     trials: Vec<Trial>,
-    /// The hash of the study in the folder of the campaign; `None` if the log was not read from a folder.
+    /// The hash of the study in the folder of the campaign; `None` if the log is in no folder.
     hash: Option<String>,
     /// The folder in which the commands of the campaign ran, if the folder of the campaign says so.
     run_in: Option<PathBuf>,
@@ -84,7 +84,13 @@ impl Log {
         self.run_in.as_deref().filter(|_| !self.study.commands().is_empty())
     }
 
-    /// Returns the hash of the study, which each line of `trials.jsonl` has; `None` if the log was not read from a folder.
+    /// Returns the log with the hash of the study in the folder to which the log was written.
+    #[must_use]
+    pub fn written_to(self, folder: &Folder) -> Self {
+        Self { hash: folder.hash().map(str::to_owned), ..self }
+    }
+
+    /// Returns the hash of the study, which each line of `trials.jsonl` has; `None` if the log is in no folder.
     pub fn hash(&self) -> Option<&str> {
         self.hash.as_deref()
     }

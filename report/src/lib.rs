@@ -30,6 +30,7 @@ pub mod mcap;
 pub mod plot;
 #[cfg(feature = "camera")]
 pub mod record;
+mod step_summary;
 pub mod traceability;
 mod trials;
 #[cfg(feature = "viewer")]
@@ -42,4 +43,5 @@ pub use junit::{Junit, command_option, shell_word};
 pub use plot::{
     Axis, Entry, FailureMap, HeatMap, Lines, Mark, Picture, PlotFrame, Series, Shares, Tints, drawing_png, film_gif,
 };
+pub use step_summary::StepSummary;
 pub use trials::TrialTable;

@@ -22,3 +22,24 @@ pub fn some_of(texts: &[String], most: usize) -> String {
     let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
     first.join(", ") + &more
 }
+
+/// Returns a number with five significant digits. Very small and large numbers have an exponent.
+///
+/// ```
+/// assert_eq!(paracosm_space::digits(2.0 / 3.0), "0.66667");
+/// assert_eq!(paracosm_space::digits(-16.5), "-16.5");
+/// assert_eq!(paracosm_space::digits(1.5e-9), "1.5000e-9");
+/// ```
+pub fn digits(number: f64) -> String {
+    let scientific = format!("{number:.4e}");
+    let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+    if number == 0.0 || !number.is_finite() {
+        return format!("{number}");
+    }
+    if !(-5..7).contains(&exponent) {
+        return scientific;
+    }
+    let decimals = (4 - exponent).max(0) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

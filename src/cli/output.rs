@@ -2,8 +2,8 @@
 
 use super::arguments::OUTPUT;
 use crate::coverage::Bracket;
-pub(super) use crate::space::plural;
 use crate::space::{Domain, Point, Record, Space, Value};
+pub(super) use crate::space::{digits, plural};
 use clap::{Args, ValueEnum};
 use paracosm_analysis::Impacts;
 use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
@@ -220,21 +220,6 @@ pub(super) fn short_bracket(bracket: &Bracket) -> String {
 /// Prints a share in percent with one decimal.
 pub(super) fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
-}
-
-/// Prints a number with five significant digits. Very small and large numbers get an exponent.
-pub(super) fn digits(number: f64) -> String {
-    let scientific = format!("{number:.4e}");
-    let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
-    if number == 0.0 || !number.is_finite() {
-        return format!("{number}");
-    }
-    if !(-5..7).contains(&exponent) {
-        return scientific;
-    }
-    let decimals = (4 - exponent).max(0) as usize;
-    let text = format!("{number:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// Says in words how severe the contacts of a campaign are.

@@ -1,6 +1,7 @@
 //! `paracosm-fuzz run`: runs a campaign, shows its progress and prints its summary.
 
 use super::arguments::{CHOSEN, OUTPUT, REQUIRED, RUNNING};
+use super::github::StepSummary;
 use super::output::{Format, FormatOption, broken, json, plural};
 use super::progress::Progress;
 use super::sampling::Sampling;
@@ -104,6 +105,12 @@ pub(super) struct Options {
     /// The report is written to the folder.
     #[arg(long, help_heading = OUTPUT, hide_short_help = true)]
     junit: bool,
+    /// Add a summary to the page of a GitHub workflow
+    ///
+    /// The summary has the verdict, the worst test, the failure map, the requirements and the failure modes in Markdown. It is added to the file that
+    /// GitHub names in GITHUB_STEP_SUMMARY.
+    #[arg(long, help_heading = OUTPUT, hide_short_help = true)]
+    github: bool,
     #[command(flatten)]
     form: FormatOption,
 }
@@ -145,6 +152,7 @@ impl Options {
             }
         }
         note_outlasting(&study, verbosity)?;
+        let step = self.github.then(StepSummary::of_environment).transpose()?;
         let supervision = Supervision::default();
         let program = program::called();
         let runner = self.runner(&study, extension.as_ref()).until(supervision.clone()).program(&program);
@@ -167,6 +175,9 @@ impl Options {
             Format::Table => printed.table(),
             Format::Json => json(&printed.json()),
         })?;
+        if let Some(step) = step {
+            step.add(&report, &self.out, &program)?;
+        }
         let (log, summary) = (&report.log, &report.summary);
         for judged in summary.requirements().iter().filter(|judged| judged.undecided > 0) {
             let given = log.study().given().find(|requirement| requirement.id == judged.id);

@@ -25,6 +25,7 @@ mod extend;
 mod external_drivers;
 mod gates;
 mod generate;
+mod github;
 mod guilty;
 #[cfg(unix)]
 mod interrupt;
