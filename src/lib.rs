@@ -18,6 +18,7 @@
 
 #[cfg(feature = "cli")]
 pub mod cli;
+mod findings;
 mod lists;
 mod page;
 mod runner;

@@ -1,10 +1,11 @@
 //! Shows the results of a campaign as one HTML page, and in Markdown for the summary of a step of a workflow.
 
 use crate::Report;
-use crate::analysis::{Difference, Effects, Growth, Inconclusive, Modes};
+use crate::analysis::{Difference, Growth, Modes};
 use crate::campaign::{Error, Folder, JsonArtefact};
+use crate::findings;
 use crate::report::StepSummary;
-use crate::report::html::{Finding, Page};
+use crate::report::html::Page;
 use serde_json::{Map, Value};
 use std::io::ErrorKind;
 use std::path::Path;
@@ -40,11 +41,18 @@ impl Report {
                 Err(error) => return Err(Error::io("read", &path)(error)),
             }
         }
+        let unfinished = Folder::is_unfinished(folder, self.log.study(), self.log.trials().len());
+        let mut findings = findings::of_tests(self);
+        findings.extend(findings::suspects(self));
+        // A campaign that runs changes its sensitivity with every test.
+        findings.extend((!unfinished).then(|| findings::sensitivity(&self.log)).flatten());
+        findings.extend(results.get("blame.json").and_then(findings::blame));
+        findings.extend(results.get("located.json").and_then(findings::located));
         Ok(Page {
             log: &self.log,
             folder: folder.display().to_string(),
             program: program.to_owned(),
-            unfinished: Folder::is_unfinished(folder, self.log.study(), self.log.trials().len()),
+            unfinished,
             summary: &self.summary,
             plausible: self.plausible.as_ref(),
             coverage: &self.coverage,
@@ -52,7 +60,7 @@ impl Report {
             modes: &self.modes,
             effects: self.effects.as_ref(),
             axes: self.axes()?,
-            findings: self.findings(),
+            findings,
             results,
             changes: changes.map(|changes| serde_json::to_value(changes).unwrap_or(Value::Null)),
         })
@@ -66,29 +74,9 @@ impl Report {
             plausible: self.plausible.as_ref(),
             map: self.map.as_ref(),
             modes: &self.modes,
-            findings: self.findings(),
+            findings: findings::of_tests(self),
             folder: folder.display().to_string(),
             program: program.to_owned(),
         }
-    }
-
-    /// Returns the results in words.
-    fn findings(&self) -> Vec<Finding> {
-        let mut findings = Vec::new();
-        let mut found = |label: &'static str, lines: Vec<String>| {
-            if !lines.is_empty() {
-                findings.push(Finding { label, lines });
-            }
-        };
-        let explanation = self
-            .explanation
-            .iter()
-            .flat_map(|explanation| explanation.rules_in_words().into_iter().chain([explanation.trust_in_words()]));
-        found("explanation", explanation.collect());
-        found("inconclusive", self.inconclusive.iter().flat_map(Inconclusive::in_words).collect());
-        found("no effect", self.effects.iter().flat_map(Effects::in_words).collect());
-        let points = self.points.iter().map(|points| format!("{} ({})", points.in_words(), points.protocol));
-        found("points on this grid", points.collect());
-        findings
     }
 }

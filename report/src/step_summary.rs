@@ -57,7 +57,7 @@ impl StepSummary<'_> {
         }
         self.say_requirements(&mut text);
         self.say_modes(&mut text);
-        for Finding { label, lines } in &self.findings {
+        for Finding { label, lines, .. } in &self.findings {
             let lines = lines.iter().map(|line| escaped(line)).collect::<Vec<_>>().join("<br>");
             let _ = writeln!(text, "**{label}**: {lines}\n");
         }

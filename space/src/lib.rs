@@ -55,7 +55,7 @@ pub use domain::Domain;
 pub use error::SpaceError;
 pub use names::{did_you_mean, nearest};
 pub use parameter::{Coordinate, Parameter, ParameterError, ParameterFlaw};
-pub use plural::{digits, plural, some_of};
+pub use plural::{digits, plural, some_of, values_in_words};
 pub use point::Point;
 pub use position::Position;
 pub use record::Record;

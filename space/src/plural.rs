@@ -1,4 +1,6 @@
-//! Numbers and lists of things in messages: "1 test", "2 tests", "a, b and 3 more".
+//! Numbers and lists of things in messages: "1 test", "2 tests", "a, b and 3 more", "speed 2.5, lanes 4".
+
+use crate::{Value, Values};
 
 /// Returns a count with its noun, such as "1 test" or "2 tests". The plural of the noun has to end in `s`.
 ///
@@ -42,4 +44,10 @@ pub fn digits(number: f64) -> String {
     let decimals = (4 - exponent).max(0) as usize;
     let text = format!("{number:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// Returns values with their names, such as "speed 2.5, lanes 4".
+pub fn values_in_words(values: &Values) -> String {
+    let value = |value: &Value| value.number().map_or_else(|| value.to_string(), digits);
+    values.iter().map(|(name, of)| format!("{name} {}", value(of))).collect::<Vec<_>>().join(", ")
 }

@@ -5,9 +5,7 @@ use super::output::{Format, FormatOption, Table, json, percent, plural};
 use super::progress::bar;
 use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
 use clap::Args;
-use paracosm_analysis::sensitivity::{
-    Explained, Index, Indices, Sensitivity, Source, of_model, of_tests, tests_within,
-};
+use paracosm_analysis::sensitivity::{Explained, Indices, Sensitivity, Source, of_model, of_tests, tests_within};
 use paracosm_campaign::{Campaign, Catalogue, Log};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -130,11 +128,6 @@ fn explained(table: &mut Table, quantity: &str, explained: &Explained) {
     table.heading(&format!("Shares of the variance of {quantity}:"));
     table.row("", &format!("{:<26}{}", "alone (first order)", "in all (total)"));
     for Indices { name, first_order, total } in &explained.parameters {
-        table.row(name, &format!("{:<26}{}", index(first_order), index(total)));
+        table.row(name, &format!("{:<26}{total}", first_order.to_string()));
     }
-}
-
-fn index(index: &Index) -> String {
-    let [estimate, lower, upper] = [index.estimate, index.lower, index.upper].map(|share| format!("{share:.3}"));
-    format!("{estimate} ({lower} to {upper})")
 }

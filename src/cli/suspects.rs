@@ -1,8 +1,8 @@
 //! Suspect and located combinations of discrete values in the summary of a campaign.
 
-use super::output::{Table, digits, plural};
+use super::output::{Table, plural};
 use crate::Report;
-use crate::space::{Value, Values};
+use crate::space::{Values, values_in_words};
 use paracosm_analysis::{Conclusion, LocatedReport, Location, SuspectReport, Unexplained};
 use paracosm_oracles::Verdict;
 use std::cmp::Reverse;
@@ -42,7 +42,7 @@ fn show_suspects(suspects: &SuspectReport, table: &mut Table) {
             1 => "the only test with these values failed".to_owned(),
             count => format!("all {count} tests with these values failed"),
         };
-        table.row(if i == 0 { "suspects" } else { "" }, &format!("{}: {all}", names(&suspect.values)));
+        table.row(if i == 0 { "suspects" } else { "" }, &format!("{}: {all}", values_in_words(&suspect.values)));
     }
     let more = suspects.found.saturating_sub(SHOWN as u64);
     if more > 0 {
@@ -52,7 +52,7 @@ fn show_suspects(suspects: &SuspectReport, table: &mut Table) {
     let few = suspects.explanation.len();
     if few > 0 && (few as u64) < suspects.found {
         let shown: Vec<String> =
-            suspects.explanation.iter().take(SHOWN).map(|suspect| names(&suspect.values)).collect();
+            suspects.explanation.iter().take(SHOWN).map(|suspect| values_in_words(&suspect.values)).collect();
         let more = if few > SHOWN { format!("; and {} more", few - SHOWN) } else { String::new() };
         table.row("  explained by", &format!("{}{more}", shown.join("; ")));
     }
@@ -112,9 +112,9 @@ fn rows(label: &str, lines: impl Iterator<Item = String>, none: &str, table: &mu
 /// A guilty combination, with what it explains and what it took.
 fn in_words(location: &Location) -> String {
     let Location { values, undivided, explains, starting, confirming, restarts, bound, tests, .. } = location;
-    let mut text = format!("{}: behind {}", names(values), plural(explains.len(), "failure"));
+    let mut text = format!("{}: behind {}", values_in_words(values), plural(explains.len(), "failure"));
     if undivided.iter().next().is_some() {
-        text.push_str(&format!("; constraints keep {} from being told apart", names(undivided)));
+        text.push_str(&format!("; constraints keep {} from being told apart", values_in_words(undivided)));
     }
     let mut ran = plural(tests.len() - starting - confirming, "test");
     match bound {
@@ -164,7 +164,7 @@ impl fmt::Display for Reason<'_> {
             Self::Refuted { values, passed } => write!(
                 f,
                 "changing {} makes tests pass, but {} with these values passed, too: the values alone are no cause",
-                values.map(names).unwrap_or_default(),
+                values.map(values_in_words).unwrap_or_default(),
                 plural(*passed, "test")
             ),
             Self::NoStart => f.write_str("with the discrete values of a passing test, this test fails, too"),
@@ -173,12 +173,6 @@ impl fmt::Display for Reason<'_> {
             Self::LimitReached => f.write_str("the limit of further tests was reached; --locate=N allows more"),
         }
     }
-}
-
-/// Values with their parameters.
-fn names(values: &Values) -> String {
-    let value = |value: &Value| value.number().map_or_else(|| value.to_string(), digits);
-    values.iter().map(|(name, of)| format!("{name} {}", value(of))).collect::<Vec<_>>().join(", ")
 }
 
 /// Lists the first indices.

@@ -63,6 +63,12 @@ fn a_page_opens_without_any_request_and_plays_the_worst_test() {
     let brushed = seen["brushed"].as_str().unwrap();
     assert!(brushed.ends_with("of 500 tests") && !brushed.starts_with("500"), "{brushed}");
     assert_eq!(seen["failing"], "65 of 500 tests");
+    let pointed = seen["pointed"].as_str().unwrap();
+    assert!(
+        pointed.starts_with("test 2: fail; no-collision -17.7") && pointed.contains("progress undecided"),
+        "{pointed}"
+    );
+    assert!(seen["byMatrix"].as_str().unwrap().contains("est 2"), "{}", seen["byMatrix"]);
     assert!(seen["byKeyboard"].as_str().unwrap().contains("fail"), "{}", seen["byKeyboard"]);
 }
 
@@ -123,6 +129,53 @@ fn a_page_shows_what_changed_since_a_baseline() {
     let Some(seen) = seen(&page, "look") else { return };
     let text = seen["text"].as_str().unwrap();
     assert!(text.contains("new failures: 1") && text.contains("mended: 7"), "{text}");
+}
+
+/// The findings of a page by their labels.
+fn findings(page: &Path) -> Vec<Value> {
+    let script = "import base64, gzip, json, re, sys\ntext = open(sys.argv[1]).read()\n\
+        part = re.search('id=\"document\">([^<]*)', text)[1]\n\
+        print(json.dumps(json.loads(gzip.decompress(base64.b64decode(part)))['findings']))";
+    let output = Command::new("python3").args(["-c", script]).arg(page).output().expect("python3 starts");
+    serde_json::from_slice(&succeeds(output).stdout).expect("JSON")
+}
+
+#[test]
+fn a_page_has_the_sensitivity_the_blame_and_the_suspects_as_tables() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "200", "--out", "out", "-q"]));
+    succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
+    let all = findings(&report(dir.path(), &[]));
+    let of = |label: &str| {
+        all.iter().find(|finding| finding["label"] == label).unwrap_or_else(|| panic!("{label}: {all:?}"))
+    };
+    // The table is the table of the command.
+    let command = stdout(&succeeds(fuzz(dir.path(), &["sensitivity", "out"])));
+    for row in of("sensitivity")["table"]["rows"].as_array().unwrap() {
+        let cells: Vec<&str> = row.as_array().unwrap().iter().map(|cell| cell.as_str().unwrap()).collect();
+        assert!(command.lines().any(|line| cells.iter().all(|cell| line.contains(cell))), "{cells:?}\n{command}");
+    }
+    let blame: Value = serde_json::from_slice(&fs::read(dir.path().join("out/blame.json")).unwrap()).unwrap();
+    for row in of("blame")["table"]["rows"].as_array().unwrap() {
+        let driver = row[0].as_str().unwrap();
+        assert_eq!(row[1], blame["prevents"][driver].to_string(), "{driver}");
+    }
+    fs::remove_dir_all(dir.path().join("out")).unwrap();
+    // The system fails for one pair of values.
+    let pair = r#"case $line in *'"a":"x","b":"u"'*) r=-1;; *) r=1;; esac"#;
+    let answer = r#"i=${line#*:}; i=${i%%,*}; echo "{\"index\":$i,\"robustness\":{\"above\":$r}}""#;
+    fs::write(dir.path().join("system.sh"), format!("while read -r line; do {pair}; {answer}; done\n")).unwrap();
+    let choice = |name: &str, levels: &str| format!("[[parameter]]\nname = \"{name}\"\nchoice = [{levels}]\n");
+    let space = choice("a", "\"x\", \"y\"") + &choice("b", "\"u\", \"v\"") + &choice("c", "\"p\", \"q\"");
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let system = ["--system", "sh system.sh"];
+    let run = ["run", "--space", "SPACE.toml", "--k", "3", "--budget", "8", "--locate", "--out", "out", "-q"];
+    succeeds(fuzz(dir.path(), &[&run[..], &system].concat()));
+    let all = findings(&report(dir.path(), &system));
+    for label in ["suspects", "located"] {
+        let found = all.iter().find(|finding| finding["label"] == label).unwrap_or_else(|| panic!("{label}: {all:?}"));
+        assert_eq!(found["table"]["rows"][0][0], "a x, b u", "{found}");
+    }
 }
 
 #[test]

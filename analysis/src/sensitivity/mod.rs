@@ -18,6 +18,7 @@ pub use study::{of_model, of_tests};
 
 use paracosm_campaign::{Problem, Reason};
 use serde::Serialize;
+use std::fmt;
 use thiserror::Error;
 
 /// The source of the values from which the indices are estimated.
@@ -42,6 +43,14 @@ pub struct Index {
     pub lower: f64,
     /// The upper end of the 95 % bootstrap interval.
     pub upper: f64,
+}
+
+impl fmt::Display for Index {
+    /// Writes the estimate with its interval, such as `0.291 (0.244 to 0.343)`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { estimate, lower, upper } = self;
+        write!(f, "{estimate:.3} ({lower:.3} to {upper:.3})")
+    }
 }
 
 /// The indices of a parameter. All coordinates of a signal together are one parameter.

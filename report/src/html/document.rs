@@ -135,6 +135,17 @@ pub struct Finding {
     pub label: &'static str,
     /// The sentences.
     pub lines: Vec<String>,
+    /// The numbers behind the sentences; `None` if there is no table.
+    pub table: Option<FindingTable>,
+}
+
+/// A table of a result. Each row has as many cells as there are columns.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FindingTable {
+    /// The titles of the columns.
+    pub head: Vec<String>,
+    /// The cells of each row.
+    pub rows: Vec<Vec<String>>,
 }
 
 impl Document {

@@ -14,7 +14,7 @@ mod run;
 mod runs;
 mod whole;
 
-pub use document::Finding;
+pub use document::{Finding, FindingTable};
 #[cfg(feature = "viewer")]
 pub(crate) use run::{Record, Recorder};
 pub use runs::Runs;

@@ -115,7 +115,7 @@ export interface Document {
   plausible: Record<string, [number, number]> | null;
   modes: { failures: number; modes: Mode[] };
   growth: Growth[];
-  findings: { label: string; lines: string[] }[];
+  findings: { label: string; lines: string[]; table: { head: string[]; rows: string[][] } | null }[];
   results: Record<string, unknown>;
   changes: Changes | null;
   tests: { all: number; rows: number; columns: Column[] };

@@ -5,6 +5,7 @@ import { type Document as Page, readDocument, readRun, readTests } from "./data"
 import { forgetThemes, h, themeButton } from "./dom";
 import { Film } from "./film";
 import { MapView } from "./map";
+import { Matrix } from "./matrix";
 import { Parallel } from "./parallel";
 import * as sections from "./sections";
 import { pageByNow, progress } from "./server";
@@ -48,6 +49,7 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0 }) 
       sections.findings(page),
       sections.growth(page),
       sections.requirements(store),
+      tests.robustness.length > 0 && tests.rows > 1 ? sections.section("matrix", "Requirements by test, in the order of the campaign", new Matrix(store).element) : null,
       sections.section("tests", "Tests: click a row to play it", new Table(store).element),
       sections.results(page),
       sections.about(page),

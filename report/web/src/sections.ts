@@ -99,7 +99,12 @@ export function section(id: string, title: string, ...children: (Node | null)[])
 
 export function findings(page: Document): HTMLElement | null {
   if (page.findings.length === 0) return null;
-  return section("findings", "Findings", h("dl", { class: "findings" }, ...page.findings.flatMap(({ label, lines }) => [h("dt", {}, label), ...lines.map((line) => h("dd", {}, line))])));
+  return section("findings", "Findings", h("dl", { class: "findings" }, ...page.findings.flatMap(({ label, lines, table }) => [
+    h("dt", {}, label), ...lines.map((line) => h("dd", {}, line)),
+    table ? h("dd", {}, h("table", { class: "plain" },
+      h("thead", {}, h("tr", {}, ...table.head.map((title) => h("th", { scope: "col" }, title)))),
+      h("tbody", {}, ...table.rows.map(([first, ...cells]) => h("tr", {}, h("th", { scope: "row" }, first), ...cells.map((cell) => h("td", {}, cell))))))) : null,
+  ])));
 }
 
 export function requirements(store: Store): HTMLElement {
