@@ -5,6 +5,7 @@
 
 use crate::statistics::{bootstrap_interval, clopper_pearson};
 use paracosm_campaign::{JsonArtefact, Log, Metric, Trial};
+use paracosm_generators::Strategy;
 use paracosm_perception::BINS;
 use paracosm_space::plural;
 use serde::Serialize;
@@ -105,7 +106,9 @@ impl Perceived {
         }
         let images = sum("images");
         let is_detector = tests.iter().any(|test| test.get("objects").is_some());
-        let is_sample = !log.study().sampling().strategy.is_adaptive();
+        // Tests that were chosen by hand or from earlier results say nothing about other tests.
+        let strategy = log.study().sampling().strategy;
+        let is_sample = !strategy.is_adaptive() && strategy != Strategy::GIVEN;
         Some(Self {
             perceiver,
             tests: tests.len(),

@@ -37,6 +37,8 @@ pub struct Campaign<'a> {
     darkroom: Option<Arc<Darkroom>>,
     /// The existing tests that the campaign counts as done, with the points of these tests in the space.
     extension: Option<(Extension, Vec<Point>)>,
+    /// The tests of a file that the campaign runs, as the file has them; empty if a strategy makes the tests.
+    given: Vec<Values>,
     known: Vec<Trial>,
     supervision: Supervision,
     /// Idle workers, which keep the processes that they started from one batch of tests to the next.
@@ -97,7 +99,17 @@ impl<'a> Campaign<'a> {
         let mut worker = Worker::until(study, supervision.clone())?;
         worker.start()?;
         let (darkroom, idle) = (worker.darkroom().cloned(), Mutex::new(vec![worker]));
-        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, extension: None, known: Vec::new(), supervision, idle })
+        Ok(Self {
+            study,
+            jobs,
+            at_once: AT_ONCE,
+            darkroom,
+            extension: None,
+            given: Vec::new(),
+            known: Vec::new(),
+            supervision,
+            idle,
+        })
     }
 
     /// Counts the tests of an extension as done, so that the strategy proposes tests in addition to the tests of the
@@ -106,7 +118,14 @@ impl<'a> Campaign<'a> {
     /// # Errors
     /// The tests cannot be read.
     pub fn extending(mut self, extension: &Extension) -> Result<Self, Error> {
-        self.extension = Some((extension.clone(), extension.points(self.study.space())?));
+        let space = self.study.space();
+        let points = if self.study.runs_given_tests() {
+            self.given = extension.valid(space)?;
+            self.given.iter().map(|test| Ok(space.encode(test)?)).collect::<Result<_, Error>>()?
+        } else {
+            extension.points(space)?
+        };
+        self.extension = Some((extension.clone(), points));
         Ok(self)
     }
 
@@ -174,7 +193,11 @@ impl<'a> Campaign<'a> {
                 finish = Finish::Exhausted;
                 break;
             }
-            let tests: Vec<Values> = points.iter().map(|point| study.space().decode(point)).collect();
+            // Points may be a rounding error away from the numbers of a file.
+            let tests: Vec<Values> = match self.given.get(done..done + points.len()) {
+                Some(given) if !self.given.is_empty() => given.to_vec(),
+                _ => points.iter().map(|point| study.space().decode(point)).collect(),
+            };
             let mut trials: Vec<Trial> = known.by_ref().take(tests.len()).collect();
             if let Some((trial, _)) = trials.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
                 return Err(foreign(trial));

@@ -100,6 +100,33 @@ impl Extension {
         Ok(tests_as_csv(space, &self.values(space)?))
     }
 
+    /// Returns the tests that keep all constraints of a space, with their numbers exactly as the file has them.
+    ///
+    /// # Errors
+    /// The same errors as [`points`](Self::points).
+    pub fn valid(&self, space: &Space) -> Result<Vec<Values>, Error> {
+        let mut valid = Vec::new();
+        for test in self.values(space)?.iter() {
+            if space.broken_as_written(test)?.is_none() {
+                valid.push(space.as_written(test)?);
+            }
+        }
+        Ok(valid)
+    }
+
+    /// Returns the texts of the constraints that tests break, each with the position of the test, from 0. The list has the first broken
+    /// constraint of each test.
+    ///
+    /// # Errors
+    /// The same errors as [`points`](Self::points).
+    pub fn broken<'s>(&self, space: &'s Space) -> Result<Vec<(usize, &'s str)>, Error> {
+        let mut broken = Vec::new();
+        for (at, test) in self.values(space)?.iter().enumerate() {
+            broken.extend(space.broken_as_written(test)?.map(|constraint| (at, constraint.text())));
+        }
+        Ok(broken)
+    }
+
     fn values(&self, space: &Space) -> Result<Cow<'_, [Values]>, Error> {
         let path = match &self.tests {
             Kept::Here(values) => return Ok(Cow::Borrowed(values)),

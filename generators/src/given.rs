@@ -57,8 +57,9 @@ impl Generator for Tests {
 }
 
 impl Strategy {
-    /// The strategy that proposes the existing tests of the request, in their order. A test that breaks a constraint is left out. The strategy
-    /// is not in [`all`](Self::all), because it makes no tests itself.
+    /// The strategy that proposes the existing tests of the request, in their order, also tests that break a constraint: a point may be a
+    /// rounding error away from the numbers of its test, so whoever has the numbers checks them. The strategy is not in [`all`](Self::all),
+    /// because it makes no tests itself.
     pub const GIVEN: Self = Self::of(&TESTS);
 
     /// Makes a strategy of given sets. A request with the seed s gets the set with the number s of exactly the size of the request. The
@@ -97,9 +98,9 @@ mod tests {
     use paracosm_space::Space;
 
     #[test]
-    fn the_existing_tests_of_a_request_are_proposed_once_in_their_order_unless_they_break_a_constraint() {
-        let space = Space::unit_cube(2).with_constraints(["x1 < 0.5"]).unwrap();
-        let existing = [points(0.3, 4), points(0.7, 1)].concat();
+    fn the_existing_tests_of_a_request_are_proposed_once_in_their_order() {
+        let space = Space::unit_cube(2);
+        let existing = points(0.3, 4);
         let request = Request { existing: &existing, ..Request::new(&space, 3) };
         let mut given = Strategy::GIVEN.build(&request).unwrap();
         assert_eq!([given.ask(3), given.ask(3), given.ask(3)].concat(), points(0.3, 4));

@@ -183,6 +183,16 @@ impl Space {
         self.constraints.iter().find(|constraint| !constraint.allows(point))
     }
 
+    /// Returns the first constraint of the space that a test breaks with its numbers as they are written. The point of the test may be a
+    /// rounding error away from them.
+    ///
+    /// # Errors
+    /// A parameter is missing or unknown, or has a value outside its domain.
+    pub fn broken_as_written(&self, test: &Values) -> Result<Option<&Constraint>, SpaceError> {
+        let row = self.encode(test)?.discrete;
+        Ok(self.constraints.iter().find(|constraint| !constraint.allows_written(&row, test)))
+    }
+
     /// Returns `true` if the levels of a test do not decide whether the test keeps the constraints, so that each test has to be
     /// checked. This is so if a constraint names a continuous parameter.
     pub fn checks_each_test(&self) -> bool {
@@ -298,6 +308,21 @@ impl Space {
             }
         }
         Ok(point)
+    }
+
+    /// Returns the values of a test in the order of the parameters, and levels as the space writes them. Numbers stay exactly as they are,
+    /// which the way through [`encode`](Self::encode) and [`decode`](Self::decode) does not promise.
+    ///
+    /// # Errors
+    /// A parameter is missing or unknown, or has a value outside its domain.
+    pub fn as_written(&self, test: &Values) -> Result<Values, SpaceError> {
+        let decoded = self.decode(&self.encode(test)?);
+        let written = self.parameters.iter().zip(decoded.iter()).map(|(parameter, (name, decoded))| {
+            let is_continuous = parameter.levels().is_none() && parameter.signal.is_none();
+            let number = test.get(name).and_then(Value::number).filter(|_| is_continuous);
+            (name.to_owned(), number.map_or_else(|| decoded.clone(), Value::Number))
+        });
+        Ok(written.collect())
     }
 }
 

@@ -81,7 +81,8 @@ impl Options {
         let study = self.study(catalogue, verbosity)?;
         let method: Method = self.method.parse()?;
         let question = Question { method, budget: self.budget, confidence: self.confidence, seed: self.seed };
-        let mut campaign = Campaign::new(&study)?;
+        let supervision = verbosity.supervision();
+        let mut campaign = Campaign::until(&study, supervision.clone())?;
         if let Some(jobs) = self.jobs {
             campaign = campaign.jobs(jobs);
         }
@@ -95,6 +96,7 @@ impl Options {
             Ok(())
         });
         bar.finish_and_clear();
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         let likelihood = likelihood?;
         print(&match self.form.format {
             Format::Table => table(&likelihood, &study),

@@ -36,11 +36,16 @@ pub(super) fn json(value: &impl serde::Serialize) -> String {
 
 /// Describes the tests of a source that break a constraint, with the first of these constraints; `None` if all keep them.
 pub(super) fn broken(space: &Space, tests: &[Point], source: &str) -> Option<String> {
-    let mut broken = tests.iter().enumerate().filter_map(|(at, test)| Some((at, space.broken(test)?.text())));
-    let (first, constraint) = broken.next()?;
-    let count = 1 + broken.count();
+    let broken = tests.iter().enumerate().filter_map(|(at, test)| Some((at, space.broken(test)?.text())));
+    broken_words(&broken.collect::<Vec<_>>(), tests.len(), source)
+}
+
+/// Says how many of the tests of a source break a constraint, from the position of each such test with the constraint.
+pub(super) fn broken_words(broken: &[(usize, &str)], tests: usize, source: &str) -> Option<String> {
+    let (first, constraint) = broken.first()?;
+    let count = broken.len();
     let (cover, count, first) = (if count == 1 { "covers" } else { "cover" }, plural(count, "test"), first + 1);
-    Some(format!("{count} of the {} in {source} {cover} nothing: test {first} breaks `{constraint}`", tests.len()))
+    Some(format!("{count} of the {tests} in {source} {cover} nothing: test {first} breaks `{constraint}`"))
 }
 
 /// A table with names on the left and values on the right.

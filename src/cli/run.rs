@@ -2,14 +2,14 @@
 
 use super::arguments::{CHOSEN, OUTPUT, REQUIRED, RUNNING};
 use super::github::StepSummary;
-use super::output::{Format, FormatOption, broken, json, plural};
+use super::output::{Format, FormatOption, broken, broken_words, json, plural};
 use super::progress::Progress;
 use super::sampling::Sampling;
 use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, program, report};
 use crate::analysis::Summary;
-use crate::generators::{Purpose, Strategy};
+use crate::generators::{GeneratorError, Purpose, Strategy};
 use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
@@ -145,9 +145,13 @@ impl Options {
         };
         let done_before = extension.as_ref().filter(|_| !study.runs_given_tests());
         if let Some(extension) = &extension {
-            let source = &extension.record().name;
-            if let Some(note) = broken(study.space(), &extension.points(study.space())?, source) {
-                let end = if done_before.is_none() { "; the campaign runs only tests that break none" } else { "" };
+            let (source, of_strategy) = (&extension.record().name, done_before.is_some());
+            let note = match of_strategy {
+                true => broken(study.space(), &extension.points(study.space())?, source),
+                false => broken_words(&extension.broken(study.space())?, extension.record().tests, source),
+            };
+            if let Some(note) = note {
+                let end = if of_strategy { "" } else { "; the campaign runs only tests that break none" };
                 verbosity.note(format!("{note}{end}"));
             }
         }
@@ -163,12 +167,13 @@ impl Options {
         }
         let ran = runner.run_into(&self.out, &mut [&mut progress]);
         progress.bar.finish_and_clear();
+        // An interrupted campaign has doubts, too, and the next run knows nothing of them.
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         let report = ran.map_err(|error| match progress.begun {
             true => cut_short(error, &self.out, progress.summary.tests()),
             false => error.into(),
         })?;
         self.note_end(&report, done_before, verbosity);
-        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         let printed =
             report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
         print(&match self.form.format {
@@ -325,6 +330,10 @@ impl Options {
     }
 
     fn strategy(&self) -> Result<Strategy, Error> {
+        let strategy = self.strategy.as_ref().map(|name| name.parse::<Strategy>()).transpose()?;
+        if strategy == Some(Strategy::GIVEN) && self.tests.is_none() {
+            return Err(GeneratorError::NoTests { strategy: Strategy::GIVEN.name() }.into());
+        }
         Ok(match (&self.strategy, &self.extend) {
             _ if self.tests.is_some() => Strategy::GIVEN,
             (Some(name), _) => name.parse()?,

@@ -68,7 +68,8 @@ impl Options {
         if !study.is_of_this_software() {
             verbosity.note("the campaign was run by another version of this software; the tests are run by this one");
         }
-        let mut campaign = Campaign::new(study)?;
+        let supervision = verbosity.supervision();
+        let mut campaign = Campaign::until(study, supervision.clone())?;
         if let Some(jobs) = self.jobs {
             campaign = campaign.jobs(jobs);
         }
@@ -82,6 +83,7 @@ impl Options {
             Ok(())
         });
         bar.finish_and_clear();
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         Ok(sensitivity?)
     }
 }

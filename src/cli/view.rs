@@ -5,8 +5,11 @@ use crate::Report;
 use crate::report::viewer::{Doorway, Viewer};
 use clap::Args;
 use paracosm_campaign::{Catalogue, Error, Log};
+#[cfg(unix)]
+use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::thread;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -73,6 +76,13 @@ fn opened(address: &str) -> bool {
         if *opener == "gio" {
             command.arg("open");
         }
-        command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().is_ok()
+        command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        // Ctrl-C ends the viewer, and not a browser that it has started.
+        #[cfg(unix)]
+        command.process_group(0);
+        let Ok(mut program) = command.spawn() else { return false };
+        // Somebody has to wait for the program once it has ended.
+        thread::spawn(move || program.wait());
+        true
     })
 }

@@ -198,3 +198,54 @@ fn tests_that_cannot_run_are_refused_and_tests_that_break_a_constraint_are_left_
     );
     assert_eq!(trials.lines().count(), 3);
 }
+
+#[test]
+fn a_campaign_runs_the_numbers_of_a_file_to_the_last_digit() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    // Through the unit cube, 1.3 of 0.5..10 would become 1.3000000000000003, and 6.9 would become 6.900000000000001.
+    fs::write(dir.join("t.csv"), "speed,distance\n1.3,57.7\n6.9,50.7\n").unwrap();
+    let given = ["--tests", "t.csv"];
+    succeeds(fuzz(dir, &[&given[..], &["--out", "a"]].concat()));
+    let log = fs::read_to_string(dir.join("a/trials.jsonl")).unwrap();
+    let line = |at: usize| serde_json::from_str::<serde_json::Value>(log.lines().nth(at).unwrap()).unwrap();
+    assert_eq!(log.lines().count(), 2);
+    assert_eq!(line(0)["test"], serde_json::json!({"speed": 1.3, "distance": 57.7}));
+    assert_eq!(line(1)["test"], serde_json::json!({"speed": 6.9, "distance": 50.7}));
+    succeeds(fuzz(dir, &["--set", "speed=1.3", "--set", "distance=57.7", "--out", "one"]));
+    let one = fs::read_to_string(dir.join("one/trials.jsonl")).unwrap();
+    let one: serde_json::Value = serde_json::from_str(one.lines().next().unwrap()).unwrap();
+    assert_eq!(one["trace_hash"], line(0)["trace_hash"], "--set runs the same test");
+    // A campaign that is cut off and continued has the same bytes, and can be repeated.
+    let first = log.lines().next().unwrap();
+    fs::write(dir.join("a/trials.jsonl"), format!("{first}\n")).unwrap();
+    succeeds(fuzz(dir, &[&given[..], &["--out", "a", "--resume"]].concat()));
+    assert_eq!(fs::read_to_string(dir.join("a/trials.jsonl")).unwrap(), log);
+    succeeds(fuzz(dir, &["repeat", "a", "--out", "again"]));
+}
+
+#[test]
+fn a_constraint_judges_the_numbers_of_a_file_as_they_are_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let answer = r#"i=${line#*:}; i=${i%%,*}; echo "{\"index\":$i,\"robustness\":{\"above\":1}}""#;
+    fs::write(dir.path().join("system.sh"), format!("while read -r line; do {answer}; done\n")).unwrap();
+    let speed = "[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10]\n";
+    fs::write(dir.path().join("SPACE.toml"), format!("constraints = [\"speed <= 6.9\"]\n{speed}")).unwrap();
+    fs::write(dir.path().join("t.csv"), "speed\n6.9\n7\n1.3\n").unwrap();
+    let run = ["run", "--system", "sh system.sh", "--space", "SPACE.toml", "--tests", "t.csv"];
+    let output = succeeds(fuzz(dir.path(), &run));
+    assert!(stderr(&output).contains("1 test of the 3 in t.csv covers nothing: test 2 breaks"), "{}", stderr(&output));
+    let log = fs::read_to_string(dir.path().join("paracosm-out/trials.jsonl")).unwrap();
+    let tests: Vec<serde_json::Value> = log
+        .lines()
+        .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap()["test"]["speed"].clone())
+        .collect();
+    assert_eq!(tests, [6.9, 1.3]);
+}
+
+#[test]
+fn the_strategy_of_a_file_needs_the_file_also_with_extend() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("t.csv"), "speed,distance\n2,20\n").unwrap();
+    refused(&fuzz(dir.path(), &["--strategy", "given", "--extend", "t.csv"]), &["--tests TESTS.csv"]);
+}

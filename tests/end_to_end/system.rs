@@ -244,6 +244,29 @@ fn a_process_is_started_once_for_each_worker_also_by_adaptive_strategies() {
 }
 
 #[test]
+fn every_command_that_runs_tests_says_which_errors_did_not_repeat() {
+    let dir = tempfile::tempdir().unwrap();
+    // Each process answers one test, and breaks at the second.
+    let worn_out = |answer: &str| format!("n=$((n+1)); [ $n -gt 1 ] && exit 1; {answer}");
+    script(dir.path(), &worn_out(ROBUSTNESS));
+    let aloud = |out: &str, more: &[&str]| {
+        let system = ["--system", "sh system.sh", "--space", "SPACE.toml", "--out", out];
+        fuzz(dir.path(), &[&system[..], more].concat())
+    };
+    let said = succeeds(aloud("out", &["--budget", "20"]));
+    assert!(stderr(&said).contains("had a result when"), "{}", stderr(&said));
+    let sensitivity = ["sensitivity", "out", "--system", "sh system.sh", "--budget", "100"];
+    let said = succeeds(fuzz(dir.path(), &sensitivity));
+    assert!(stderr(&said).contains("had a result when"), "{}", stderr(&said));
+    // An answer that says that the test could not be run is no result.
+    let diverged = r#"echo "{\"index\":$i,\"error\":\"diverged\"}""#;
+    script(dir.path(), &worn_out(&format!("if [ -e begun ]; then {diverged}; else touch begun; {ROBUSTNESS}; fi")));
+    let said = aloud("diverged", &["--budget", "5", "--jobs", "1"]);
+    assert!(!stderr(&said).contains("had a result when"), "{}", stderr(&said));
+    assert!(stdout(&said).contains("error                 4"), "{}", stdout(&said));
+}
+
+#[test]
 fn a_process_that_ends_between_tests_is_started_again() {
     let dir = tempfile::tempdir().unwrap();
     // The second ends before its answer arrives.

@@ -12,17 +12,20 @@ import { pageByNow, progress } from "./server";
 import { Store } from "./store";
 import { Table } from "./table";
 
-/** What a page keeps when it is made again: the axes of the map, and how far it is scrolled. */
+/** What a page keeps when it is made again. */
 interface Kept {
   axes: [number, number] | null;
   scroll: number;
+  /** The new tests that were run from the page. */
+  tried: Store["tried"];
 }
 
-async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0 }) {
+async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0, tried: [] }) {
   const page = await readDocument();
   const tests = await readTests(page.tests);
   const film = new Film(() => store);
   const store: Store = new Store(page, tests, (index) => void film.show(index), (index) => readRun(page, index), (numbers) => void film.attempt(numbers));
+  store.tried.push(...kept.tried);
   const { study } = page;
   const map = page.axes === null ? null : new MapView(store, kept.axes);
   const canTry = page.served && page.coordinates.length > 0;
@@ -61,8 +64,8 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0 }) 
     setTimeout(() => map?.prepare(), 300);
     if (page.served && study.unfinished) {
       follow(page, unfinished, {
-        isBusy: () => store.isFiltered || store.tried.length > 0 || film.isBusy,
-        restart: () => start(root, { axes: map?.shown ?? null, scroll: scrollY }),
+        isBusy: () => store.isFiltered || store.tried.length > 0 || film.isBusy || (map?.isZoomed ?? false) || root.querySelector(":focus-visible") !== null,
+        restart: () => start(root, { axes: map?.shown ?? null, scroll: scrollY, tried: store.tried }),
       });
     }
   }));
@@ -73,11 +76,18 @@ const soFar = (page: Page, tests: number) => `The campaign has not ended: ${test
 /** Follows a campaign that still runs: tells of new tests, and shows them unless the user is busy with the tests on the page. */
 function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; restart: () => Promise<void> }) {
   const shown = page.tests.all;
+  let next = 0;
+  const later = () => (next = window.setTimeout(look, pause));
+  const ended = (error: unknown) => {
+    place.textContent = `The page no longer follows the campaign: ${error instanceof Error ? error.message : String(error)}`;
+  };
   const refresh = async (isAsked: boolean) => {
+    // The page that is made again looks by itself.
+    window.clearTimeout(next);
     const begun = performance.now();
     const fresh = await pageByNow();
     // The user may have begun something meanwhile.
-    if (!isAsked && part.isBusy()) return void setTimeout(look, pause);
+    if (!isAsked && part.isBusy()) return void later();
     for (const id of ["document", "tests"]) document.getElementById(id)!.textContent = fresh.getElementById(id)!.textContent;
     forgetThemes();
     await part.restart();
@@ -88,14 +98,13 @@ function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; r
     try {
       const { tests, unfinished } = await progress();
       if ((tests > shown || !unfinished) && !part.isBusy()) return await refresh(false);
-      place.replaceChildren(soFar(page, tests), tests > shown ? h("button", { type: "button", class: "quiet", click: () => void refresh(true) }, `Show ${tests - shown} new tests`) : "");
+      place.replaceChildren(soFar(page, tests), tests > shown ? h("button", { type: "button", class: "quiet", click: () => void refresh(true).catch(ended) }, `Show ${tests - shown} new tests`) : "");
     } catch (error) {
-      place.textContent = `The page no longer follows the campaign: ${error instanceof Error ? error.message : String(error)}`;
-      return;
+      return ended(error);
     }
-    setTimeout(look, pause);
+    later();
   };
-  setTimeout(look, pause);
+  later();
 }
 
 /** The milliseconds between two looks at a campaign that still runs. */

@@ -6,6 +6,7 @@ import { select } from "d3-selection";
 import { zoom, zoomIdentity, type ZoomTransform } from "d3-zoom";
 import { plain, type Grid } from "./data";
 import { colour, h, Sheet } from "./dom";
+import { pointed } from "./words";
 import type { Store } from "./store";
 import { type Line, paintTests } from "./cloud";
 import { mark, sign, verdictColour } from "./marks";
@@ -145,6 +146,11 @@ export class MapView {
     const { hole, coordinates } = this.store.page;
     const [x, y] = this.axes.map((at) => coordinates[at].name);
     return hole && hole[x] && hole[y] ? [hole[x], hole[y]] : null;
+  }
+
+  /** True if the user looks at a part of the map. */
+  get isZoomed(): boolean {
+    return this.transform.k !== 1;
   }
 
   /** The scales of a map in pixels from its corner, before it is zoomed. */
@@ -375,9 +381,11 @@ export class MapView {
     const [bx, by] = this.base(facet);
     const near = this.treeOf(facet).find(bx(x.invert(px)), by(y.invert(py)));
     const numbers = near === undefined ? store.middle() : store.numbersOf(near);
-    [x.invert(px), y.invert(py)].forEach((value, i) => {
-      const [lo, hi] = store.page.coordinates[this.axes[i]].range ?? [0, 1];
-      numbers[this.axes[i]] = Math.min(hi, Math.max(lo, Number(value.toPrecision(4))));
+    [[x, px] as const, [y, py] as const].forEach(([scale, at], i) => {
+      // The domain of a scale is what is in sight.
+      const [from, to] = scale.domain();
+      const range = store.page.coordinates[this.axes[i]].range ?? [0, 1];
+      numbers[this.axes[i]] = pointed(scale.invert(at), Math.abs(to - from), range);
     });
     if (this.facetBy >= 0) numbers[this.facetBy] = this.facets.indexOf(facet);
     return numbers;

@@ -20,7 +20,7 @@ async function ask<T>(path: string, body?: unknown): Promise<T> {
   try {
     reply = await fetch(path, how);
   } catch {
-    throw new Error("the viewer does not answer: start `paracosm-fuzz view` again");
+    throw new Error("the viewer does not answer: start `view` again");
   }
   if (!reply.ok) throw new Error((await reply.text()) || `the viewer refuses (${reply.status})`);
   return (await reply.json()) as T;

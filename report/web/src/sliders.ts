@@ -2,7 +2,7 @@
 
 import type { Coordinate } from "./data";
 import { h } from "./dom";
-import { withUnit } from "./words";
+import { pointed, withUnit } from "./words";
 
 export class Sliders {
   readonly element: HTMLElement;
@@ -11,7 +11,8 @@ export class Sliders {
   constructor(coordinates: Coordinate[], readonly numbers: number[], changed: (numbers: number[], isDone: boolean) => void) {
     const parts = coordinates.map((coordinate, at) => {
       const set = (text: string, isDone: boolean) => {
-        this.numbers[at] = Number(Number(text).toPrecision(5));
+        const { range } = coordinate;
+        this.numbers[at] = range ? pointed(Number(text), range[1] - range[0], range) : Number(text);
         changed([...this.numbers], isDone);
       };
       if (!coordinate.range) {

@@ -21,3 +21,10 @@ export function percent(share: number): string {
 export function withUnit(number: Real | undefined, unit: string | null): string {
   return unit ? `${digits(number)} ${unit}` : digits(number);
 }
+
+/** A value that somebody has pointed at, with no more digits than a thousandth of the width in sight, and within the range of its coordinate. */
+export function pointed(value: number, width: number, [lo, hi]: [number, number]): number {
+  const step = 10 ** Math.floor(Math.log10(Math.max(width, Number.MIN_VALUE) / 1000));
+  const rounded = Number((Math.round(value / step) * step).toPrecision(12));
+  return Math.min(hi, Math.max(lo, Number.isFinite(rounded) ? rounded : value));
+}

@@ -53,7 +53,7 @@ pub use term::{Function, Term};
 pub(crate) use token::enclosed;
 
 use crate::rules::Clause;
-use crate::{Parameter, Point};
+use crate::{Parameter, Point, Values};
 use condition::{Condition, Resolver};
 use over::Over;
 
@@ -123,6 +123,14 @@ impl Constraint {
     pub fn allows(&self, point: &Point) -> bool {
         self.condition.holds(&point.discrete)
             && self.over.as_ref().is_none_or(|over| over.allows(&self.expression, point))
+    }
+
+    /// Returns `true` if a test keeps the constraint with its numbers as they are written. `row` has the levels of the test.
+    ///
+    /// # Panics
+    /// The row lacks a level for a parameter that the constraint names, or the level does not exist.
+    pub(crate) fn allows_written(&self, row: &[usize], test: &Values) -> bool {
+        self.condition.holds(row) && self.over.as_ref().is_none_or(|over| over.allows_written(&self.expression, test))
     }
 
     /// Returns whether the tests of a part of the space keep the constraint: those with the levels in `row`, and with

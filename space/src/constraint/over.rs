@@ -5,7 +5,7 @@ use super::span::Span;
 use super::truth::{Known, truth};
 use super::{ConstraintError, Expression, parse, table};
 use crate::domain::at;
-use crate::{Domain, Parameter, Point, Value};
+use crate::{Domain, Parameter, Point, Value, Values};
 
 /// The parameters of a constraint, with their places in a test.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,6 +85,16 @@ impl Over {
                 Place::Continuous { position, lo, hi } => Known::Quantity(at(*lo, *hi, point.continuous[*position])),
                 Place::Discrete { position, levels } => Known::of(&levels[point.discrete[*position]]),
             })
+        };
+        truth(expression, &known) == Some(true)
+    }
+
+    /// Returns `true` if a test keeps the expression with its numbers as they are written: the coordinates of a point may be a rounding error
+    /// away from them.
+    pub fn allows_written(&self, expression: &Expression, test: &Values) -> bool {
+        let known = |name: &str| {
+            self.place(name)?;
+            Some(Known::<f64>::of(test.get(name)?))
         };
         truth(expression, &known) == Some(true)
     }
