@@ -65,7 +65,7 @@ pub(crate) fn sensitivity(log: &Log) -> Option<Finding> {
     (!rows.is_empty()).then(|| Finding { label: "sensitivity", lines, table: Some(table(&head, rows)) })
 }
 
-/// Returns the results of `blame`, from its file.
+/// Returns the results of `blame`, from its file; `None` if no test failed.
 pub(crate) fn blame(file: &Value) -> Option<Finding> {
     let counts = |of: &str| -> Option<Vec<(String, u64)>> {
         let counts = file.get(of)?.as_object()?.iter();
@@ -73,8 +73,11 @@ pub(crate) fn blame(file: &Value) -> Option<Finding> {
     };
     let (faults, prevents) = (counts("faults")?, counts("prevents")?);
     let failures: u64 = faults.iter().map(|(_, count)| count).sum();
+    if failures == 0 {
+        return None;
+    }
     let said = faults.iter().filter(|(_, count)| *count > 0).map(|(fault, count)| format!("{count} {fault}"));
-    let lines = vec![format!("Of {}: {}.", plural(failures as usize, "failure"), said.collect::<Vec<_>>().join(", "))];
+    let lines = vec![format!("{}: {}.", plural(failures as usize, "failure"), said.collect::<Vec<_>>().join(", "))];
     let mut prevents = prevents;
     prevents.sort_by_key(|(_, count)| Reverse(*count));
     let rows = prevents.into_iter().map(|(driver, count)| vec![driver, count.to_string()]).collect();

@@ -195,8 +195,8 @@ impl<'a> Campaign<'a> {
             }
             // Points may be a rounding error away from the numbers of a file.
             let tests: Vec<Values> = match self.given.get(done..done + points.len()) {
-                Some(given) if !self.given.is_empty() => given.to_vec(),
-                _ => points.iter().map(|point| study.space().decode(point)).collect(),
+                Some(given) => given.to_vec(),
+                None => points.iter().map(|point| study.space().decode(point)).collect(),
             };
             let mut trials: Vec<Trial> = known.by_ref().take(tests.len()).collect();
             if let Some((trial, _)) = trials.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {

@@ -35,6 +35,7 @@ pub mod traceability;
 mod trials;
 #[cfg(feature = "viewer")]
 pub mod viewer;
+mod with_units;
 pub mod write_up;
 mod xml;
 

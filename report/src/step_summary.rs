@@ -4,6 +4,7 @@
 //! Markdown viewer. Names and messages come from files of anybody, so every character that Markdown or HTML could read is written as a number.
 
 use crate::html::Finding;
+use crate::with_units::with_units;
 use crate::{FailureMap, Mark, shell_word};
 use paracosm_analysis::{Modes, Plausible, Summary, Worst};
 use paracosm_campaign::{Log, Trial};
@@ -75,7 +76,11 @@ impl StepSummary<'_> {
             (0, ..) => "⚠️ No test has run".to_owned(),
             (_, 1.., _) => format!("❌ {fail} of {} fail ({share:.1} %), {pass} pass", plural(all, "test")),
             (.., 0) => format!("⚠️ None of {} shows whether it passes", plural(all, "test")),
-            _ => format!("✅ No failure in {}: {pass} pass", plural(all, "test")),
+            _ => {
+                // That no test fails says little if tests have no result.
+                let sign = if pass == 0 || count(Verdict::Error) > 0 { "⚠️" } else { "✅" };
+                format!("{sign} No failure in {}: {pass} pass", plural(all, "test"))
+            }
         };
         let others = [Verdict::Unpreventable, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
         let others = others.into_iter().filter(|verdict| count(*verdict) > 0);
@@ -105,16 +110,12 @@ impl StepSummary<'_> {
         let study = self.log.study();
         let unit = study.requirement(&worst.requirement).map_or("", |stated| stated.unit.as_str());
         let robustness = trial.robustness(&worst.requirement).map_or("undecided".to_owned(), digits);
-        let values = study.space().parameters().iter().zip(trial.test.iter()).map(|(parameter, (name, value))| {
-            let value = value.number().map_or_else(|| value.to_string(), digits);
-            format!("{name} {value} {}", parameter.unit.as_deref().unwrap_or_default()).trim_end().to_owned()
-        });
         let _ = writeln!(
             text,
             "**{title}**: test {}, {}. {}\n",
             worst.index,
             escaped(format!("{} {robustness} {unit}", worst.requirement).trim_end()),
-            escaped(&values.collect::<Vec<_>>().join(", ")),
+            escaped(&with_units(study, &trial.test)),
         );
     }
 

@@ -156,6 +156,14 @@ impl Options {
         for (option, file) in [("--trace", &self.trace), ("--camera", &self.camera), ("--mcap", &self.mcap)] {
             file.as_deref().map_or(Ok(()), |file| is_ours_to_write(option, file, &inputs))?;
         }
+        if let Some(file) = &self.mcap {
+            if file.extension().is_none_or(|ending| ending != "mcap") {
+                return Err(usage(format!("--mcap {}: expected FILE.mcap", file.display())).into());
+            }
+            if self.trace.as_ref() == Some(file) {
+                return Err(usage(format!("--trace and --mcap are both {}: choose two files", file.display())).into());
+            }
+        }
         for (option, file) in [("--trace", &self.trace), ("--mcap", &self.mcap)] {
             file.as_deref().map_or(Ok(()), |file| has_folder(option, file))?;
         }

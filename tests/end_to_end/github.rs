@@ -49,6 +49,28 @@ fn a_campaign_without_a_failure_and_one_that_shows_nothing_say_so() {
 }
 
 #[test]
+fn no_failure_beside_errors_is_a_warning() {
+    let dir = tempfile::tempdir().unwrap();
+    let answer = r#"i=${line#*:}; i=${i%%,*}; [ $i = 0 ] || exit 1; echo "{\"index\":0,\"robustness\":{\"safe\":1}}""#;
+    fs::write(dir.path().join("system.sh"), format!("while read -r line; do {answer}; done\n")).unwrap();
+    fs::write(dir.path().join("SPACE.toml"), "[[parameter]]\nname = \"a\"\ninterval = [0, 1]\n").unwrap();
+    let run = [
+        "run",
+        "--system",
+        "sh system.sh",
+        "--space",
+        "SPACE.toml",
+        "--budget",
+        "6",
+        "--github",
+        "--fail-on-violation",
+    ];
+    assert_eq!(step(dir.path(), &run).status.code(), Some(2));
+    let text = fs::read_to_string(dir.path().join("summary.md")).unwrap();
+    assert!(text.contains("⚠️ No failure in 6 tests: 1 pass, 5 error"), "{text}");
+}
+
+#[test]
 fn names_of_strangers_are_text_in_a_summary() {
     let dir = tempfile::tempdir().unwrap();
     let hostile = "<img src=x onerror=alert(1)> | ``` @everyone [x](http://example.com) \u{202e}";

@@ -81,9 +81,22 @@ fn options_of_a_file_need_the_file_and_its_folder() {
     refused(&fuzz(dir, &["replay", "c", "0", "--lidar"]), &["--mcap"]);
     refused(&fuzz(dir, &["replay", "c", "0", "--mcap", "no/run.mcap"]), &["--mcap", "no"]);
     refused(&fuzz(dir, &["replay", "c", "0", "--mcap", "c/campaign.json"]), &["campaign.json"]);
+    refused(&fuzz(dir, &["replay", "c", "0", "--mcap", "run.csv"]), &["--mcap run.csv: expected FILE.mcap"]);
+    let same = ["replay", "c", "0", "--trace", "a.mcap", "--mcap", "a.mcap"];
+    refused(&fuzz(dir, &same), &["--trace and --mcap are both a.mcap"]);
     refused(&fuzz(dir, &["replay", "c/campaign.json", "--mcap", "run.mcap"]), &["--mcap"]);
     let log = fs::read_to_string(dir.join("c/trials.jsonl")).unwrap();
     fs::write(dir.join("c/trials.jsonl"), log.replace("\"trace_hash\":\"6", "\"trace_hash\":\"7")).unwrap();
     refused(&fuzz(dir, &["replay", "c", "0", "--mcap", "run.mcap"]), &["differs from the log"]);
     assert!(!dir.join("run.mcap").exists(), "a file of another run would mislead");
+}
+
+#[test]
+fn a_violation_with_a_robustness_of_0_is_an_event() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    crash(dir, &["run", "--out", "c", "--spec", "always (not (car.speed == car.speed))"]);
+    fuzz(dir, &["replay", "c", "0", "--mcap", "run.mcap"]);
+    let bytes = fs::read(dir.join("run.mcap")).unwrap();
+    assert!(String::from_utf8_lossy(&bytes).contains("spec-1 is violated"));
 }

@@ -161,6 +161,12 @@ fn a_page_has_the_sensitivity_the_blame_and_the_suspects_as_tables() {
         assert_eq!(row[1], blame["prevents"][driver].to_string(), "{driver}");
     }
     fs::remove_dir_all(dir.path().join("out")).unwrap();
+    // Without a failure there is nobody to blame.
+    succeeds(fuzz(dir.path(), &["--set", "speed=0.5", "--set", "distance=20", "--out", "out", "-q"]));
+    succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
+    let none = findings(&report(dir.path(), &[]));
+    assert!(none.iter().all(|finding| finding["label"] != "blame"), "{none:?}");
+    fs::remove_dir_all(dir.path().join("out")).unwrap();
     // The system fails for one pair of values.
     let pair = r#"case $line in *'"a":"x","b":"u"'*) r=-1;; *) r=1;; esac"#;
     let answer = r#"i=${line#*:}; i=${i%%,*}; echo "{\"index\":$i,\"robustness\":{\"above\":$r}}""#;

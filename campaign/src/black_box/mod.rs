@@ -125,7 +125,7 @@ impl Connection {
         match self.ask_process(index, &question) {
             Err(first) if has_past && !self.supervision.stop.load(Ordering::Relaxed) => {
                 let answer = self.ask_process(index, &question);
-                if matches!(&answer, Ok(answer) if !matches!(answer, Answer::NotDone { .. })) {
+                if let Ok(Answer::Trace(_) | Answer::Robustness(_)) = &answer {
                     self.supervision.doubts.recover(index, &first.message);
                 }
                 answer

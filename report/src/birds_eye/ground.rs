@@ -17,7 +17,7 @@ const GROUND: Colour = [0xe4, 0xea, 0xdb];
 const ARROW: Paint = Paint { colour: [0xff, 0xff, 0xff], opacity: 0.3 };
 
 /// Returns the colour in which a surface of the ground is drawn.
-fn colour(surface: Surface) -> Colour {
+pub(crate) fn colour(surface: Surface) -> Colour {
     match surface {
         Surface::Sidewalk => [0xd6, 0xd2, 0xca],
         Surface::Carriageway => [0x5b, 0x5f, 0x66],

@@ -11,7 +11,7 @@
 mod animation;
 mod body;
 mod drawing;
-mod ground;
+pub(crate) mod ground;
 mod labels;
 mod legend;
 mod pages;

@@ -99,7 +99,14 @@ fn packed(page: &Page, rows: &[&Trial]) -> Packed {
         }
     }
     for judged in page.summary.requirements() {
-        column("robustness", Some(judged.id.clone()), "f32", floats(&|trial| trial.robustness(&judged.id)));
+        // A violation may have a robustness of 0: its sign says so.
+        let signed = |trial: &Trial| {
+            trial.robustness(&judged.id).map(|robustness| match robustness {
+                0.0 if trial.violates(&judged.id) => -0.0,
+                robustness => robustness,
+            })
+        };
+        column("robustness", Some(judged.id.clone()), "f32", floats(&signed));
     }
     let described = Tests { all: page.log.trials().len(), rows: rows.len(), columns };
     Packed { described, text: base64(&gzip(&bytes)) }

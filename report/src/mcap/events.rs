@@ -4,10 +4,10 @@ use super::Recorded;
 use super::recorder::Recorder;
 use super::scene::stamp;
 use super::tape::Tape;
-use crate::margin::margins;
+use crate::with_units::with_units;
 use foxglove::messages::{Log, log::Level};
-use paracosm_campaign::Error;
-use paracosm_oracles::Verdict;
+use paracosm_campaign::{Error, StatedRequirement};
+use paracosm_oracles::{Monitor, Trace, Truth, Verdict};
 use std::io::{Seek, Write};
 
 /// The topic of the events.
@@ -26,18 +26,11 @@ pub(super) fn tell<W: Write + Seek>(
         tape.say(events, time, &log);
     };
     let Recorded { study, trial, trace, .. } = recorded;
-    let values = study.space().parameters().iter().zip(trial.test.iter()).map(|(parameter, (name, value))| {
-        let unit = parameter.unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
-        format!("{name} {value}{unit}")
-    });
-    let values = values.collect::<Vec<_>>().join(", ");
+    let values = with_units(study, &trial.test);
     say(0.0, Level::Info, "test", format!("test {} begins: {values}", trial.index));
-    for margin in trace.iter().flat_map(|trace| margins(study, trace).into_iter().map(|margin| (trace.dt(), margin))) {
-        let (dt, margin) = margin;
-        // From here on, nothing that follows can satisfy the requirement.
-        if let Some(tick) = margin.bounds.iter().position(|(_, upper)| *upper < 0.0) {
-            let message = format!("{} is violated: {}", margin.requirement.id, margin.requirement.text);
-            say(tick as f64 * dt, Level::Error, "requirement", message);
+    for requirement in study.requirements() {
+        if let Some(time) = trace.and_then(|trace| violated_at(requirement, trace)) {
+            say(time, Level::Error, "requirement", format!("{} is violated: {}", requirement.id, requirement.text));
         }
     }
     let moments = recorder.moments.last().map(|last| last.time);
@@ -54,4 +47,17 @@ pub(super) fn tell<W: Write + Seek>(
     let why = trial.error().map(|error| format!(": {error}")).unwrap_or_default();
     say(end, level, "verdict", format!("{}{why}", trial.verdict));
     Ok(())
+}
+
+/// Returns the time in seconds from which a requirement is violated, whatever follows; `None` if it is not violated. The bounds of the
+/// robustness do not tell, because the robustness of a violation may be 0.
+fn violated_at(requirement: &StatedRequirement, trace: &Trace) -> Option<f64> {
+    let mut monitor = Monitor::new(requirement.formula.as_ref()?, trace.signals(), trace.dt()).ok()?;
+    for (tick, row) in trace.rows().enumerate() {
+        if monitor.step(row).ok()? == Truth::Violated {
+            return Some(tick as f64 * trace.dt());
+        }
+    }
+    let is_violated = monitor.finish(trace.is_complete()).truth == Truth::Violated;
+    is_violated.then(|| trace.len().saturating_sub(1) as f64 * trace.dt())
 }

@@ -1,5 +1,6 @@
 //! The images of cameras, with the frame and the calibration of each camera.
 
+use super::recorder::CAMERA;
 use super::scene::{frame, stamp};
 use super::tape::Tape;
 use crate::record::image::{Pixels, png};
@@ -18,8 +19,6 @@ pub(super) struct Images<'a, W: Write + Seek> {
     /// The name of the ego vehicle, which carries the cameras.
     pub ego: &'a str,
     pub tape: &'a mut Tape<W>,
-    /// The number of messages so far.
-    pub messages: usize,
 }
 
 impl<W: Write + Seek> Images<'_, W> {
@@ -42,7 +41,7 @@ impl<W: Write + Seek> Images<'_, W> {
         (name, spec): (&str, &CameraSpec),
         missing: &mut Missing<'_>,
     ) -> Result<(), Error> {
-        let (frame_id, tape) = (format!("camera {name}"), &mut *self.tape);
+        let (frame_id, tape) = (format!("{CAMERA}{name}"), &mut *self.tape);
         let frames = tape.topic::<FrameTransforms>(&format!("/tf/camera/{name}"), &[])?;
         let images = tape.topic::<CompressedImage>(&format!("/camera/{name}/image"), &[])?;
         let calibrations = tape.topic::<CameraCalibration>(&format!("/camera/{name}/calibration"), &[])?;
@@ -50,7 +49,7 @@ impl<W: Write + Seek> Images<'_, W> {
         let first = film.shots[place].first().map_or(0.0, |shot| shot.time);
         let transforms = vec![frame(stamp(first), self.ego, &frame_id, &optical(&camera))];
         tape.say(frames, first, &FrameTransforms { transforms });
-        let mut messages = tape.flush()?;
+        tape.flush()?;
         projector.show(film, place, |shots| {
             shots.iter().for_each(|(shot, seen)| missing.see(shot, seen));
             let drawn = shots.par_iter().filter_map(|(shot, seen)| {
@@ -64,11 +63,8 @@ impl<W: Write + Seek> Images<'_, W> {
                 tape.say(images, time, &image);
                 tape.say(calibrations, time, &calibration(time, &image.frame_id, &camera));
             }
-            messages += tape.flush()?;
-            Ok(())
-        })?;
-        self.messages += messages;
-        Ok(())
+            tape.flush()
+        })
     }
 }
 

@@ -82,14 +82,12 @@ impl Recorded<'_> {
         };
         let (draft, file) = Draft::new(path)?;
         let mut tape = Tape::begin(BufWriter::new(file), path)?;
-        let mut messages = self.tell(recorder, &mut tape)?;
+        self.tell(recorder, &mut tape)?;
         let mut notes = Vec::new();
         if let Some((film, projector, cameras)) = &mut drawn {
-            let mut images = Images { ego: recorder.ego(), tape: &mut tape, messages: 0 };
-            notes.extend(images.of_all(film, projector, cameras)?);
-            messages += images.messages;
+            notes = Images { ego: recorder.ego(), tape: &mut tape }.of_all(film, projector, cameras)?;
         }
-        let topics = tape.topics();
+        let [messages, topics] = tape.counts();
         tape.end(&self.facts())?;
         draft.finish()?;
         let written = format!("{} on {} written to", plural(messages, "message"), plural(topics, "topic"));
@@ -97,8 +95,8 @@ impl Recorded<'_> {
         Ok(notes)
     }
 
-    /// Writes all messages but images, in the order of their times. Returns their number.
-    fn tell(&self, recorder: &Recorder, tape: &mut Tape<BufWriter<File>>) -> Result<usize, Error> {
+    /// Writes all messages but images, in the order of their times.
+    fn tell(&self, recorder: &Recorder, tape: &mut Tape<BufWriter<File>>) -> Result<(), Error> {
         scene::tell(recorder, tape)?;
         points::tell(recorder, tape)?;
         series::tell(self, tape)?;

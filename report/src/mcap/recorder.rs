@@ -1,14 +1,16 @@
 //! Notes the bodies of a run while the run is watched, and what a LiDAR measures.
 
+use super::WORLD;
 use paracosm_engine::object::Body;
 use paracosm_engine::road::RoadNetwork;
 use paracosm_engine::sensor::{Delivery, Handle, Lidar, LidarSettings, Mount, Rig, Scan, SensorError};
 use paracosm_engine::{Pose, Run};
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::sync::Arc;
 
-/// The name of the LiDAR.
+/// The frame of the LiDAR, and the beginning of the frames of cameras.
 pub(super) const LIDAR: &str = "lidar";
+pub(super) const CAMERA: &str = "camera ";
 
 /// The record of a run for its file. [`Recorder::see`] notes a moment of a run, for example from [`Run::watch`]. A run that is not
 /// recorded costs nothing.
@@ -59,14 +61,8 @@ impl Recorder {
     pub fn see(&mut self, run: &Run) {
         let (bodies, time) = (run.bodies(), run.time());
         if self.scene.is_none() {
-            let mut count = HashMap::<&str, usize>::new();
-            let named = bodies.iter().enumerate().map(|(at, state)| {
-                let name = run.name_of(at);
-                let number = count.entry(name).or_default();
-                *number += 1;
-                (if *number == 1 { name.to_owned() } else { format!("{name} #{number}") }, state.body)
-            });
-            let bodies = named.collect();
+            let names = frames((0..bodies.len()).map(|body| run.name_of(body)));
+            let bodies = names.into_iter().zip(bodies.iter().map(|state| state.body)).collect();
             self.scene = Some(Scene { network: run.network().clone(), bodies });
         }
         self.touched = run.touched();
@@ -94,5 +90,29 @@ impl Recorder {
     /// Returns the name of the ego vehicle.
     pub(super) fn ego(&self) -> &str {
         self.scene.as_ref().and_then(|scene| scene.bodies.first()).map_or("car", |(name, _)| name)
+    }
+}
+
+/// Returns a frame for each body. No two frames have the same name, also not those of the world and of sensors.
+fn frames<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut taken = HashSet::from([WORLD.to_owned(), LIDAR.to_owned()]);
+    let frame = |name: &str| {
+        let name = if name.starts_with(CAMERA) { format!("body {name}") } else { name.to_owned() };
+        let numbered = (2..).map(|number| format!("{name} #{number}"));
+        let free = std::iter::once(name.clone()).chain(numbered).find(|frame| taken.insert(frame.clone()));
+        free.expect("there is always a further number")
+    };
+    names.map(frame).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_body_has_a_frame_of_its_own() {
+        let names = ["car", "car #2", "car", "world", "lidar", "camera front", "car"];
+        let expected = ["car", "car #2", "car #3", "world #2", "lidar #2", "body camera front", "car #4"];
+        assert_eq!(frames(names.into_iter()), expected);
     }
 }

@@ -3,6 +3,7 @@
 use super::WORLD;
 use super::recorder::{Recorder, Scene};
 use super::tape::Tape;
+use crate::birds_eye::ground::colour;
 use foxglove::messages::{
     Color, CubePrimitive, CylinderPrimitive, FrameTransform, FrameTransforms, KeyValuePair, Point3, Quaternion,
     SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp, TriangleListPrimitive, Vector3, scene_entity_deletion,
@@ -179,16 +180,4 @@ fn ground(network: &RoadNetwork, bounds: &Bounds, time: f64) -> SceneUpdate {
         ..SceneEntity::default()
     };
     SceneUpdate { entities: vec![entity], deletions: Vec::new() }
-}
-
-/// Returns the colour of a surface in sRGB.
-fn colour(surface: Surface) -> [u8; 3] {
-    match surface {
-        Surface::Sidewalk => [150, 148, 142],
-        Surface::Carriageway => [72, 74, 78],
-        Surface::Island => [120, 132, 104],
-        Surface::Kerb => [176, 174, 168],
-        Surface::CentreLine | Surface::LaneLine | Surface::EdgeLine => [226, 226, 220],
-        Surface::StopLine | Surface::GiveWayLine | Surface::Zebra => [240, 240, 236],
-    }
 }

@@ -63,9 +63,9 @@ impl<W: Write + Seek> Tape<W> {
         channel.map(Topic).map_err(|source| broken(&self.path, source))
     }
 
-    /// Returns the number of topics that have messages.
-    pub fn topics(&self) -> usize {
-        self.written.len()
+    /// Returns the number of messages so far, and the number of topics that have messages.
+    pub fn counts(&self) -> [usize; 2] {
+        [self.written.values().map(|count| *count as usize).sum(), self.written.len()]
     }
 
     /// Adds a message at a time in seconds since the run began.
@@ -77,8 +77,8 @@ impl<W: Write + Seek> Tape<W> {
         self.waiting.push(Waiting { nanoseconds: nanoseconds(seconds), topic, data });
     }
 
-    /// Writes all messages that wait, in the order of their times, and returns their number.
-    pub fn flush(&mut self) -> Result<usize, Error> {
+    /// Writes all messages that wait, in the order of their times.
+    pub fn flush(&mut self) -> Result<(), Error> {
         // The order of messages at the same time stays.
         self.waiting.sort_by_key(|message| message.nanoseconds);
         for Waiting { nanoseconds, topic, data } in &self.waiting {
@@ -92,9 +92,8 @@ impl<W: Write + Seek> Tape<W> {
             *number += 1;
             self.writer.write_to_known_channel(&header, data).map_err(|source| broken(&self.path, source))?;
         }
-        let count = self.waiting.len();
         self.waiting.clear();
-        Ok(count)
+        Ok(())
     }
 
     /// Ends the file with facts about the run.

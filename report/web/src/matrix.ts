@@ -44,12 +44,13 @@ export class Matrix {
   private choose() {
     const { mask, tests } = this.store;
     this.shown = [...tests.index.keys()].filter((row) => mask[row]);
+    this.focused = Math.max(0, Math.min(this.shown.length - 1, this.focused));
     this.note.textContent = `${plural(this.shown.length, "test")}`;
     this.sheet.draw();
   }
 
   private focus(place: number) {
-    if (place < 0) return;
+    if (place < 0 || place >= this.shown.length) return;
     this.focused = place;
     const { tests } = this.store;
     const row = this.shown[place];
@@ -59,7 +60,7 @@ export class Matrix {
   }
 
   private show(place: number) {
-    if (place >= 0) this.store.show(this.store.tests.index[this.shown[place]]);
+    if (place >= 0 && place < this.shown.length) this.store.show(this.store.tests.index[this.shown[place]]);
   }
 
   private paint(context: CanvasRenderingContext2D, width: number, height: number) {

@@ -16,7 +16,8 @@ export function verdict(page: Document): HTMLElement {
   const others = ["unpreventable", "inconclusive", "invalid", "error"].filter((name) => count(name) > 0).map((name) => `${count(name).toLocaleString("en")} ${name}`);
   const share = all > 0 ? ` (${percent(fail / all)})` : "";
   const judged = fail + pass + count("unpreventable");
-  const word = fail > 0 ? "fail" : judged === 0 ? "inconclusive" : "pass";
+  // That no test fails says little if tests have no result.
+  const word = fail > 0 ? "fail" : pass === 0 || count("error") > 0 ? "inconclusive" : "pass";
   const sentence = all === 0 ? "No test has run." : fail > 0
     ? `${fail.toLocaleString("en")} of ${plural(all, "test")} fail${share}, ${pass.toLocaleString("en")} pass`
     : judged === 0 ? `None of ${plural(all, "test")} shows whether it passes` : `No failure in ${plural(all, "test")}: ${pass.toLocaleString("en")} pass`;
