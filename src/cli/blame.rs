@@ -70,7 +70,9 @@ impl Options {
             verbosity
                 .note("the campaign was run by another version of this software; its failures are taken as logged");
         }
-        on_interrupt(inquiry.stop());
+        let stop = verbosity.supervision().stop;
+        on_interrupt(stop.clone());
+        inquiry = inquiry.until(stop);
         let bar = bar(verbosity, log.trials().iter().filter(|trial| trial.is_failure()).count());
         let blame = inquiry.run(&log, |_| bar.inc(1));
         bar.finish_and_clear();

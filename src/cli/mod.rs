@@ -74,6 +74,8 @@ struct Verbosity {
 }
 
 impl Verbosity {
+    const SILENT: Self = Self { quiet: true, verbose: false };
+
     /// Prints a note, which is no result.
     fn note(self, message: impl Display) {
         if !self.quiet {

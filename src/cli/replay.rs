@@ -8,7 +8,7 @@ use crate::engine::sensor::{Cameras, LidarSettings};
 use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
 use clap::{ArgGroup, Args, ValueEnum};
-use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
+use paracosm_campaign::cameras::{VariedCameras, read_cameras};
 use paracosm_campaign::files::is_no_link;
 use paracosm_campaign::{
     Catalogue, Error, Expectation, Log, Metric, Replayed, Study, Subject, Trial, Worker, write_trace,
@@ -17,7 +17,7 @@ use paracosm_render::Look;
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::mcap;
 use paracosm_report::plot;
-use paracosm_report::record::Clip;
+use paracosm_report::record::{Clip, cameras_of};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -205,7 +205,7 @@ impl Options {
             let (cameras, look) = match given.zip(look) {
                 Some(given) => given,
                 None => {
-                    let (cameras, look) = eyes(&mut worker)?;
+                    let (cameras, look) = cameras_of(&mut worker)?;
                     (self.through(cameras)?, look)
                 }
             };
@@ -302,12 +302,6 @@ impl Options {
         cameras.all.retain(|other, _| Some(other) == name.as_ref());
         Ok(cameras)
     }
-}
-
-/// Returns the cameras of the driver with the look of its images, or a camera for people if the driver has no camera.
-fn eyes(worker: &mut Worker) -> Result<(Cameras, Look), Error> {
-    let eyes = worker.eyes()?;
-    Ok(if eyes.all.is_empty() { (standard_cameras(), Look::Textured) } else { (eyes, Look::default()) })
 }
 
 impl From<Ending> for Expectation {

@@ -2,7 +2,7 @@
 
 use super::output::{Format, FormatOption, Table, digits, json, plural, value_words};
 use super::replay::logged;
-use super::{Failure, Status, Verbosity, print, trust};
+use super::{Failure, Status, Verbosity, on_interrupt, print, trust};
 use clap::Args;
 use paracosm_analysis::{Change, Sameness, Shrunk};
 use paracosm_campaign::{Catalogue, Regression, Study};
@@ -16,7 +16,7 @@ pub(super) struct Options {
     /// The index of a failing test
     index: usize,
     /// The most tests to run
-    #[arg(long, value_name = "N", default_value_t = 500)]
+    #[arg(long, value_name = "N", default_value_t = Shrunk::BUDGET)]
     budget: usize,
     /// Keep the failure mode: the same violated requirements, the same contact, braking or not. Otherwise the simpler
     /// test violates the same requirements, perhaps in another way; the output says so
@@ -37,7 +37,11 @@ impl Options {
         let (log, _) = self.trust.read(&self.dir, catalogue, verbosity)?;
         let study = log.study();
         let same = if self.same_mode { Sameness::Mode } else { Sameness::Requirements };
-        let shrunk = Shrunk::of(&log, logged(&self.dir, &log, self.index)?, same, self.budget)?;
+        let supervision = verbosity.supervision();
+        on_interrupt(supervision.stop.clone());
+        let failing = logged(&self.dir, &log, self.index)?;
+        let shrunk = Shrunk::until(&log, failing, same, self.budget, &supervision)?;
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
         if let Some(path) = &self.save {
             let about = format!("{}: {}", study.title(), shrunk.sentence());
             Regression::new(about, study, &shrunk.trial).write(path)?;

@@ -4,6 +4,7 @@ use super::{Failure, Status, Verbosity, on_interrupt, print, program, trust};
 use crate::Report;
 use crate::report::viewer::{Doorway, Viewer};
 use clap::Args;
+use paracosm_campaign::cameras::read_cameras;
 use paracosm_campaign::{Catalogue, Error, Log};
 #[cfg(unix)]
 use std::os::unix::process::CommandExt;
@@ -17,7 +18,8 @@ Examples:
       opens the page of the campaign in a browser; Ctrl-C ends it
 
 The page is the page of `report`, and more: it plays every test, and a click on the map runs a test there. In the window of a test, each \
-    parameter can be dragged, and the test runs with the new value. The campaign may still run: the page tells of new tests.
+    parameter can be dragged, and the test runs with the new value. There are buttons for the simplest test that still fails, for the \
+    drivers that prevent a failure, and for the view of each camera. The campaign may still run: the page tells of new tests.
 
 The page is served on this machine alone, at an address with a secret. Nothing is written: a test that is run here is no test of the campaign.";
 
@@ -38,6 +40,11 @@ pub(super) struct Options {
     /// Open the page in a browser
     #[arg(long)]
     open: bool,
+    /// The cameras that film tests on the page
+    ///
+    /// `record --print-cameras` prints a file of cameras [default: the cameras of the driver, or a camera at the front].
+    #[arg(long, value_name = "CAMERAS.toml")]
+    cameras: Option<PathBuf>,
     #[command(flatten)]
     trust: trust::Options,
 }
@@ -46,15 +53,18 @@ impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let (log, _) = self.trust.read(&self.dir, catalogue, verbosity)?;
         let supervision = verbosity.supervision();
-        let read = || Log::read(&self.dir, catalogue);
+        // What is noted about the folder is noted once.
+        let read = || self.trust.read(&self.dir, catalogue, Verbosity::SILENT).map(|(log, _)| log);
         let page = || -> Result<String, Error> {
-            Report::read(read()?, &self.dir)?.page(&self.dir, program::name(), None)?.served()
+            Report::read(Log::read(&self.dir, catalogue)?, &self.dir)?.page(&self.dir, program::name(), None)?.served()
         };
+        let cameras = self.cameras.as_deref().map(read_cameras).transpose()?;
         let viewer = Viewer {
             study: log.study(),
             folder: &self.dir,
             read: &read,
             page: &page,
+            cameras: cameras.as_ref(),
             supervision: supervision.clone(),
         };
         let doorway = Doorway::new().map_err(Error::unavailable)?;

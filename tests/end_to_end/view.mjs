@@ -7,7 +7,7 @@ const { chromium } = createRequire(`${modules}/`)("playwright-core");
 const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox"] });
 const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
 const seen = { foreign: 0, errors: [] };
-page.on("request", (request) => (seen.foreign += request.url().startsWith(address) ? 0 : 1));
+page.on("request", (request) => (seen.foreign += [address, "blob:"].some((start) => request.url().startsWith(start)) ? 0 : 1));
 page.on("pageerror", (error) => seen.errors.push(error.message));
 page.on("console", (message) => message.type() === "error" && seen.errors.push(message.text()));
 await page.goto(address);
@@ -48,6 +48,34 @@ if (task === "use") {
   await page.mouse.move(slider.x + slider.width * 0.8, slider.y + slider.height / 2, { steps: 5 });
   await page.mouse.up();
   seen.dragged = await outcome(seen.clicked.values);
+  await page.click("dialog header button:last-child");
+  // The buttons of a failing test.
+  await page.click(".worst .thumb");
+  await page.waitForSelector("dialog[open] .about");
+  await page.click("dialog .inquiries >> text=Blame");
+  await page.waitForSelector(".answer th");
+  seen.blame = await page.textContent(".answer p");
+  await page.click("dialog .inquiries >> text=Shrink");
+  await page.waitForSelector(".answer button");
+  seen.shrunk = await page.textContent(".answer p");
+  // A film, which is in step with the run.
+  const views = page.locator("dialog select[aria-label=View]");
+  await page.waitForFunction(() => document.querySelector("dialog select[aria-label=View]").options.length > 2, undefined, { timeout: 20000 });
+  await views.selectOption({ label: "camera front" });
+  await page.waitForFunction(() => document.querySelector(".lens video")?.readyState >= 2 || /adapter/.test(document.querySelector(".lens .note")?.textContent), undefined, { timeout: 60000 });
+  await page.evaluate(() => document.querySelector("dialog").dataset.playing === "true" && document.querySelector("dialog .play").click());
+  await page.locator("dialog input[aria-label=Time]").evaluate((scrub) => {
+    scrub.value = "2.5";
+    scrub.dispatchEvent(new Event("input"));
+  });
+  seen.film = await page.evaluate(() => {
+    const video = document.querySelector(".lens video");
+    return video && [video.videoWidth, video.videoHeight, Math.round(10 * Math.abs(video.currentTime - Number(document.querySelector(".world canvas").dataset.time)))];
+  });
+  await views.selectOption({ label: "whole way" });
+  seen.above = await page.isVisible("dialog .world canvas");
+  await page.click(".answer button");
+  seen.simplest = await outcome("");
   await page.click("dialog header button:last-child");
   // Any test of the table is played: the last one, too.
   await page.locator(".scroll").focus();

@@ -1,6 +1,7 @@
 //! The viewer: a page that plays any test and runs further tests, in a real browser and against requests of strangers.
 
-use crate::common::{fuzz, refused, succeeds};
+use crate::cameras::can_draw;
+use crate::common::{fuzz, refused, stdout, succeeds};
 use crate::page::browsed;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -37,6 +38,11 @@ impl Viewing {
 
     /// The status and the body of the answer to a request with these lines, and with the host of the viewer unless a line names another one.
     fn asked(&self, first: &str, lines: &[&str], body: &str) -> (u16, String) {
+        let (status, body) = self.answered(first, lines, body);
+        (status, String::from_utf8(body).unwrap())
+    }
+
+    fn answered(&self, first: &str, lines: &[&str], body: &str) -> (u16, Vec<u8>) {
         let mut stream = TcpStream::connect(self.host()).unwrap();
         let mut request = format!("{first} HTTP/1.1\r\nConnection: close\r\nContent-Length: {}\r\n", body.len());
         if !lines.iter().any(|line| line.starts_with("Host:")) {
@@ -47,13 +53,28 @@ impl Viewing {
         stream.write_all(request.as_bytes()).unwrap();
         let mut reply = Vec::new();
         stream.read_to_end(&mut reply).unwrap();
-        let reply = String::from_utf8_lossy(&reply).into_owned();
-        let status = reply.split(' ').nth(1).unwrap().parse().unwrap();
-        (status, reply.split_once("\r\n\r\n").map(|(_, body)| body.to_owned()).unwrap_or_default())
+        let head = reply.windows(4).position(|end| end == b"\r\n\r\n").expect("an answer has a head");
+        let status = String::from_utf8_lossy(&reply[..head]).split(' ').nth(1).unwrap().parse().unwrap();
+        (status, reply[head + 4..].to_vec())
     }
 
-    fn tried(&self, numbers: &Value) -> (u16, String) {
-        self.asked(&format!("POST /{}/try", self.secret()), &[], &numbers.to_string())
+    /// The status and the body of the answer to a question of the page.
+    fn told(&self, question: &Value) -> (u16, Vec<u8>) {
+        self.answered(&format!("POST /{}/ask", self.secret()), &[], &question.to_string())
+    }
+
+    /// The answer to a question of the page, in JSON.
+    fn tells(&self, question: &Value) -> Value {
+        let (status, body) = self.told(question);
+        assert_eq!(status, 200, "{question}: {}", String::from_utf8_lossy(&body));
+        serde_json::from_slice(&body).unwrap()
+    }
+
+    /// The reason why a question of the page has no answer.
+    fn refuses(&self, question: &Value) -> String {
+        let (status, body) = self.told(question);
+        assert_eq!(status, 422, "{question}");
+        String::from_utf8(body).unwrap()
     }
 
     /// Interrupts the viewer; returns its exit status.
@@ -111,10 +132,130 @@ fn a_click_on_the_map_and_a_dragged_value_run_tests_that_end_as_the_program_says
         assert_eq!(tried["hash"], hash, "{tried}");
     }
     assert_ne!(seen["clicked"]["values"], seen["dragged"]["values"]);
+    assert!(seen["blame"].as_str().unwrap().contains("prevent"), "{seen}");
+    assert!(seen["shrunk"].as_str().unwrap().contains("violates no-collision already when"), "{seen}");
+    assert!(seen["simplest"]["verdict"].as_str().unwrap().ends_with("fail"), "{seen}");
+    if can_draw() {
+        assert_eq!(seen["film"], json!([640, 360, 0]), "{seen}");
+    }
+    assert_eq!(seen["above"], true);
     assert!(seen["row"].as_str().unwrap().starts_with("Test "), "{}", seen["row"]);
     assert_eq!(seen["middle"], r#"{"speed":5.25,"distance":32.5}"#);
     assert_eq!(viewing.ended(), Some(0));
     assert!(files(&dir.path().join("out")) == before, "a viewer writes nothing");
+}
+
+#[test]
+fn the_buttons_of_a_failing_test_answer_as_the_commands_do() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "60", "--out", "out", "-q"]));
+    let viewing = Viewing::of(dir.path(), &[]);
+    let printed = |command: &[&str]| serde_json::from_str::<Value>(&stdout(&fuzz(dir.path(), command))).unwrap();
+    let blame = printed(&["blame", "out", "--format", "json"]);
+    let failures = blame["failures"].as_array().unwrap();
+    assert!(failures.len() > 3);
+    for failure in failures {
+        let index = &failure["index"];
+        let mut blamed = viewing.tells(&json!({"blame": index}));
+        let sentence = blamed["sentence"].take();
+        assert!(sentence.as_str().unwrap().starts_with(failure["fault"].as_str().unwrap()), "{sentence}");
+        blamed.as_object_mut().unwrap().remove("sentence");
+        assert_eq!(blamed, *failure);
+        let mut shrunk = viewing.tells(&json!({"shrink": index}));
+        let expected = printed(&["shrink", "out", &index.to_string(), "--format", "json"]);
+        // The numbers are the test again.
+        let numbers = shrunk["numbers"].take();
+        let played = viewing.tells(&json!({"run": numbers}));
+        let simplest = &expected["trial"];
+        assert_eq!((&played["test"], &played["trace_hash"]), (&simplest["test"], &simplest["trace_hash"]));
+        for key in ["numbers", "search"] {
+            shrunk.as_object_mut().unwrap().remove(key);
+        }
+        assert_eq!(shrunk, expected);
+        // A new test is asked about in the same way as a test of the campaign.
+        let again = viewing.tells(&json!({"blame": numbers}));
+        assert_eq!(again["violates"], expected["violates"], "{again}");
+    }
+    let passing = (0..60).find(|index| failures.iter().all(|failure| failure["index"] != *index)).unwrap();
+    for question in [json!({"shrink": passing}), json!({"blame": passing})] {
+        assert!(viewing.refuses(&question).contains("expected a failing test"));
+    }
+}
+
+#[test]
+fn a_film_of_the_viewer_is_the_film_of_the_program() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "5", "--out", "out", "-q"]));
+    let file = r#"
+[camera.low]
+focal_mm = 24.0
+sensor_mm = 36.0
+position = [2.0, 0.0, 0.4]
+resolution = [64, 48]
+rate = 4
+[camera.rear]
+focal_mm = 20.0
+sensor_mm = 36.0
+position = [-2.0, 0.0, 1.2]
+yaw_pitch_roll = [180.0, 0.0, 0.0]
+resolution = [80, 50]
+rate = 5
+"#;
+    fs::write(dir.path().join("cameras.toml"), file).unwrap();
+    let viewing = Viewing::of(dir.path(), &["--cameras", "cameras.toml"]);
+    assert_eq!(viewing.tells(&json!("cameras")), json!(["low", "rear"]));
+    if !can_draw() {
+        return;
+    }
+    let (status, film) = viewing.told(&json!({"film": {"test": 2, "camera": "rear"}}));
+    assert_eq!(status, 200, "{}", String::from_utf8_lossy(&film));
+    let camera = ["--cameras", "cameras.toml", "--through", "rear", "--camera", "rear.mp4"];
+    succeeds(fuzz(dir.path(), &[&["replay", "out", "2", "-q"], &camera[..]].concat()));
+    assert!(film == fs::read(dir.path().join("rear.mp4")).unwrap(), "{} bytes", film.len());
+    // The films of other tests and of another camera are others.
+    for question in [json!({"test": 3, "camera": "rear"}), json!({"test": 2, "camera": "low"})] {
+        assert!(viewing.told(&json!({"film": question})).1 != film);
+    }
+    assert_eq!(viewing.ended(), Some(0));
+}
+
+#[test]
+fn a_viewer_ends_while_it_shrinks_and_stops_shrinking_once_nobody_waits() {
+    let dir = tempfile::tempdir().unwrap();
+    // Only one test fails, so that every step of the search is in vain.
+    let slow = r#"while read -r line; do sleep 0.2; echo x >> asked; i=${line#*:}
+case $line in *0.7654321*0.654321*) r=-2;; *) r=2;; esac
+echo "{\"index\":${i%%,*},\"robustness\":{\"r\":$r}}"; done"#;
+    fs::write(dir.path().join("system.sh"), slow).unwrap();
+    let space = "parameter = [{ name = \"x\", interval = [0.123, 1] }, { name = \"y\", interval = [0.123, 1] }]\n";
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let system = ["--system", "sh system.sh", "--space", "SPACE.toml", "--budget", "1", "--out", "out", "-q"];
+    succeeds(fuzz(dir.path(), &system));
+    let viewing = Viewing::of(dir.path(), &["--trust"]);
+    let asked = || fs::read_to_string(dir.path().join("asked")).unwrap().lines().count();
+    let settled = |least: usize| {
+        while asked() < least {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    };
+    // Somebody asks, and leaves.
+    let mut stream = TcpStream::connect(viewing.host()).unwrap();
+    let body = r#"{"shrink":[0.7654321,0.654321]}"#;
+    let (secret, host) = (viewing.secret(), viewing.host());
+    write!(stream, "POST /{secret}/ask HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n{body}", body.len())
+        .unwrap();
+    settled(4);
+    drop(stream);
+    std::thread::sleep(Duration::from_secs(1));
+    let after = asked();
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(asked(), after, "the search goes on though nobody waits");
+    // Somebody asks, and the viewer is interrupted.
+    let mut stream = TcpStream::connect(viewing.host()).unwrap();
+    write!(stream, "POST /{secret}/ask HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n{body}", body.len())
+        .unwrap();
+    settled(after + 2);
+    assert_eq!(viewing.ended(), Some(0));
 }
 
 #[test]
@@ -125,34 +266,35 @@ fn strangers_get_nothing_from_a_viewer() {
     let secret = viewing.secret().to_owned();
     let (status, page) = viewing.asked(&format!("GET /{secret}/"), &[], "");
     assert!(status == 200 && page.contains("connect-src 'self'") && page.contains("default-src 'none'"), "{status}");
-    let run = format!("GET /{secret}/run/3");
-    assert_eq!(viewing.asked(&run, &[&format!("Origin: http://{}", viewing.host())], "").0, 200);
+    let (ask, run) = (format!("POST /{secret}/ask"), r#"{"run":3}"#);
+    assert_eq!(viewing.asked(&ask, &[&format!("Origin: http://{}", viewing.host())], run).0, 200);
     for line in ["Host: evil.example", "Host: 127.0.0.1", "Origin: http://evil.example", "Origin: null"] {
-        assert_eq!(viewing.asked(&run, &[line], ""), (403, String::new()), "{line}");
+        assert_eq!(viewing.asked(&ask, &[line], run), (403, String::new()), "{line}");
     }
     let shorter = &secret[..secret.len() - 1];
-    for path in ["/", "/run/3", "/progress", &format!("/{shorter}/"), &format!("/{shorter}0/run/3"), "/../"] {
+    for path in ["/", "/ask", &format!("/{shorter}/"), &format!("/{shorter}0/ask"), "/../"] {
         assert_eq!(viewing.asked(&format!("GET {path}"), &[], "").0, 403, "{path}");
     }
-    for path in
-        ["../campaign.json", "..%2fcampaign.json", "campaign.json", "run/../../campaign.json", "run/x", "run/-1", "try"]
-    {
+    for path in ["../campaign.json", "..%2fcampaign.json", "campaign.json", "ask/../../campaign.json", "ask"] {
         assert_eq!(viewing.asked(&format!("GET /{secret}/{path}"), &[], ""), (404, String::new()), "{path}");
     }
     assert_eq!(viewing.asked(&format!("DELETE /{secret}/"), &[], "").0, 405);
     // Wrong questions are answered with the reason.
-    for (numbers, says) in [
-        (json!([1, 2, 3]), "found 3 numbers, expected 2"),
-        (json!([1, 600]), "parameter `distance`: found 600, expected a number in [5, 60]"),
+    for (question, says) in [
+        (json!({"run": [1, 2, 3]}), "found 3 numbers, expected 2: one for each coordinate"),
+        (json!({"run": [1, 600]}), "parameter `distance`: found 600, expected a number in [5, 60]"),
+        (json!({"run": 10}), "the campaign has 10 tests, and no test 10"),
+        (json!({"shrink": 10}), "the campaign has 10 tests, and no test 10"),
+        (json!({"blame": [1, 2, 3]}), "found 3 numbers, expected 2: one for each coordinate"),
+        (json!({"film": {"test": 3, "camera": "../front"}}), "no camera is named `../front`"),
     ] {
-        let (status, why) = viewing.tried(&numbers);
-        assert!(status == 422 && why.contains(says), "{status} {why}");
+        assert!(viewing.refuses(&question).contains(says), "{question}: {}", viewing.refuses(&question));
     }
-    assert_eq!(viewing.tried(&json!({"speed": 3})).0, 400);
-    let (status, why) = viewing.asked(&format!("GET /{secret}/run/10"), &[], "");
-    assert_eq!((status, why.as_str()), (422, "the campaign has 10 tests, and no test 10"));
-    let long = format!("[{}1]", "1,".repeat(1 << 16));
-    assert_eq!(viewing.asked(&format!("POST /{secret}/try"), &[], &long).0, 413);
+    for question in [json!({"run": {"speed": 3}}), json!({"run": -1}), json!("page"), json!({"film": 3}), json!(3)] {
+        assert_eq!(viewing.told(&question).0, 400, "{question}");
+    }
+    let long = format!("{{\"run\":[{}1]}}", "1,".repeat(1 << 16));
+    assert_eq!(viewing.asked(&ask, &[], &long).0, 413);
     assert_eq!(viewing.ended(), Some(0));
     refused(&fuzz(dir.path(), &["view", "nothing"]), &["nothing/campaign.json"]);
 }
@@ -191,11 +333,10 @@ fn a_system_has_no_world_to_show_and_its_tests_run_if_its_command_is_trusted() {
     ));
     refused(&fuzz(dir.path(), &["view", "out"]), &["--trust"]);
     let viewing = Viewing::of(dir.path(), &["--trust"]);
-    let (status, ran) = viewing.tried(&json!([0.25]));
-    let ran: Value = serde_json::from_str(&ran).unwrap();
-    assert_eq!(
-        (status, &ran["verdict"], &ran["test"]["x"], &ran["run"]),
-        (200, &json!("fail"), &json!(0.25), &Value::Null)
-    );
+    let ran = viewing.tells(&json!({"run": [0.25]}));
+    assert_eq!((&ran["verdict"], &ran["test"]["x"], &ran["run"]), (&json!("fail"), &json!(0.25), &Value::Null));
+    let shrunk = viewing.tells(&json!({"shrink": [0.25]}));
+    assert_eq!((&shrunk["numbers"], &shrunk["violates"]), (&json!([0.5]), &json!(["r"])), "{shrunk}");
+    assert!(viewing.refuses(&json!({"blame": 0})).contains("which a reference driver cannot replace"));
     assert_eq!(viewing.ended(), Some(0));
 }

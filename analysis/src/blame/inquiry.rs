@@ -4,6 +4,7 @@ use super::{Blame, Blamed};
 use paracosm_campaign::darkroom::Darkroom;
 use paracosm_campaign::executor::{in_order, pool};
 use paracosm_campaign::{Error, Log, Reason, Study, Subject, Supervision, Trial, Worker};
+use paracosm_oracles::Verdict;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -56,6 +57,14 @@ pub enum InquiryFlaw {
         /// The name of the driver that is named twice.
         name: String,
     },
+    /// The test did not fail.
+    #[error("test {index} has the verdict `{verdict}`, expected a failing test: there is nothing to prevent")]
+    NoFailure {
+        /// The index of the test in its campaign.
+        index: usize,
+        /// The verdict of the test.
+        verdict: Verdict,
+    },
 }
 
 impl Reason for InquiryFlaw {}
@@ -103,9 +112,10 @@ impl Inquiry {
         self
     }
 
-    /// Returns the flag that, once set, ends the inquiry with [`Error::Interrupted`].
-    pub fn stop(&self) -> Arc<AtomicBool> {
-        self.stop.clone()
+    /// Sets a flag that, once it is set, ends the inquiry with [`Error::Interrupted`].
+    pub fn until(mut self, stop: Arc<AtomicBool>) -> Self {
+        self.stop = stop;
+        self
     }
 
     /// Runs every failing test of a campaign with each of the reference drivers. `watch` receives the results in
@@ -121,6 +131,24 @@ impl Inquiry {
         if let Some(first) = failing.first().filter(|_| is_sure) {
             Worker::new(study)?.check_repeats(log, first)?;
         }
+        let failures = self.judge(&failing, &mut watch)?;
+        let references = self.references.iter().map(|reference| reference.name.clone()).collect();
+        Ok(Blame { references, tests: log.trials().len(), failures })
+    }
+
+    /// Runs one failing test with each of the reference drivers.
+    ///
+    /// # Errors
+    /// The test did not fail, or the inquiry was stopped.
+    pub fn judge_one(&self, failing: &Trial) -> Result<Blamed, Error> {
+        if !failing.is_failure() {
+            return Err(InquiryFlaw::NoFailure { index: failing.index, verdict: failing.verdict }.into());
+        }
+        Ok(self.judge(&[failing], &mut |_| ())?.remove(0))
+    }
+
+    /// Runs failing tests with each of the reference drivers. `watch` receives the results in order.
+    fn judge(&self, failing: &[&Trial], watch: &mut impl FnMut(&Blamed)) -> Result<Vec<Blamed>, Error> {
         let names = || self.references.iter().map(|reference| reference.name.clone());
         let hire = || -> Vec<Worker> { self.references.iter().map(Reference::worker).collect() };
         let drivers = self.references.len();
@@ -144,6 +172,6 @@ impl Inquiry {
         if failures.len() < failing.len() {
             return Err(Error::Interrupted);
         }
-        Ok(Blame { references: names().collect(), tests: log.trials().len(), failures })
+        Ok(failures)
     }
 }

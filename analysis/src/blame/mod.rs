@@ -136,6 +136,26 @@ impl Blamed {
         let violates = failing.violated().map(str::to_owned).collect();
         Self { index: failing.index, test: failing.test.clone(), violates, fault, prevented_by, runs }
     }
+
+    /// Returns a sentence that says which reference drivers prevent the failure.
+    pub fn sentence(&self) -> String {
+        let (them, verb) =
+            (self.prevented_by.join(", "), if self.prevented_by.len() == 1 { "prevents" } else { "prevent" });
+        let all = || self.runs.iter().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+        match self.fault {
+            Preventability::Unpreventable => format!("unpreventable: none of {} prevents this failure", all()),
+            Preventability::Preventable => format!("preventable: {them} {verb} this failure by braking"),
+            Preventability::Induced => {
+                format!(
+                    "induced: {them} {verb} this failure, and {NEVER_BRAKES} never brakes for others: braking has caused it"
+                )
+            }
+            Preventability::Unknown => format!(
+                "unknown: none of {} is known to prevent this failure, and a run with one of them broke or could not be built",
+                all()
+            ),
+        }
+    }
 }
 
 /// In JSON, the number of failures of each kind and the number that each driver prevents come first.

@@ -15,7 +15,7 @@ mod search;
 mod tests;
 
 use crate::{Modes, Touch};
-use paracosm_campaign::{Campaign, Error, Log, Reason, Study, Trial};
+use paracosm_campaign::{Campaign, Error, Log, Reason, Study, Supervision, Trial};
 use paracosm_engine::Declared;
 use paracosm_oracles::Verdict;
 use paracosm_space::{Domain, Parameter, Value, Values};
@@ -112,19 +112,37 @@ pub enum ShrinkFlaw {
 impl Reason for ShrinkFlaw {}
 
 impl Shrunk {
+    /// The number of runs that suffice for most tests.
+    pub const BUDGET: usize = 500;
+
     /// Shrinks a failing trial of a campaign in at most `budget` runs.
     ///
     /// # Errors
     /// The trial did not fail, or does not fail in the same way when it is run again; the simpler test does not fail in a new process; or the study
     /// cannot be run.
     pub fn of(log: &Log, trial: &Trial, same: Sameness, budget: usize) -> Result<Self, Error> {
+        Self::until(log, trial, same, budget, &Supervision::default())
+    }
+
+    /// Shrinks a failing trial like [`of`](Self::of), until the flag of `supervision` is set.
+    ///
+    /// # Errors
+    /// The same errors as [`of`](Self::of); or [`Error::Interrupted`].
+    pub fn until(
+        log: &Log,
+        trial: &Trial,
+        same: Sameness,
+        budget: usize,
+        supervision: &Supervision,
+    ) -> Result<Self, Error> {
         let study = log.study();
         let violates: Vec<String> = trial.violated().map(str::to_owned).collect();
         if !trial.is_failure() || violates.is_empty() {
             return Err(ShrinkFlaw::NoFailure { index: trial.index, verdict: trial.verdict }.into());
         }
-        let campaign = Campaign::new(study)?.jobs(NonZeroUsize::MIN);
-        let run = |test: &Values| campaign.run_test(test, trial.index);
+        let campaign = || Ok::<_, Error>(Campaign::until(study, supervision.clone())?.jobs(NonZeroUsize::MIN));
+        let first = campaign()?;
+        let run = |test: &Values| first.run_test(test, trial.index);
         let mode = mode(trial);
         let same_mode = |trial: &Trial| self::mode(trial) == mode;
         let fails = |trial: &Trial| {
@@ -149,7 +167,7 @@ impl Shrunk {
             last = run(&found.test)?;
         }
         if !study.repeats_in_process() {
-            let anew = Campaign::new(study)?.jobs(NonZeroUsize::MIN).run_test(&found.test, trial.index)?;
+            let anew = campaign()?.run_test(&found.test, trial.index)?;
             if !fails(&anew) {
                 return Err(ShrinkFlaw::Unsteady { index: trial.index }.into());
             }

@@ -126,7 +126,7 @@ impl Page<'_> {
             "default-src 'none'; script-src '{}'; style-src '{}'; img-src data:; base-uri 'none'; form-action 'none'{}",
             BUNDLE.script_hash,
             BUNDLE.style_hash,
-            if document.served { "; connect-src 'self'" } else { "" }
+            if document.served { "; connect-src 'self'; media-src blob:" } else { "" }
         );
         let title = pack::escaped(&self.log.study().title());
         let _ = write!(

@@ -1,16 +1,16 @@
 //! Writes what one camera sees of a test, for people: a film as an MP4 or a GIF file, or a folder of PNG files.
 //!
-//! Each image is written as soon as it is drawn, so that only a few images are in memory.
+//! Each image is written as soon as it is drawn.
 
+use super::Shot;
+use super::footage::Footage;
 use super::image::{Pixels, write};
-use super::missing::Missing;
 use super::video::Video;
-use super::{Film, Projector, Rendering, Shot};
 use crate::plot;
 use paracosm_campaign::files::{Draft, DraftFolder, is_new};
 use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
-use paracosm_engine::sensor::{CameraSpec, Cameras};
-use paracosm_render::{Look, Stages, WantedImages};
+use paracosm_engine::sensor::Cameras;
+use paracosm_render::Look;
 use paracosm_space::plural;
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use thiserror::Error;
 
 /// The destination of a film of a test, which is a film file or a new folder of images.
@@ -77,14 +77,6 @@ pub struct UnknownEnding {
     pub nearest: Option<&'static str>,
 }
 
-/// The error that the camera gave no image, so that there is no film to write.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("the camera saw nothing: {why}")]
-pub struct NothingSeen {
-    /// The reason why the camera gave no image, in words.
-    pub why: String,
-}
-
 impl Reason for UnknownEnding {}
 
 impl Clip {
@@ -127,121 +119,50 @@ impl Clip {
     /// Returns an error if there is no adapter, the test is not the test that was logged, nothing was seen, or nothing
     /// can be written.
     pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
-        let film = Film::of(worker, trial, cameras, &Stages::in_look(self.look))?;
-        let mut projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
-        let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
-        let mut missing = Missing::of(name, camera);
+        let mut footage = Footage::of(worker, trial, cameras, self.look, &self.stop)?;
         let images = match self.form {
-            Form::Images => self.write_images(&film, &mut projector, &mut missing, camera.resolution)?,
-            Form::Mp4 | Form::Gif => self.write_film(&film, &mut projector, &mut missing, camera)?,
+            Form::Images => self.write_images(&mut footage)?,
+            Form::Mp4 | Form::Gif => self.write_film(&mut footage)?,
         };
-        let written = format!("{} of camera `{name}` written to {}", plural(images, "image"), self.path.display());
-        Ok(std::iter::once(written).chain(missing.notes()).collect())
+        let written =
+            format!("{} of camera `{}` written to {}", plural(images, "image"), footage.name, self.path.display());
+        Ok(std::iter::once(written).chain(footage.notes()).collect())
     }
 
-    fn write_film(
-        &self,
-        film: &Film,
-        projector: &mut Projector,
-        missing: &mut Missing<'_>,
-        camera: &CameraSpec,
-    ) -> Result<usize, Error> {
+    fn write_film(&self, footage: &mut Footage<'_>) -> Result<usize, Error> {
         let failed = |source| self.failed(source);
-        let colours = match self.form {
-            Form::Gif => Some(self.colours(film, projector, missing)?),
-            Form::Mp4 | Form::Images => None,
-        };
-        let (draft, file) = Draft::new(&self.path)?;
-        let (file, size) = (BufWriter::new(file), camera.resolution);
-        let mut reel = match colours {
-            Some(colours) => Reel::Gif(Box::new(plot::Reel::begin(file, size, colours.palette()).map_err(failed)?)),
-            None => Reel::Mp4(Box::new(Video::begin(file, size, camera.rate).map_err(failed)?)),
-        };
-        let mut images = 0;
-        projector.show(film, 0, |shots| {
-            self.go_on()?;
-            shots.iter().try_for_each(|(shot, seen)| {
-                missing.see(shot, seen);
-                let Some(rgb) = colours_of(seen) else { return Ok(()) };
-                images += 1;
-                reel.show(rgb, shot.time).map_err(failed)
-            })
-        })?;
-        if images == 0 {
-            self.nothing(film, missing)?;
+        let mut colours = plot::Colours::default();
+        if self.form == Form::Gif {
+            footage.glance(|rgb| colours.count(rgb))?;
         }
+        let (draft, file) = Draft::new(&self.path)?;
+        let (file, camera) = (BufWriter::new(file), footage.camera);
+        let mut reel = match self.form {
+            Form::Gif => {
+                Reel::Gif(Box::new(plot::Reel::begin(file, camera.resolution, colours.palette()).map_err(failed)?))
+            }
+            _ => Reel::Mp4(Box::new(Video::begin(file, camera.resolution, camera.rate).map_err(failed)?)),
+        };
+        let images =
+            footage.show(|seen| seen.iter().try_for_each(|(shot, rgb)| reel.show(rgb, shot.time).map_err(failed)))?;
         reel.end().map_err(failed)?;
         draft.finish()?;
         Ok(images)
     }
 
-    /// Returns a histogram of the colours of a film.
-    fn colours(
-        &self,
-        film: &Film,
-        projector: &mut Projector,
-        missing: &mut Missing<'_>,
-    ) -> Result<plot::Colours, Error> {
-        let mut colours = plot::Colours::default();
-        // The camera may be inside something in each of the few sampled images, and still see something in other
-        // images.
-        for some in [&film.sample(), film] {
-            if colours.are_none() {
-                projector.show(some, 0, |shots| {
-                    self.go_on()?;
-                    shots.iter().filter_map(|(_, seen)| colours_of(seen)).for_each(|rgb| colours.count(rgb));
-                    Ok(())
-                })?;
-            }
-        }
-        if colours.are_none() {
-            self.nothing(film, missing)?;
-        }
-        Ok(colours)
-    }
-
-    fn write_images(
-        &self,
-        film: &Film,
-        projector: &mut Projector,
-        missing: &mut Missing<'_>,
-        size: [u32; 2],
-    ) -> Result<usize, Error> {
+    fn write_images(&self, footage: &mut Footage<'_>) -> Result<usize, Error> {
         let draft = DraftFolder::new(&self.path)?;
-        let mut images = 0;
-        projector.show(film, 0, |shots| {
-            self.go_on()?;
-            shots.iter().for_each(|(shot, seen)| missing.see(shot, seen));
-            images += shots.iter().filter(|(_, seen)| seen.is_ok()).count();
-            shots.par_iter().filter_map(|(shot, seen)| Some((shot, colours_of(seen)?))).try_for_each(|(shot, rgb)| {
-                let Shot { number, .. } = shot;
+        let size = footage.camera.resolution;
+        let images = footage.show(|seen| {
+            seen.par_iter().try_for_each(|(Shot { number, .. }, rgb)| {
                 write(&draft.path().join(format!("{number:06}.png")), Pixels::Colours(rgb), size)
             })
         })?;
-        if images == 0 {
-            self.nothing(film, missing)?;
-        }
         draft.finish()?;
         Ok(images)
-    }
-
-    /// Returns an error if the flag of [`until`](Self::until) interrupts the writing.
-    fn go_on(&self) -> Result<(), Error> {
-        if self.stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
-    }
-
-    /// Returns the error that the film has no image, with the reason.
-    fn nothing(&self, film: &Film, missing: &mut Missing<'_>) -> Result<(), Error> {
-        let thing = film.shots[0].first().map(|_| "the camera is inside something at all times".to_owned());
-        let why = thing.or_else(|| missing.notes().into_iter().next()).unwrap_or_default();
-        Err(self.failed(NothingSeen { why }.into()))
     }
 
     fn failed(&self, source: Box<dyn StdError + Send + Sync>) -> Error {
         Failure::Drawing { path: self.path.clone(), source }.into()
     }
-}
-
-fn colours_of(seen: &Result<Rendering, super::Inside>) -> Option<&[u8]> {
-    seen.as_ref().ok()?.frame.rgb.as_deref()
 }

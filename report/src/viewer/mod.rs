@@ -1,21 +1,27 @@
 //! Shows a campaign from a server on this machine: the page of a report, on which any test can be played and further tests can be run.
 //!
-//! A [`Viewer`] answers questions of the page: for the page itself, for the run of a logged test, and for a new test with values that somebody
-//! has clicked or dragged. `server.rs` takes the questions from a browser on this machine. Nothing is written: a new test is no test of the campaign.
+//! A [`Viewer`] answers questions of the page: for the page itself, for the run of a test of the campaign or of a new test whose values somebody
+//! has clicked or dragged (`wanted.rs`), and for what takes many runs (`errand.rs`). `server.rs` takes the questions from a browser on this
+//! machine. Nothing is written: a new test is no test of the campaign.
 
+mod errand;
 mod server;
+mod wanted;
 
 pub use server::{Doorway, NoServer};
 
 use crate::html::{Record, Recorder};
-use paracosm_campaign::{Error, Folder, Log, Number, Reason, Study, Supervision, Trial, Worker};
-use paracosm_space::{Domain, Record as Named, Space, SpaceError, Value, Values, plural};
-use serde::Serialize;
+use errand::Errand;
+use paracosm_campaign::cameras::VariedCameras;
+use paracosm_campaign::{Error, Folder, Log, Number, Study, Supervision, Trial, Worker};
+use paracosm_space::{Record as Named, Values};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use thiserror::Error;
 use tokio::sync::oneshot;
+use wanted::Wanted;
 
 /// A function that reads the log of the campaign as it is now.
 type ReadLog<'a> = dyn Fn() -> Result<Log, Error> + Sync + 'a;
@@ -33,50 +39,47 @@ pub struct Viewer<'a> {
     pub read: &'a ReadLog<'a>,
     /// Makes the page of the campaign as it is now, with [`Page::served`](crate::html::Page::served).
     pub page: &'a MakePage<'a>,
+    /// The cameras that film tests; `None` for the cameras of the driver, or a camera for people if the driver has none.
+    pub cameras: Option<&'a VariedCameras>,
     /// Ends the viewer, and gets the output of programs.
     pub supervision: Supervision,
 }
 
 /// A question of the page.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 enum Question {
     /// The page.
+    #[serde(skip)]
     Page,
     /// The number of tests that the campaign has by now, and whether more may come.
     Progress,
-    /// The run of the test with an index.
-    Run { index: usize },
-    /// The run of a new test, with a number for each coordinate: the value, or the position of the level.
-    Try { numbers: Vec<f64> },
+    /// The run of a test.
+    Run(Wanted),
+    /// A question that takes many runs.
+    #[serde(untagged)]
+    Errand(Errand),
 }
 
 /// An answer to a question.
 enum Answer {
-    /// The page or JSON.
-    Found(String),
+    Page(String),
+    Json(String),
+    /// The contents of an MP4 file.
+    Film(Vec<u8>),
     /// The reason in words why there is no answer.
     Refused(String),
 }
 
-/// A question, with the way back for the answer.
-type Asked = (Question, oneshot::Sender<Answer>);
+/// A question, with the way back for the answer and a flag that is set once nobody waits for the answer.
+type Asked = (Question, oneshot::Sender<Answer>, Arc<AtomicBool>);
 
-/// The error that the page asks for a test that does not exist.
-#[derive(Debug, Clone, PartialEq, Error)]
-enum NoTest {
-    #[error("the campaign has {}, and no test {index}", plural(*tests, "test"))]
-    Index { index: usize, tests: usize },
-    #[error("found {}, expected {expected}: one for each coordinate", plural(*found, "number"))]
-    Count { found: usize, expected: usize },
-    #[error("`{name}`: no level has the position {position}")]
-    Level { name: String, position: f64 },
-    #[error("the test breaks the constraint `{constraint}`")]
-    Broken { constraint: String },
-    #[error(transparent)]
-    Space(#[from] SpaceError),
+/// The places to which questions go. Nobody waits for a page to see a run, or for many runs to see one.
+struct Desks {
+    pages: Sender<Asked>,
+    runs: Sender<Asked>,
+    errands: Sender<Asked>,
 }
-
-impl Reason for NoTest {}
 
 /// The number of tests of a campaign by now, and whether more may come.
 #[derive(Debug, Serialize)]
@@ -109,48 +112,48 @@ impl Viewer<'_> {
         let mut worker = Worker::until(self.study, self.supervision.clone())?;
         // A long log is read again only for tests that it did not have.
         let mut known = None;
-        // Pages take seconds, and nobody waits for them to see a run.
-        let ((pages, page_questions), (runs, run_questions)) = (channel::<Asked>(), channel::<Asked>());
+        let (pages, page_questions) = channel();
+        let (runs, run_questions) = channel();
+        let (errands, errand_questions) = channel();
         std::thread::scope(|scope| {
-            scope.spawn(|| answer_all(page_questions, |question| self.about_campaign(&question)));
-            scope.spawn(|| answer_all(run_questions, |question| self.about_test(&question, &mut worker, &mut known)));
-            doorway.open(pages, runs, &self.supervision.stop).map_err(Error::unavailable)
+            scope.spawn(|| answer_all(page_questions, |question, _| self.about_campaign(&question)));
+            scope
+                .spawn(|| answer_all(run_questions, |question, _| self.about_test(&question, &mut worker, &mut known)));
+            scope.spawn(|| answer_all(errand_questions, |question, gone| self.about_errand(question, gone)));
+            doorway.open(Desks { pages, runs, errands }, &self.supervision.stop).map_err(Error::unavailable)
         })
     }
 
-    fn about_campaign(&self, question: &Question) -> Result<String, Error> {
+    fn about_campaign(&self, question: &Question) -> Result<Answer, Error> {
         match question {
             Question::Progress => {
                 let tests = (self.read)()?.trials().len();
                 Ok(json(&Progress { tests, unfinished: Folder::is_unfinished(self.folder, self.study, tests) }))
             }
-            _ => (self.page)(),
+            _ => (self.page)().map(Answer::Page),
         }
     }
 
-    fn about_test(&self, question: &Question, worker: &mut Worker, known: &mut Option<Log>) -> Result<String, Error> {
-        let mut recorder = Recorder::default();
-        let (trial, trace) = match question {
-            Question::Try { numbers } => {
-                let test = test_of(self.study.space(), numbers)?;
-                worker.watch(0, &test, |run| recorder.see(run))
-            }
-            Question::Run { index } => {
-                let log = match known.take().filter(|log| *index < log.trials().len()) {
-                    Some(log) => known.insert(log),
-                    None => known.insert((self.read)()?),
-                };
-                let logged = log.trials().get(*index);
-                let logged = logged.ok_or(NoTest::Index { index: *index, tests: log.trials().len() })?;
-                worker.replay(log, logged, |run| recorder.see(run))
-            }
-            Question::Page | Question::Progress => return self.about_campaign(question),
+    fn about_test(&self, question: &Question, worker: &mut Worker, known: &mut Option<Log>) -> Result<Answer, Error> {
+        let Question::Run(wanted) = question else { return self.about_campaign(question) };
+        let log = match known.take().filter(|log| wanted.is_in(log)) {
+            Some(log) => known.insert(log),
+            None => known.insert((self.read)()?),
         };
+        let mut recorder = Recorder::default();
+        let (trial, trace) = wanted.run(worker, log, |run| recorder.see(run))?;
         if self.supervision.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
         let run = recorder.record(self.study, trial.index, trial.verdict.to_string(), trace.as_ref());
         Ok(json(&Played::of(trial, run)))
+    }
+
+    fn about_errand(&self, question: Question, gone: Arc<AtomicBool>) -> Result<Answer, Error> {
+        match question {
+            Question::Errand(errand) => errand.answer(self, gone),
+            question => self.about_campaign(&question),
+        }
     }
 }
 
@@ -163,93 +166,44 @@ impl Played {
     }
 }
 
-fn answer_all(questions: Receiver<Asked>, mut answer: impl FnMut(Question) -> Result<String, Error>) {
-    for (question, back) in questions {
+fn answer_all(questions: Receiver<Asked>, mut answer: impl FnMut(Question, Arc<AtomicBool>) -> Result<Answer, Error>) {
+    for (question, back, gone) in questions {
         // A page that has gone waits for no answer.
         if !back.is_closed() {
-            let answer = answer(question).map_or_else(|error| Answer::Refused(error.to_string()), Answer::Found);
+            let answer = answer(question, gone).unwrap_or_else(|error| Answer::Refused(error.to_string()));
             let _ = back.send(answer);
         }
     }
 }
 
-fn json(of: &impl Serialize) -> String {
-    serde_json::to_string(of).expect("an answer is always JSON")
+fn json(of: &impl Serialize) -> Answer {
+    Answer::Json(serde_json::to_string(of).expect("an answer is always JSON"))
 }
 
-/// Returns the test with these numbers for the coordinates of a space.
-fn test_of(space: &Space, numbers: &[f64]) -> Result<Values, Error> {
-    let expected = space.coordinates().count();
-    if numbers.len() != expected {
-        return Err(NoTest::Count { found: numbers.len(), expected }.into());
+/// A flag that is set when its owner is dropped.
+#[derive(Default)]
+struct Leaving(Arc<AtomicBool>);
+
+impl Drop for Leaving {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
     }
-    let mut left = numbers.iter();
-    let mut scalar = |name: &str, domain: &Domain| {
-        let number = *left.next().expect("they were counted");
-        match domain {
-            Domain::Interval { .. } => Ok(Value::Number(number)),
-            Domain::Choice(levels) => {
-                let is_position = number >= 0.0 && number.fract() == 0.0;
-                let level = is_position.then(|| levels.get(number as usize)).flatten();
-                level.cloned().ok_or_else(|| NoTest::Level { name: name.to_owned(), position: number })
-            }
-        }
-    };
-    let mut values = Vec::new();
-    for parameter in space.parameters() {
-        let (name, domain) = (&parameter.name, &parameter.domain);
-        let value = match parameter.signal {
-            None => scalar(name, domain)?,
-            Some(shape) => {
-                Value::List((0..shape.coordinates()).map(|_| scalar(name, domain)).collect::<Result<_, _>>()?)
-            }
+}
+
+impl Desks {
+    /// Sends a question to its desk, and waits for the answer. Nobody waits any more once the future is dropped.
+    async fn ask(&self, question: Question) -> Answer {
+        let desk = match &question {
+            Question::Page | Question::Progress => &self.pages,
+            Question::Run(_) => &self.runs,
+            Question::Errand(_) => &self.errands,
         };
-        values.push((name.clone(), value));
-    }
-    let test: Values = values.into_iter().collect();
-    let point = space.encode(&test).map_err(NoTest::from)?;
-    match space.broken(&point) {
-        Some(constraint) => Err(NoTest::Broken { constraint: constraint.text().to_owned() }.into()),
-        None => Ok(test),
-    }
-}
-
-/// Sends a question, and waits for the answer.
-async fn ask(desk: &Sender<Asked>, question: Question) -> Answer {
-    let (back, answer) = oneshot::channel();
-    let gone = || Answer::Refused("the viewer ends".to_owned());
-    match desk.send((question, back)) {
-        Ok(()) => answer.await.unwrap_or_else(|_| gone()),
-        Err(_) => gone(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use paracosm_space::Parameter;
-
-    #[test]
-    fn numbers_are_a_test_if_they_lie_in_the_space_and_keep_its_constraints() {
-        let speed = Parameter::new("speed", Domain::Interval { lo: 0.0, hi: 10.0 });
-        let levels = [2.0, 4.0].map(Value::Number).to_vec();
-        let lanes = Parameter::new("lanes", Domain::Choice(levels));
-        let space = Space::new(vec![speed, lanes]).unwrap().with_constraints(["lanes == 4 or speed < 5"]).unwrap();
-        let test = test_of(&space, &[0.1 + 0.2, 0.0]).unwrap();
-        assert_eq!(
-            (test.get("speed"), test.get("lanes")),
-            (Some(&Value::Number(0.1 + 0.2)), Some(&Value::Number(2.0)))
-        );
-        for (numbers, says) in [
-            (vec![1.0], "found 1 number, expected 2: one for each coordinate"),
-            (vec![1.0, 2.0], "`lanes`: no level has the position 2"),
-            (vec![1.0, -1.0], "`lanes`: no level has the position -1"),
-            (vec![1.0, f64::NAN], "`lanes`: no level has the position NaN"),
-            (vec![11.0, 0.0], "parameter `speed`: found 11, expected a number in [0, 10]"),
-            (vec![f64::NAN, 0.0], "parameter `speed`: found NaN, expected a number in [0, 10]"),
-            (vec![6.0, 0.0], "the test breaks the constraint `lanes == 4 or speed < 5`"),
-        ] {
-            assert_eq!(test_of(&space, &numbers).unwrap_err().to_string(), says);
+        let leaving = Leaving::default();
+        let (back, answer) = oneshot::channel();
+        let gone = || Answer::Refused("the viewer ends".to_owned());
+        match desk.send((question, back, leaving.0.clone())) {
+            Ok(()) => answer.await.unwrap_or_else(|_| gone()),
+            Err(_) => gone(),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! A page of somebody else could send requests to this machine from the browser of the user. So the server listens at 127.0.0.1 alone, its
 //! addresses begin with a secret, and a request with a foreign `Host` or `Origin` is refused, whatever its address is.
 
-use super::{Answer, Asked, Question, ask};
+use super::{Answer, Desks, Question};
 use axum::Router;
 use axum::body::{Body, to_bytes};
 use axum::extract::{Request, State};
@@ -17,7 +17,6 @@ use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::Sender;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -49,8 +48,7 @@ struct Desk {
     secret: String,
     /// The hosts by which a browser on this machine calls the server.
     hosts: [String; 2],
-    pages: Sender<Asked>,
-    runs: Sender<Asked>,
+    desks: Desks,
 }
 
 impl Doorway {
@@ -67,11 +65,11 @@ impl Doorway {
         Ok(Self { address: listener.local_addr()?, listener, secret })
     }
 
-    /// Answers requests until the flag is set. Questions about the campaign go to `pages`, and questions about tests go to `runs`.
-    pub(super) fn open(self, pages: Sender<Asked>, runs: Sender<Asked>, stop: &AtomicBool) -> Result<(), NoServer> {
+    /// Passes questions to the desks until the flag is set.
+    pub(super) fn open(self, desks: Desks, stop: &AtomicBool) -> Result<(), NoServer> {
         let port = self.address.port();
         let hosts = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
-        let desk = Arc::new(Desk { secret: self.secret, hosts, pages, runs });
+        let desk = Arc::new(Desk { secret: self.secret, hosts, desks });
         let router = Router::new().fallback(answer).with_state(desk);
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         runtime.block_on(async {
@@ -130,42 +128,40 @@ fn is_same(found: &str, expected: &str) -> bool {
     found.len() == expected.len() && differs == 0
 }
 
-/// The kind of an answer.
+/// The kinds of answers.
 const HTML: &str = "text/html; charset=utf-8";
 const JSON: &str = "application/json";
+const MP4: &str = "video/mp4";
+const TEXT: &str = "text/plain; charset=utf-8";
 
 async fn answer(State(desk): State<Arc<Desk>>, request: Request) -> Response<Body> {
     let (parts, body) = request.into_parts();
     let rest = match desk.admitted(&parts.method, parts.uri.path(), &parts.headers) {
         Ok(rest) => rest,
-        Err(status) => return reply(status, JSON, String::new()),
+        Err(status) => return reply(status, TEXT, Vec::new()),
     };
-    let is_get = parts.method == Method::GET;
-    let (at, question, kind) = match rest.split_once('/') {
-        None if rest.is_empty() && is_get => (&desk.pages, Question::Page, HTML),
-        None if rest == "progress" && is_get => (&desk.pages, Question::Progress, JSON),
-        None if rest == "try" && !is_get => {
+    let question = match (&parts.method, rest) {
+        (&Method::GET, "") => Question::Page,
+        (&Method::POST, "ask") => {
             let Ok(bytes) = to_bytes(body, LONGEST).await else {
-                return reply(StatusCode::PAYLOAD_TOO_LARGE, JSON, String::new());
+                return reply(StatusCode::PAYLOAD_TOO_LARGE, TEXT, Vec::new());
             };
             match serde_json::from_slice(&bytes) {
-                Ok(numbers) => (&desk.runs, Question::Try { numbers }, JSON),
-                Err(error) => return reply(StatusCode::BAD_REQUEST, JSON, error.to_string()),
+                Ok(question) => question,
+                Err(error) => return reply(StatusCode::BAD_REQUEST, TEXT, error.to_string().into_bytes()),
             }
         }
-        Some(("run", index)) if is_get => match index.parse() {
-            Ok(index) => (&desk.runs, Question::Run { index }, JSON),
-            Err(_) => return reply(StatusCode::NOT_FOUND, JSON, String::new()),
-        },
-        _ => return reply(StatusCode::NOT_FOUND, JSON, String::new()),
+        _ => return reply(StatusCode::NOT_FOUND, TEXT, Vec::new()),
     };
-    match ask(at, question).await {
-        Answer::Found(text) => reply(StatusCode::OK, kind, text),
-        Answer::Refused(why) => reply(StatusCode::UNPROCESSABLE_ENTITY, "text/plain; charset=utf-8", why),
+    match desk.desks.ask(question).await {
+        Answer::Page(text) => reply(StatusCode::OK, HTML, text.into_bytes()),
+        Answer::Json(text) => reply(StatusCode::OK, JSON, text.into_bytes()),
+        Answer::Film(bytes) => reply(StatusCode::OK, MP4, bytes),
+        Answer::Refused(why) => reply(StatusCode::UNPROCESSABLE_ENTITY, TEXT, why.into_bytes()),
     }
 }
 
-fn reply(status: StatusCode, kind: &'static str, text: String) -> Response<Body> {
+fn reply(status: StatusCode, kind: &'static str, bytes: Vec<u8>) -> Response<Body> {
     let headers = [
         (CONTENT_TYPE, kind),
         (CACHE_CONTROL, "no-store"),
@@ -177,7 +173,7 @@ fn reply(status: StatusCode, kind: &'static str, text: String) -> Response<Body>
     ];
     let response =
         headers.into_iter().fold(Response::builder().status(status), |made, (name, value)| made.header(name, value));
-    response.body(Body::from(text)).expect("the headers are valid")
+    response.body(Body::from(bytes)).expect("the headers are valid")
 }
 
 #[cfg(test)]
@@ -189,8 +185,9 @@ mod tests {
     #[test]
     fn only_a_browser_of_this_machine_that_knows_the_secret_is_admitted() {
         let (asked, _questions) = channel();
+        let desks = Desks { pages: asked.clone(), runs: asked.clone(), errands: asked };
         let hosts = ["127.0.0.1:4000", "localhost:4000"].map(str::to_owned);
-        let desk = Desk { secret: "5ec".to_owned(), hosts, pages: asked.clone(), runs: asked };
+        let desk = Desk { secret: "5ec".to_owned(), hosts, desks };
         let admitted = |path: &str, host: &[&str], origin: &[&str]| {
             let mut headers = HeaderMap::new();
             for value in host {

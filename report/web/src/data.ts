@@ -1,6 +1,6 @@
 // The data of the page: a document, a table of tests, and runs that are read when they are played. docs/report-data.md describes them.
 
-import { ranAgain } from "./server";
+import { ran } from "./server";
 
 export interface Coordinate {
   name: string;
@@ -225,7 +225,7 @@ const roads = new Map<number, Promise<Ground[]>>();
 
 /** Reads the run of a test; null if the page does not have it. */
 export async function readRun(page: Document, index: number): Promise<Run | null> {
-  if (page.served) return page.study.scenario === null ? null : (await ranAgain(index)).run;
+  if (page.served) return page.study.scenario === null ? null : (await ran(index)).run;
   const place = page.runs.roads[index];
   if (place === undefined) return null;
   if (!roads.has(place)) roads.set(place, json<Ground[]>(`roads-${place}`));

@@ -4,12 +4,14 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Run } from "./data";
 import { colour, h } from "./dom";
+import { Inquiries } from "./inquiries";
+import { Lens } from "./lens";
 import { sign } from "./marks";
 import { Motion, Player } from "./player";
-import { type Ran, ranAt } from "./server";
+import { cameras, type Ran, ran as runOf, type Wanted } from "./server";
 import { Sliders } from "./sliders";
 import type { Store } from "./store";
-import { digits, withUnit } from "./words";
+import { reason, withUnit } from "./words";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4];
 /** The signals that are drawn first, if a run has them. */
@@ -31,9 +33,16 @@ export class Film {
   private isRunning = false;
   /** The number of tests whose runs are asked for. */
   private pending = 0;
+  private readonly inquiries: Inquiries;
+  /** The names of the cameras that film tests, once somebody has asked for them. */
+  private cameras: Promise<string[]> | null = null;
 
   constructor(private readonly store: () => Store) {
-    this.dialog.addEventListener("close", () => this.stop());
+    this.inquiries = new Inquiries(store);
+    this.dialog.addEventListener("close", () => {
+      this.stop();
+      this.inquiries.clear();
+    });
     this.dialog.addEventListener("click", (event) => {
       if (event.target === this.dialog) this.dialog.close();
     });
@@ -61,9 +70,11 @@ export class Film {
     this.stop();
     this.stage.replaceChildren(h("p", { class: "note" }, why));
     this.dialog.replaceChildren(this.head(index, row), this.stage, this.about(index, row));
+    this.inquiries.about(index, row < 0 ? "" : store.verdictName(row));
+    this.dialog.append(this.inquiries.element);
     if (store.page.served && row >= 0) this.dialog.append(this.change(store.numbersOf(row)));
     if (!this.dialog.open) this.dialog.showModal();
-    if (run) this.play(run, `Test ${index}`);
+    if (run) this.play(run, `Test ${index}`, index);
   }
 
   /** Opens the dialog for a new test, runs it and plays its run. */
@@ -71,7 +82,8 @@ export class Film {
     this.asked += 1;
     this.stop();
     this.stage.replaceChildren(h("p", { class: "note" }, "The test runs."));
-    this.dialog.replaceChildren(this.newHead(""), this.stage, this.change(numbers));
+    this.inquiries.clear();
+    this.dialog.replaceChildren(this.newHead(""), this.stage, this.inquiries.element, this.change(numbers));
     if (!this.dialog.open) this.dialog.showModal();
     await this.run(numbers, true);
   }
@@ -96,23 +108,24 @@ export class Film {
       let ran: Ran | null = null;
       let why = "A system has no world to show.";
       try {
-        ran = await ranAt(wanted);
+        ran = await runOf(wanted);
         why = ran.problem ?? why;
       } catch (error) {
         why = reason(error);
       }
       if (this.asked !== asked || !this.dialog.open) continue;
-      this.showNew(ran, why);
+      this.showNew(wanted, ran, why);
       if (ran && isLast) this.store().add(wanted, ran.verdict);
     }
     this.isRunning = false;
   }
 
-  private showNew(ran: Ran | null, why: string) {
+  private showNew(wanted: number[], ran: Ran | null, why: string) {
     const { time, isPlaying } = this.state();
     this.stop();
     this.dialog.querySelector(":scope > .about")?.remove();
     this.dialog.firstElementChild?.replaceWith(this.newHead(ran?.verdict ?? ""));
+    this.inquiries.about(wanted, ran?.verdict ?? "");
     const units = new Map(this.store().page.requirements.map(({ id, unit }) => [id, unit]));
     const margins = Object.entries(ran?.robustness ?? {}).map(([id, value]) => `${id}: robustness ${value === null ? "undecided" : withUnit(value, units.get(id) ?? null)}`);
     this.outcome.replaceChildren(...(ran ? [
@@ -120,7 +133,7 @@ export class Film {
       h("p", { class: "muted" }, "This test is no test of the campaign. Its values: ", h("code", { class: "values" }, JSON.stringify(ran.test)), ", its trace hash: ", h("code", { class: "hash" }, ran.trace_hash ?? "none")),
     ] : []));
     this.stage.replaceChildren(h("p", { class: "note" }, why));
-    if (ran?.run) this.play(ran.run, "A new test", time, isPlaying);
+    if (ran?.run) this.play(ran.run, "A new test", wanted, time, isPlaying);
   }
 
   private newHead(verdict: string): HTMLElement {
@@ -158,7 +171,7 @@ export class Film {
     return `This page does not have the run of test ${index}${why}.${command}`;
   }
 
-  private play(run: Run, name: string, begin = 0, isToPlay = true) {
+  private play(run: Run, name: string, test: Wanted, begin = 0, isToPlay = true) {
     const motion = new Motion(run);
     const player = new Player(motion, `${name} from above`);
     const clock = h("output", { class: "clock" });
@@ -166,10 +179,17 @@ export class Film {
     const button = h("button", { type: "button", class: "play", click: () => (isPlaying ? pause() : start()) });
     let speed = 1;
     const speeds = h("select", { "aria-label": "Speed", change: () => (speed = Number(speeds.value)) }, ...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === 1 }, `${factor}×`)));
+    const lens = new Lens();
     const view = h("select", { "aria-label": "View", change: () => {
+      const camera = view.selectedOptions[0]?.dataset.camera;
+      player.sheet.canvas.hidden = camera !== undefined;
+      if (camera !== undefined) return void lens.show(test, camera, () => seek(player.time));
+      lens.hide();
       player.follows = view.value === "car";
       player.sheet.draw();
     } }, h("option", { value: "car" }, "follow the car"), h("option", { value: "all" }, "whole way"));
+    if (this.store().page.served) this.cameras ??= cameras().catch(() => []);
+    void this.cameras?.then((names) => view.append(...names.map((name) => h("option", { "data-camera": name }, `camera ${name}`))));
     const plots = this.plots(run, (time) => {
       pause();
       seek(time);
@@ -180,6 +200,7 @@ export class Film {
       scrub.value = String(player.time);
       clock.textContent = `${player.time.toFixed(2)} of ${motion.duration.toFixed(2)} s`;
       plots.cursor(player.time);
+      lens.seek(player.time, isPlaying, speed);
     };
     const tick = (now: number) => {
       if (!isPlaying) return;
@@ -197,6 +218,7 @@ export class Film {
     const pause = () => {
       isPlaying = false;
       cancelAnimationFrame(frame);
+      lens.seek(player.time, isPlaying, speed);
       tell();
     };
     const tell = () => {
@@ -216,11 +238,12 @@ export class Film {
       pause();
       this.dialog.removeEventListener("keydown", keys);
       plots.destroy();
+      lens.hide();
       this.state = () => ({ time: 0, isPlaying: true });
       this.stop = () => {};
     };
     this.stage.replaceChildren(
-      h("div", { class: "world" }, player.sheet.canvas, h("div", { class: "controls" }, button, scrub, clock, speeds, view)),
+      h("div", { class: "world" }, player.sheet.canvas, lens.element, h("div", { class: "controls" }, button, scrub, clock, speeds, view)),
       plots.element,
     );
     seek(begin);
@@ -292,18 +315,17 @@ export class Film {
   private about(index: number, row: number): HTMLElement {
     const store = this.store();
     const { page, tests } = store;
+    const unit = (id: string) => page.requirements.find((requirement) => requirement.id === id)?.unit ?? null;
     if (row < 0) return h("p", { class: "note" }, "The table of this page does not have this test.");
     const mode = tests.mode[row];
     return h("div", { class: "about" },
       h("dl", {}, ...store.valuesOf(row).flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
-        ...tests.robustness.flatMap(({ id, values }) => [h("dt", {}, `robustness of ${id}`), h("dd", {}, Number.isNaN(values[row]) ? "undecided" : digits(values[row]))])),
+        ...tests.robustness.flatMap(({ id, values }) => [h("dt", {}, `robustness of ${id}`), h("dd", {}, Number.isNaN(values[row]) ? "undecided" : withUnit(values[row], unit(id)))])),
       mode ? h("p", {}, page.modes.modes[mode - 1].words) : null,
       h("p", { class: "command" }, h("code", {}, `${page.study.program} replay ${page.study.folder} ${index}${page.study.trusting}`)),
     );
   }
 }
-
-const reason = (error: unknown) => (error instanceof Error ? error.message : String(error));
 
 function zeroLine(u: uPlot) {
   const y = u.valToPos(0, "y", true);

@@ -22,6 +22,9 @@ export function withUnit(number: Real | undefined, unit: string | null): string 
   return unit ? `${digits(number)} ${unit}` : digits(number);
 }
 
+/** The reason of an error in words. */
+export const reason = (error: unknown) => (error instanceof Error ? error.message : String(error));
+
 /** A value that somebody has pointed at, with no more digits than a thousandth of the width in sight, and within the range of its coordinate. */
 export function pointed(value: number, width: number, [lo, hi]: [number, number]): number {
   const step = 10 ** Math.floor(Math.log10(Math.max(width, Number.MIN_VALUE) / 1000));
