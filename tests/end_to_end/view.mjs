@@ -70,7 +70,7 @@ if (task === "use") {
   });
   seen.film = await page.evaluate(() => {
     const video = document.querySelector(".lens video");
-    return video && [video.videoWidth, video.videoHeight, Math.round(10 * Math.abs(video.currentTime - Number(document.querySelector(".world canvas").dataset.time)))];
+    return video && [video.videoWidth, video.videoHeight, Math.round(10 * Math.abs(video.currentTime - parseFloat(document.querySelector(".clock").textContent)))];
   });
   await views.selectOption({ label: "whole way" });
   seen.above = await page.isVisible("dialog .world canvas");
