@@ -5,7 +5,7 @@ use crate::analysis::sensitivity::{Indices, Sensitivity, of_model};
 use crate::analysis::{Effects, Inconclusive};
 use crate::campaign::Log;
 use crate::report::html::{Finding, FindingTable};
-use crate::space::{plural, values_in_words};
+use crate::space::{digits, plural, values_in_words};
 use serde_json::Value;
 use std::cmp::Reverse;
 
@@ -102,6 +102,94 @@ pub(crate) fn located(file: &Value) -> Option<Finding> {
     let rows: Vec<_> = locations.filter_map(row).take(ROWS).collect();
     let lines = vec!["Further tests showed that these values make tests fail.".to_owned()];
     (!rows.is_empty()).then(|| Finding { label: "located", lines, table: Some(table(&["values", "behind"], rows)) })
+}
+
+/// Returns what suites of tests would have missed, from the file of an audit.
+pub(crate) fn audit(file: &Value) -> Option<Finding> {
+    let others = file.get("others").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
+    let suites: Vec<Audited> = std::iter::once(file).chain(others).filter_map(Audited::of).collect();
+    let lines = suites.iter().flat_map(Audited::lines).collect();
+    let head = ["suite", "tests", "largest hole", "mutation score"];
+    let rows: Vec<_> = suites.iter().map(Audited::row).collect();
+    (!rows.is_empty()).then(|| Finding { label: "audit", lines, table: Some(table(&head, rows)) })
+}
+
+/// A suite in the file of an audit.
+struct Audited<'a> {
+    file: &'a Value,
+    name: &'a str,
+    tests: usize,
+}
+
+impl<'a> Audited<'a> {
+    fn of(file: &'a Value) -> Option<Self> {
+        Some(Self { file, name: file.get("suite")?.as_str()?, tests: count(file, "tests")? })
+    }
+
+    /// The part of the file with a name; `None` if the audit found nothing of this kind.
+    fn part(&self, name: &str) -> Option<&'a Value> {
+        self.file.get(name).filter(|part| !part.is_null())
+    }
+
+    fn row(&self) -> Vec<String> {
+        let score = self.part("mutants").and_then(|mutants| {
+            let (killed, counted) = (count(mutants, "killed")?, count(mutants, "counted")?);
+            let share = share(mutants.get("mutation_score")?)?;
+            Some(format!("{share}: {killed} of {counted}"))
+        });
+        let hole = self.part("hole").and_then(bracket);
+        vec![self.name.to_owned(), self.tests.to_string(), hole.unwrap_or_default(), score.unwrap_or_default()]
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let Self { name, tests, .. } = self;
+        let witness = self.part("witness").and_then(|witness| {
+            let sides = witness.get("box")?.as_object()?.iter().filter_map(|(name, ends)| {
+                Some(format!("{name} {}..{}", digits(ends.get(0)?.as_f64()?), digits(ends.get(1)?.as_f64()?)))
+            });
+            let row = witness.get("row")?.as_object()?.iter();
+            let row = row.map(|(name, value)| format!("{name} {}", value.as_str().map_or_else(|| value.to_string(), str::to_owned)));
+            let place = sides.chain(row).collect::<Vec<_>>().join(", ");
+            let (failing, tried) = (count(witness, "failing")?, count(witness, "tried")?);
+            Some(format!(
+                "{name}: a driver that does not brake where {place} gets all verdicts of the given driver in the {tests} tests, and fails in {failing} of {} there.",
+                plural(tried, "test")
+            ))
+        });
+        let additions = self.part("additions").and_then(|additions| {
+            let missed = count(additions, "missed").filter(|missed| *missed > 0)?;
+            let more = additions.get("tests")?.as_array()?.len();
+            Some(format!(
+                "{name} misses {}; {} would notice what it misses.",
+                plural(missed, "mutant"),
+                plural(more, "more test")
+            ))
+        });
+        let better = self.part("better").and_then(|better| {
+            let (fewer, hole) = (count(better, "tests")?, bracket(better.get("hole")?)?);
+            let score = better.get("mutation_score").and_then(share);
+            let score = score.map(|score| format!(" and the mutation score {score}")).unwrap_or_default();
+            Some(format!("{name}: there is a suite of {} with the largest hole {hole}{score}.", plural(fewer, "test")))
+        });
+        [witness, additions, better].into_iter().flatten().collect()
+    }
+}
+
+fn count(of: &Value, name: &str) -> Option<usize> {
+    of.get(name)?.as_u64().map(|count| count as usize)
+}
+
+/// Returns the bracket of a volume in words.
+fn bracket(of: &Value) -> Option<String> {
+    let [lower, upper] = ["lower", "upper"].map(|end| of.get(end).and_then(Value::as_f64));
+    let (lower, upper) = (lower?, upper?);
+    Some(if lower == upper { digits(lower) } else { format!("{}..{}", digits(lower), digits(upper)) })
+}
+
+/// Returns a share with its interval, in percent.
+fn share(of: &Value) -> Option<String> {
+    let [value, lower, upper] = ["value", "lower", "upper"].map(|end| of.get(end).and_then(Value::as_f64));
+    Some(format!("{:.1} % ({:.1} % to {:.1} %)", 100.0 * value?, 100.0 * lower?, 100.0 * upper?))
 }
 
 fn table(head: &[&str], rows: Vec<Vec<String>>) -> FindingTable {

@@ -24,6 +24,7 @@ mod page;
 mod runner;
 
 pub use lists::Lists;
+pub use page::{Beside, OtherAudit};
 pub use paracosm_campaign::{
     Campaign, Catalogue, Error, Finish, Folder, Log, Observer, Sampling, Study, StudyBuilder, Trial,
 };

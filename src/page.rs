@@ -2,24 +2,52 @@
 
 use crate::Report;
 use crate::analysis::{Difference, Growth, Modes};
-use crate::campaign::{Error, Folder, JsonArtefact};
+use crate::campaign::{Error, Folder, JsonArtefact, Reason};
 use crate::findings;
 use crate::report::StepSummary;
 use crate::report::html::Page;
 use serde_json::{Map, Value};
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// The results beside those of a campaign that its page shows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Beside<'a> {
+    /// The comparison with an earlier campaign.
+    pub changes: Option<&'a Difference>,
+    /// The folder of an audit of tests for the same scenario and driver.
+    pub audit: Option<&'a Path>,
+}
+
+/// The error that an audit and a campaign have different titles.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the audit in {} is about `{audit}`, and the campaign about `{campaign}`", folder.display())]
+pub struct OtherAudit {
+    /// The folder of the audit.
+    pub folder: PathBuf,
+    /// The title of the audit.
+    pub audit: String,
+    /// The title of the campaign.
+    pub campaign: String,
+}
+
+impl Reason for OtherAudit {}
 
 /// The files of results that other commands write into the folder of a campaign.
 const BESIDE: [&str; 2] = ["blame.json", "located.json"];
 
+/// The file of results in the folder of an audit.
+const AUDIT: &str = "audit.json";
+
 impl Report {
     /// Makes the page of the campaign in a folder. `program` is the name of the program in commands on the
-    /// page, usually `paracosm-fuzz`. `changes` compares an earlier campaign with this one.
+    /// page, usually `paracosm-fuzz`.
     ///
     /// # Errors
-    /// A test does not belong to the space, or a file of the folder cannot be read.
-    pub fn page(&self, folder: &Path, program: &str, changes: Option<&Difference>) -> Result<Page<'_>, Error> {
+    /// A test does not belong to the space, a file of the folder or of the audit cannot be read, or the audit is of another scenario or
+    /// driver.
+    pub fn page(&self, folder: &Path, program: &str, beside: Beside) -> Result<Page<'_>, Error> {
         let mut results = Map::new();
         self.artefacts(|artefact| {
             let of_json = |file: &&str| file.ends_with(".json") && *file != Modes::FILE;
@@ -29,7 +57,8 @@ impl Report {
             }
             Ok(())
         })?;
-        for file in BESIDE {
+        let files = BESIDE.map(|file| (folder, file)).into_iter();
+        for (folder, file) in files.chain(beside.audit.map(|folder| (folder, AUDIT))) {
             let path = folder.join(file);
             match std::fs::read(&path) {
                 Ok(text) => {
@@ -37,8 +66,15 @@ impl Report {
                         serde_json::from_slice(&text).map_err(|error| Error::io("read", &path)(error.into()))?;
                     results.insert(file.to_owned(), value);
                 }
-                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                Err(error) if error.kind() == ErrorKind::NotFound && file != AUDIT => {}
                 Err(error) => return Err(Error::io("read", &path)(error)),
+            }
+        }
+        if let (Some(folder), Some(audit)) = (beside.audit, results.get(AUDIT)) {
+            let (folder, campaign) = (folder.to_owned(), self.log.study().title());
+            let audit = audit.get("title").and_then(Value::as_str).unwrap_or_default().to_owned();
+            if audit != campaign {
+                return Err(OtherAudit { folder, audit, campaign }.into());
             }
         }
         let unfinished = Folder::is_unfinished(folder, self.log.study(), self.log.trials().len());
@@ -48,6 +84,7 @@ impl Report {
         findings.extend((!unfinished).then(|| findings::sensitivity(&self.log)).flatten());
         findings.extend(results.get("blame.json").and_then(findings::blame));
         findings.extend(results.get("located.json").and_then(findings::located));
+        findings.extend(results.get(AUDIT).and_then(findings::audit));
         Ok(Page {
             log: &self.log,
             folder: folder.display().to_string(),
@@ -62,7 +99,7 @@ impl Report {
             axes: self.axes()?,
             findings,
             results,
-            changes: changes.map(|changes| serde_json::to_value(changes).unwrap_or(Value::Null)),
+            changes: beside.changes.map(|changes| serde_json::to_value(changes).unwrap_or(Value::Null)),
         })
     }
 

@@ -6,9 +6,9 @@ use super::progress::bar;
 use super::trust;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, program};
-use crate::Report;
 use crate::analysis::Difference;
 use crate::report::html::{MEGABYTES, Runs};
+use crate::{Beside, Report};
 use clap::Args;
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{Catalogue, Error, Supervision};
@@ -35,6 +35,9 @@ pub(super) struct Options {
     /// Also show what changed since the campaign in this folder
     #[arg(long, value_name = "DIR")]
     baseline: Option<PathBuf>,
+    /// Also show the results of the audit in this folder
+    #[arg(long, value_name = "DIR")]
+    audit: Option<PathBuf>,
     /// The greatest size of the page in megabytes
     #[arg(long, value_name = "MB", default_value_t = MEGABYTES)]
     max_mb: f64,
@@ -61,7 +64,8 @@ impl Options {
             self.baseline.as_deref().map(|folder| trust::read_results(folder, catalogue, verbosity)).transpose()?;
         let changes = before.map(|before| Difference::of(&before, &log)).transpose()?;
         let report = verbosity.noting_if_slow("deriving the results from the log", || Report::read(log, &self.dir))?;
-        let page = report.page(&self.dir, program::name(), changes.as_ref())?;
+        let beside = Beside { changes: changes.as_ref(), audit: self.audit.as_deref() };
+        let page = report.page(&self.dir, program::name(), beside)?;
         let supervision = Supervision::default();
         on_interrupt(supervision.stop.clone());
         let progress = bar(verbosity, 0);

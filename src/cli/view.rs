@@ -1,8 +1,8 @@
 //! `paracosm-fuzz view`: shows a campaign in a browser, also while it runs, and runs further tests.
 
 use super::{Failure, Status, Verbosity, on_interrupt, print, program, trust};
-use crate::Report;
 use crate::report::viewer::{Doorway, Viewer};
+use crate::{Beside, Report};
 use clap::Args;
 use paracosm_campaign::cameras::read_cameras;
 use paracosm_campaign::{Catalogue, Error, Log};
@@ -56,7 +56,9 @@ impl Options {
         // What is noted about the folder is noted once.
         let read = || self.trust.read(&self.dir, catalogue, Verbosity::SILENT).map(|(log, _)| log);
         let page = || -> Result<String, Error> {
-            Report::read(Log::read(&self.dir, catalogue)?, &self.dir)?.page(&self.dir, program::name(), None)?.served()
+            Report::read(Log::read(&self.dir, catalogue)?, &self.dir)?
+                .page(&self.dir, program::name(), Beside::default())?
+                .served()
         };
         let cameras = self.cameras.as_deref().map(read_cameras).transpose()?;
         let viewer = Viewer {

@@ -185,6 +185,34 @@ fn a_page_has_the_sensitivity_the_blame_and_the_suspects_as_tables() {
 }
 
 #[test]
+fn a_page_has_the_results_of_an_audit_of_the_same_scenario_and_driver() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "30", "--out", "out", "-q"]));
+    let audit = ["audit", "pedestrian-crossing", "--tests", "out", "--tests", "halton:12", "--format", "json", "-q"];
+    let printed = fuzz(dir.path(), &[&audit[..], &["--mutants", "10", "--screen", "16"]].concat());
+    let printed: Value = serde_json::from_str(&stdout(&succeeds(printed))).unwrap();
+    let all = findings(&report(dir.path(), &["--audit", "paracosm-audit"]));
+    let found = all.iter().find(|finding| finding["label"] == "audit").unwrap();
+    let rows = found["table"]["rows"].as_array().unwrap();
+    for (row, suite) in rows.iter().zip([&printed, &printed["others"][0]]) {
+        let mutants = &suite["mutants"];
+        assert_eq!((row[0].as_str(), row[1].as_str()), (suite["suite"].as_str(), Some(&*suite["tests"].to_string())));
+        let score = format!(": {} of {}", mutants["killed"], mutants["counted"]);
+        assert!(row[3].as_str().unwrap().ends_with(&score), "{row}");
+        let hole: f64 = row[2].as_str().unwrap().parse().unwrap();
+        assert!((hole - suite["hole"]["lower"].as_f64().unwrap()).abs() < 1e-5, "{row}");
+    }
+    assert_eq!(rows.len(), 2);
+    let witness = printed["others"][0]["witness"]["failing"].as_u64().expect("12 tests leave a hole that matters");
+    assert!(found["lines"].to_string().contains(&format!("and fails in {witness} of 64 tests there")), "{found}");
+    succeeds(fuzz(dir.path(), &["--driver", "planner", "--budget", "3", "--out", "other", "-q"]));
+    let report = |folder: &str, audit: &str| fuzz(dir.path(), &["report", folder, "--audit", audit, "--out", "x.html"]);
+    let says = "the audit in paracosm-audit is about `pedestrian-crossing, driver aeb`, and the campaign about `pedestrian-crossing, driver planner`";
+    refused(&report("other", "paracosm-audit"), &[says]);
+    refused(&report("out", "nowhere"), &["nowhere/audit.json"]);
+}
+
+#[test]
 fn a_page_of_an_untrusted_driver_has_no_runs_and_says_so() {
     let dir = tempfile::tempdir().unwrap();
     succeeds(fuzz(dir.path(), &["--budget", "40", "--out", "out", "-q"]));
