@@ -18,6 +18,7 @@ use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::mcap;
 use paracosm_report::plot;
 use paracosm_report::record::{Clip, cameras_of};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -232,7 +233,7 @@ impl Options {
         }
         print(&match self.form.format {
             Format::Table => table(study, &trial, logged),
-            Format::Json => json(&trial),
+            Format::Json => json(&Replay { logged: (!trial.repeats(logged)).then_some(logged), trial: &trial }),
         })?;
         match trial.error() {
             Some(error) if self.fail_on_violation => Err(format!("test {index} ended in an error: {error}").into()),
@@ -302,6 +303,16 @@ impl Options {
         cameras.all.retain(|other, _| Some(other) == name.as_ref());
         Ok(cameras)
     }
+}
+
+/// A test that was run again, in JSON.
+#[derive(Serialize)]
+struct Replay<'a> {
+    #[serde(flatten)]
+    trial: &'a Trial,
+    /// The test in the log, if it ended otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    logged: Option<&'a Trial>,
 }
 
 impl From<Ending> for Expectation {

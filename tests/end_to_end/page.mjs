@@ -88,6 +88,16 @@ if (task === "use") {
   await page.waitForSelector("dialog[open]");
   seen.byMatrix = await page.textContent("dialog h2");
   await page.click("dialog header button:last-child");
+  // The same by keyboard, only among failing tests.
+  await page.selectOption('select[aria-label="Verdict"]', { label: "fail" });
+  await matrix.focus();
+  for (const key of ["PageUp", "ArrowRight", "ArrowRight", "ArrowLeft"]) await page.keyboard.press(key);
+  seen.focused = await page.textContent(".matrix .note");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("dialog[open]");
+  seen.byStripKey = await page.textContent("dialog h2");
+  await page.click("dialog header button:last-child");
+  await page.click("text=Remove all filters");
   // The table is sorted, and plays a test by keyboard.
   await page.click("th button:has-text('verdict')");
   await page.locator(".scroll").focus();

@@ -37,6 +37,12 @@ fn report(dir: &Path, options: &[&str]) -> PathBuf {
     dir.join("page.html")
 }
 
+/// The tests of the campaign.
+fn trials(dir: &Path) -> Vec<Value> {
+    let log = fs::read_to_string(dir.join("out/trials.jsonl")).unwrap();
+    log.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
 #[test]
 fn a_page_opens_without_any_request_and_plays_the_worst_test() {
     let dir = tempfile::tempdir().unwrap();
@@ -69,6 +75,12 @@ fn a_page_opens_without_any_request_and_plays_the_worst_test() {
         "{pointed}"
     );
     assert!(seen["byMatrix"].as_str().unwrap().contains("est 2"), "{}", seen["byMatrix"]);
+    // The second failing test of the campaign.
+    let failing = trials(dir.path()).into_iter().filter(|trial| trial["verdict"] == "fail").nth(1).unwrap();
+    for named in [&seen["focused"], &seen["byStripKey"]] {
+        let name = format!("est {}: ", failing["index"]);
+        assert!(named.as_str().unwrap().contains(&name), "{named}, expected {name}");
+    }
     assert!(seen["byKeyboard"].as_str().unwrap().contains("fail"), "{}", seen["byKeyboard"]);
 }
 

@@ -68,6 +68,13 @@ fn another_command_of_the_user_takes_the_place_of_the_command_of_a_folder() {
     refused(&fuzz(dir.path(), &same), &says);
     let changed = stdout(&succeeds(fuzz(dir.path(), &[&same[..], &["--changed"]].concat())));
     assert!(changed.contains("test 1: pass, logged fail"), "{changed}");
+    let printed = stdout(&succeeds(fuzz(dir.path(), &[&same[..], &["--changed", "--format", "json"]].concat())));
+    let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(printed["robustness"]["a"], 2.0);
+    assert_eq!(
+        (&printed["logged"]["verdict"], &printed["logged"]["robustness"]["a"]),
+        (&"fail".into(), &(-1.0).into())
+    );
     // A mended failure is no broken test.
     let regression = fuzz(dir.path(), &["replay", "one.json", "--system", "sh system.sh", "--fail-on-unexpected"]);
     assert_eq!(regression.status.code(), Some(1), "{}", stderr(&regression));

@@ -24,18 +24,29 @@ async function outcome(before) {
   };
 }
 
-if (task === "use") {
-  // A place far from every test, and a click on it.
+/** Clicks an empty place of the map. */
+async function clickNowhere() {
   const pane = await page.locator(".pane").first().boundingBox();
-  const places = [];
-  for (let i = 1; i < 24; i++) for (let j = 1; j < 24; j++) places.push([pane.x + (pane.width * i) / 24, pane.y + (pane.height * j) / 24]);
-  for (const place of places) {
-    await page.mouse.move(...place);
-    if (await page.locator(".tip").isHidden()) {
-      await page.mouse.click(...place);
-      break;
+  for (let i = 1; i < 24; i++) {
+    for (let j = 1; j < 24; j++) {
+      const place = [pane.x + (pane.width * i) / 24, pane.y + (pane.height * j) / 24];
+      await page.mouse.move(...place);
+      if (await page.locator(".tip").isHidden()) return page.mouse.click(...place);
     }
   }
+}
+
+/** Turns the wheel over the middle of the map. */
+async function wheel(by) {
+  const pane = await page.locator(".pane").first().boundingBox();
+  await page.mouse.move(pane.x + pane.width / 2, pane.y + pane.height / 2);
+  await page.mouse.wheel(0, by);
+  await page.waitForTimeout(300);
+}
+
+if (task === "use") {
+  // A place far from every test, and a click on it.
+  await clickNowhere();
   seen.clicked = await outcome("");
   await page.waitForSelector("dialog .world canvas[data-time]");
   const time = () => page.locator("dialog .world canvas").getAttribute("data-time").then(Number);
@@ -89,6 +100,11 @@ if (task === "use") {
   await page.keyboard.press("Enter");
   await page.waitForSelector("dialog[open] .values");
   seen.middle = await page.textContent("dialog .values");
+  await page.click("dialog header button:last-child");
+  // On a part of the map, a click is a test of this part with as many digits as the part needs.
+  for (let i = 0; i < 8; i++) await wheel(-600);
+  await clickNowhere();
+  seen.zoomed = (await outcome(seen.middle)).values;
 } else {
   const tests = async () => Number((await page.textContent(".headline")).replaceAll(",", "").match(/(\d+) tests/)?.[1]);
   seen.counts = [await tests()];
@@ -97,14 +113,27 @@ if (task === "use") {
     await page.waitForFunction((count) => Number(document.querySelector(".headline")?.textContent.replaceAll(",", "").match(/(\d+) tests/)?.[1]) > count, last, { timeout: 60000 });
     seen.counts.push(await tests());
   }
-  // While a test is shown, the page only tells of new tests.
+  // While a part of the map is shown, the page only tells of new tests.
+  const told = () => page.waitForSelector(".unfinished button", { state: "attached", timeout: 60000 });
+  // The page may be made again while the wheel turns.
+  for (let i = 0; i < 20 && (await page.locator(".unfinished button").count()) === 0; i++) {
+    await wheel(-600);
+    await page.waitForTimeout(2000);
+  }
+  await told();
+  const shown = await tests();
+  await page.waitForTimeout(4000);
+  seen.isKept = (await tests()) === shown;
+  await page.click(".unfinished button");
+  await page.waitForFunction((count) => Number(document.querySelector(".headline")?.textContent.replaceAll(",", "").match(/(\d+) tests/)?.[1]) > count, shown, { timeout: 60000 });
+  // While a test is shown, too.
   await page.waitForSelector(".worst .thumb canvas");
   // The page may be made again between the search for the button and the click.
   for (let i = 0; i < 20 && (await page.locator("dialog[open]").count()) === 0; i++) {
     await page.click(".worst .thumb").catch(() => {});
     await page.waitForTimeout(500);
   }
-  await page.waitForSelector(".unfinished button", { state: "attached", timeout: 60000 });
+  await told();
   seen.told = await page.textContent(".unfinished");
   seen.open = await page.locator("dialog[open]").count();
 }

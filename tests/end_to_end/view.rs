@@ -141,6 +141,13 @@ fn a_click_on_the_map_and_a_dragged_value_run_tests_that_end_as_the_program_says
     assert_eq!(seen["above"], true);
     assert!(seen["row"].as_str().unwrap().starts_with("Test "), "{}", seen["row"]);
     assert_eq!(seen["middle"], r#"{"speed":5.25,"distance":32.5}"#);
+    // The map is 64 times as large as at first, around the middle.
+    let zoomed: BTreeMap<String, f64> = serde_json::from_str(seen["zoomed"].as_str().unwrap()).unwrap();
+    for (name, middle, width) in [("speed", 5.25, 9.5 / 64.0), ("distance", 32.5, 55.0 / 64.0)] {
+        assert!((zoomed[name] - middle).abs() <= width / 2.0, "{name}: {zoomed:?}");
+        let digits = zoomed[name].to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
+        assert!((2..=5).contains(&digits), "{name}: {zoomed:?}");
+    }
     assert_eq!(viewing.ended(), Some(0));
     assert!(files(&dir.path().join("out")) == before, "a viewer writes nothing");
 }
@@ -302,7 +309,7 @@ fn strangers_get_nothing_from_a_viewer() {
 #[test]
 fn a_campaign_that_still_runs_grows_on_the_page() {
     let dir = tempfile::tempdir().unwrap();
-    let campaign = ["grid-traffic", "--budget", "2000", "--jobs", "1", "--out", "out", "-q"];
+    let campaign = ["grid-traffic", "--open", "friction", "--budget", "2000", "--jobs", "1", "--out", "out", "-q"];
     let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
     let mut campaign = program.args(campaign).current_dir(dir.path()).stdout(Stdio::null()).spawn().unwrap();
     let log = dir.path().join("out/trials.jsonl");
@@ -318,7 +325,7 @@ fn a_campaign_that_still_runs_grows_on_the_page() {
     let counts: Vec<u64> = seen["counts"].as_array().unwrap().iter().map(|count| count.as_u64().unwrap()).collect();
     assert!(counts.is_sorted() && counts[0] < counts[2] && counts[2] < 2000, "{counts:?}");
     assert!(seen["told"].as_str().unwrap().contains("new test"), "{seen}");
-    assert_eq!(seen["open"], 1);
+    assert_eq!((&seen["open"], &seen["isKept"]), (&json!(1), &json!(true)));
 }
 
 #[test]
