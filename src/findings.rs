@@ -12,7 +12,7 @@ use std::cmp::Reverse;
 /// The number of rows of a table.
 const ROWS: usize = 10;
 
-/// Returns what the tests themselves show: the explanation of failures, inconclusive tests, parameters without effect, and points.
+/// Returns what the tests themselves show: doubts about programs, the explanation of failures, inconclusive tests, parameters without effect, and points.
 pub(crate) fn of_tests(report: &Report) -> Vec<Finding> {
     let explanation = report
         .explanation
@@ -20,6 +20,7 @@ pub(crate) fn of_tests(report: &Report) -> Vec<Finding> {
         .flat_map(|explanation| explanation.rules_in_words().into_iter().chain([explanation.trust_in_words()]));
     let points = report.points.iter().map(|points| format!("{} ({})", points.in_words(), points.protocol));
     let all = [
+        ("doubts", report.doubts.clone()),
         ("explanation", explanation.collect::<Vec<String>>()),
         ("inconclusive", report.inconclusive.iter().flat_map(Inconclusive::in_words).collect()),
         ("no effect", report.effects.iter().flat_map(Effects::in_words).collect()),

@@ -5,7 +5,7 @@ use crate::analysis::{
     Promise, Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
-    Artefact, Campaign, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason, Study,
+    Artefact, Campaign, Doubts, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason, Study,
     Supervision, Trial,
 };
 use crate::coverage::Measure;
@@ -88,6 +88,8 @@ pub struct Report {
     pub inconclusive: Option<Inconclusive>,
     /// The effects of the open parameters; `None` until they are known.
     pub effects: Option<Effects>,
+    /// The doubts about the programs of the campaign in words, which its log does not show.
+    pub doubts: Vec<String>,
     /// The coverage guarantee of random rows of discrete values, or `None` if rows are not random, or if the campaign
     /// ended before all rows were run.
     pub promise: Option<Promise>,
@@ -139,6 +141,7 @@ impl Report {
         };
         let mut report = Self::of(log, finish, summary)?;
         report.effects = Effects::read(folder)?;
+        report.doubts = Doubts::read(folder)?;
         report.explain()?;
         Ok(report)
     }
@@ -181,6 +184,7 @@ impl Report {
             explanation: Explanation::of(&log)?,
             inconclusive: Inconclusive::of(&log)?,
             effects: None,
+            doubts: Vec::new(),
             // Rows that were not run promise nothing.
             promise: if finish == Finish::Stopped { None } else { Promise::of_campaign(&log)? },
             junit: None,
@@ -269,7 +273,11 @@ impl<'a> Runner<'a> {
         let mut record = Record { runner: self, folder: kept, trials: Vec::new(), learned, summary };
         let mut all: Vec<&mut dyn Observer> = vec![&mut record];
         all.extend(observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer));
-        let finish = campaign.resume(known).run(&mut all)?;
+        let ran = campaign.resume(known).run(&mut all);
+        // An interrupted campaign has doubts, too, and the next run knows nothing of them.
+        let doubted = self.supervision.doubts.keep_in(folder);
+        let finish = ran?;
+        doubted?;
         let Record { folder: kept, trials, learned, summary, .. } = record;
         let log = Log::new(self.study.clone(), learned, self.extension.cloned(), trials).written_to(&kept);
         if !log.scales().learned().is_empty() {
@@ -296,6 +304,8 @@ impl<'a> Runner<'a> {
             report.located = self.located(&report.log, limit)?;
             report.located.iter().try_for_each(|located| kept.put(located))?;
         }
+        self.supervision.doubts.keep_in(folder)?;
+        report.doubts = Doubts::read(folder)?;
         Ok(report)
     }
 

@@ -3,9 +3,16 @@
 //! Which tests a process had before depends on the workers and on their speed. So an error counts only if a new process has it, too, and the log is the
 //! same for any number of workers. A program with such errors may be unsound all the same, so the user has to know.
 
+use crate::Error;
+use crate::files::{read_text_here, write_whole_here};
 use paracosm_space::plural;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The file in the folder of a campaign.
+pub(crate) const FILE: &str = "doubts.json";
 
 /// The most characters of an error.
 const LONGEST_ERROR: usize = 500;
@@ -24,7 +31,45 @@ struct Seen {
     differing: Option<usize>,
 }
 
+/// The contents of the file.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    doubts: Vec<String>,
+}
+
 impl Doubts {
+    /// Reads the doubts of a campaign in words from its folder.
+    ///
+    /// # Errors
+    /// The file cannot be read, or has other contents.
+    pub fn read(folder: &Path) -> Result<Vec<String>, Error> {
+        let path = folder.join(FILE);
+        if !path.exists() {
+            return Ok(Vec::new());
+        }
+        let text = read_text_here(&path)?;
+        let Written { doubts } =
+            serde_json::from_str(&text).map_err(|flaw| Error::in_file(&path, flaw.line(), flaw))?;
+        Ok(doubts)
+    }
+
+    /// Adds the doubts to the file in the folder of a campaign, after the doubts of an earlier part of the campaign. Writes nothing if there are
+    /// no doubts.
+    ///
+    /// # Errors
+    /// The file cannot be read or written.
+    pub fn keep_in(&self, folder: &Path) -> Result<(), Error> {
+        let notes = self.notes();
+        if notes.is_empty() {
+            return Ok(());
+        }
+        let mut doubts = Self::read(folder)?;
+        doubts.extend(notes);
+        doubts.dedup();
+        let text = serde_json::to_string_pretty(&Written { doubts }).expect("texts are always JSON");
+        write_whole_here(&folder.join(FILE), format!("{text}\n").as_bytes())
+    }
+
     /// Returns the number of tests that ended in an error, and that had a result when they ran again.
     pub fn recovered(&self) -> usize {
         self.seen().recovered.len()

@@ -13,7 +13,7 @@ use crate::scales::Learned;
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::trial::Line;
 use crate::trials_file::{Read, TRIALS, read_trials};
-use crate::{Error, Extension, Failure, Reason, Study, Trial, run_in};
+use crate::{Error, Extension, Failure, Reason, Study, Trial, doubts, run_in};
 use same_file::Handle;
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -24,7 +24,7 @@ use thiserror::Error;
 /// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
 /// The names of the files about the programs that a campaign starts.
-const OF_PROGRAMS: [&str; 4] = [run_in::FILE, "driver.log", "perceiver.log", "system.log"];
+const OF_PROGRAMS: [&str; 5] = [run_in::FILE, doubts::FILE, "driver.log", "perceiver.log", "system.log"];
 /// The names of the files that hold results derived from the trials of a campaign.
 pub const DERIVED: [&str; 18] = [
     "effects.json",

@@ -46,6 +46,9 @@ impl Printed<'_> {
                 }
             }
         }
+        for (i, doubt) in self.report.doubts.iter().enumerate() {
+            table.row(if i == 0 { "doubts" } else { "" }, doubt);
+        }
         for (i, judged) in summary.requirements().iter().enumerate() {
             table.row(if i == 0 { "requirements" } else { "" }, &self.in_words(judged));
         }
@@ -178,6 +181,9 @@ impl Printed<'_> {
         let mut printed = json!({"tests": summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
             "requirements": requirements,
             "coverage": self.report.coverage, "out": self.out, "worst": worst});
+        if !self.report.doubts.is_empty() {
+            printed["doubts"] = json!(self.report.doubts);
+        }
         if let Some(Plausible { ranges, summary }) = &self.report.plausible {
             printed["plausible"] = json!(ranges);
             printed["worst_plausible"] = json!(summary.worst(self.report.log.scales()).map(as_json));

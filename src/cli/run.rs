@@ -167,8 +167,9 @@ impl Options {
         }
         let ran = runner.run_into(&self.out, &mut [&mut progress]);
         progress.bar.finish_and_clear();
-        // An interrupted campaign has doubts, too, and the next run knows nothing of them.
-        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
+        if ran.is_err() {
+            supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
+        }
         let report = ran.map_err(|error| match progress.begun {
             true => cut_short(error, &self.out, progress.summary.tests()),
             false => error.into(),

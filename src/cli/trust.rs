@@ -2,7 +2,7 @@
 
 use super::Verbosity;
 use clap::Args;
-use paracosm_campaign::{Catalogue, Folder, Log, NamedCommand, Trust};
+use paracosm_campaign::{Catalogue, Doubts, Folder, Log, NamedCommand, Trust};
 use paracosm_space::plural;
 use std::path::Path;
 
@@ -35,7 +35,7 @@ pub(super) struct OfDrivers {
     trust: bool,
 }
 
-/// Reads the log of a campaign. Notes if the campaign has not ended.
+/// Reads the log of a campaign. Notes if the campaign has not ended, and the doubts about its programs.
 ///
 /// # Errors
 /// The folder holds no campaign, or one of its files is broken.
@@ -49,6 +49,7 @@ pub(super) fn read_results(
         let (ran, budget, dir) = (log.trials().len(), plural(log.study().sampling().budget, "test"), dir.display());
         verbosity.note(format_args!("the campaign in {dir} has not ended: {ran} of at most {budget} have run"));
     }
+    Doubts::read(dir)?.iter().for_each(|doubt| verbosity.note(format_args!("{}: {doubt}", dir.display())));
     Ok(log)
 }
 

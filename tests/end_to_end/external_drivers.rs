@@ -237,13 +237,13 @@ fn a_test_is_not_held_against_a_driver_that_earlier_tests_have_worn_out() {
     assert_eq!(log(dir, "worn"), log(dir, "near"));
     // Nobody may take such a driver for a sound one.
     let note = "tests ended in an error, and had a result when a new process or a new connection ran them again: the program may keep something from test to test";
-    assert!(stderr(&worn).contains(note), "{}", stderr(&worn));
+    assert!(stdout(&worn).contains(note), "{}", stdout(&worn));
     // It keeps a number in the process, where a new session does not help.
     let stale = succeeds(run(dir, "stale", &["--budget", "20", "--set", "driver.stale=3", "--jobs", "2"]));
     assert_eq!(log(dir, "stale"), log(dir, "near"));
-    assert!(stderr(&stale).contains(note), "{}", stderr(&stale));
+    assert!(stdout(&stale).contains(note), "{}", stdout(&stale));
     let sound = succeeds(run(dir, "sound", &["--budget", "20"]));
-    assert!(!stderr(&sound).contains("ran them again"), "{}", stderr(&sound));
+    assert!(!stdout(&sound).contains("ran them again"), "{}", stdout(&sound));
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn a_campaign_whose_driver_answers_otherwise_by_now_is_continued_with_a_note() {
     let whole = whole_log(dir, "out");
     let log = dir.join("out/trials.jsonl");
     let first: Vec<&str> = whole.lines().take(6).collect();
-    let resume = || stderr(&succeeds(run(dir, "out", &["--budget", "12", "--resume"])));
+    let resume = || stdout(&succeeds(run(dir, "out", &["--budget", "12", "--resume"])));
     fs::write(&log, first.join("\n") + "\n").unwrap();
     assert!(!resume().contains("ends otherwise"));
     assert_eq!(whole_log(dir, "out"), whole);

@@ -144,7 +144,7 @@ fn a_page_shows_what_changed_since_a_baseline() {
 }
 
 /// The findings of a page by their labels.
-fn findings(page: &Path) -> Vec<Value> {
+pub fn findings(page: &Path) -> Vec<Value> {
     let script = "import base64, gzip, json, re, sys\ntext = open(sys.argv[1]).read()\n\
         part = re.search('id=\"document\">([^<]*)', text)[1]\n\
         print(json.dumps(json.loads(gzip.decompress(base64.b64decode(part)))['findings']))";

@@ -176,7 +176,7 @@ fn a_perceiver_that_fails_and_answers_when_it_sees_the_images_again_is_doubted()
     let output = succeeds(perceive(dir.path(), &command, &["--budget", "3", "--jobs", "1"]));
     assert!(trials(dir.path()).iter().all(|trial| trial["error"].is_null()));
     let note = "the perceiver failed ";
-    assert!(stderr(&output).contains(note) && stderr(&output).contains("ValueError: tired"), "{}", stderr(&output));
+    assert!(stdout(&output).contains(note) && stdout(&output).contains("ValueError: tired"), "{}", stdout(&output));
 }
 
 #[test]

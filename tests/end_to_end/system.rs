@@ -254,7 +254,20 @@ fn every_command_that_runs_tests_says_which_errors_did_not_repeat() {
         fuzz(dir.path(), &[&system[..], more].concat())
     };
     let said = succeeds(aloud("out", &["--budget", "20"]));
-    assert!(stderr(&said).contains("had a result when"), "{}", stderr(&said));
+    assert!(stdout(&said).contains("had a result when"), "{}", stdout(&said));
+    let printed = succeeds(aloud("json", &["--budget", "20", "--format", "json"]));
+    let printed: Value = serde_json::from_str(&stdout(&printed)).unwrap();
+    let kept: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("json/doubts.json")).unwrap()).unwrap();
+    assert!(
+        kept["doubts"] == printed["doubts"] && kept["doubts"][0].to_string().contains("had a result when"),
+        "{kept}"
+    );
+    // Whoever reads the folder later is told, and so is the reader of its page.
+    let map = fuzz(dir.path(), &["trace", "json"]);
+    assert!(stderr(&map).contains("json: ") && stderr(&map).contains("had a result when"), "{}", stderr(&map));
+    succeeds(fuzz(dir.path(), &["report", "json", "--out", "page.html", "--trust"]));
+    let found = crate::page::findings(&dir.path().join("page.html"));
+    assert_eq!((&found[0]["label"], &found[0]["lines"]), (&Value::from("doubts"), &kept["doubts"]));
     let sensitivity = ["sensitivity", "out", "--system", "sh system.sh", "--budget", "100"];
     let said = succeeds(fuzz(dir.path(), &sensitivity));
     assert!(stderr(&said).contains("had a result when"), "{}", stderr(&said));
@@ -262,7 +275,7 @@ fn every_command_that_runs_tests_says_which_errors_did_not_repeat() {
     let diverged = r#"echo "{\"index\":$i,\"error\":\"diverged\"}""#;
     script(dir.path(), &worn_out(&format!("if [ -e begun ]; then {diverged}; else touch begun; {ROBUSTNESS}; fi")));
     let said = aloud("diverged", &["--budget", "5", "--jobs", "1"]);
-    assert!(!stderr(&said).contains("had a result when"), "{}", stderr(&said));
+    assert!(!stdout(&said).contains("had a result when") && !dir.path().join("diverged/doubts.json").exists());
     assert!(stdout(&said).contains("error                 4"), "{}", stdout(&said));
 }
 
@@ -279,11 +292,8 @@ fn a_process_that_ends_between_tests_is_started_again() {
             &["--system", "sh system.sh", "--space", "SPACE.toml", "--out", out, "--budget", "8", "--jobs", "1"],
         ));
         let note = "7 tests ended in an error, and had a result when a new process or a new connection ran them again";
-        assert!(
-            stderr(&printed).contains(note) && stderr(&printed).contains("the first, test 1: "),
-            "{}",
-            stderr(&printed)
-        );
+        let printed = stdout(&printed);
+        assert!(printed.contains(note) && printed.contains("the first, test 1: "), "{printed}");
         assert!(trials(dir.path(), out).iter().all(|trial| trial["error"].is_null()), "{}", log(dir.path(), out));
     }
 }
