@@ -108,7 +108,7 @@ if (task === "use") {
 } else {
   const tests = async () => Number((await page.textContent(".headline")).replaceAll(",", "").match(/(\d+) tests/)?.[1]);
   seen.counts = [await tests()];
-  while (seen.counts.length < 3) {
+  while (seen.counts.length < 2) {
     const last = seen.counts.at(-1);
     await page.waitForFunction((count) => Number(document.querySelector(".headline")?.textContent.replaceAll(",", "").match(/(\d+) tests/)?.[1]) > count, last, { timeout: 60000 });
     seen.counts.push(await tests());
@@ -118,11 +118,12 @@ if (task === "use") {
   // The page may be made again while the wheel turns.
   for (let i = 0; i < 20 && (await page.locator(".unfinished button").count()) === 0; i++) {
     await wheel(-600);
-    await page.waitForTimeout(2000);
+    await page.waitForTimeout(1000);
   }
   await told();
   const shown = await tests();
-  await page.waitForTimeout(4000);
+  const news = await page.textContent(".unfinished");
+  await page.waitForFunction((old) => document.querySelector(".unfinished").textContent !== old, news, { timeout: 60000 });
   seen.isKept = (await tests()) === shown;
   await page.click(".unfinished button");
   await page.waitForFunction((count) => Number(document.querySelector(".headline")?.textContent.replaceAll(",", "").match(/(\d+) tests/)?.[1]) > count, shown, { timeout: 60000 });
