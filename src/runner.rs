@@ -5,8 +5,8 @@ use crate::analysis::{
     Promise, Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
-    Artefact, Campaign, Doubts, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason, Study,
-    Supervision, Trial,
+    Artefact, Campaign, Doubts, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason, Shard,
+    Study, Supervision, Trial,
 };
 use crate::coverage::Measure;
 use crate::oracles::Verdict;
@@ -269,8 +269,7 @@ impl<'a> Runner<'a> {
             (Folder::create(folder, self.study, self.extension)?, Vec::new())
         };
         self.supervision.output.keep_in(folder);
-        let (learned, summary) = (Learned::new(), Summary::default());
-        let mut record = Record { runner: self, folder: kept, trials: Vec::new(), learned, summary };
+        let mut record = Record::new(self, kept);
         let mut all: Vec<&mut dyn Observer> = vec![&mut record];
         all.extend(observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer));
         let ran = campaign.resume(known).run(&mut all);
@@ -307,6 +306,36 @@ impl<'a> Runner<'a> {
         self.supervision.doubts.keep_in(folder)?;
         report.doubts = Doubts::read(folder)?;
         Ok(report)
+    }
+
+    /// Runs a shard of the study into a folder. [`campaign::merge`](crate::campaign::merge) puts the shards together. Returns the counts of verdicts of
+    /// the shard.
+    ///
+    /// # Errors
+    /// The tests of the study depend on outcomes; or the errors of [`run_into`].
+    pub fn run_shard_into(
+        &self,
+        shard: Shard,
+        folder: &Path,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Summary, Error> {
+        Shard::check(self.study)?;
+        let campaign = self.campaign()?;
+        let (kept, known) = if self.resume {
+            Folder::resume_shard(folder, self.study, self.extension, shard)?
+        } else {
+            (Folder::create_shard(folder, self.study, self.extension, shard)?, Vec::new())
+        };
+        self.supervision.output.keep_in(folder);
+        let mut record = Record::new(self, kept);
+        let mut all: Vec<&mut dyn Observer> = vec![&mut record];
+        all.extend(observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer));
+        let ran = campaign.resume(known).run_shard(shard, &mut all);
+        let doubted = self.supervision.doubts.keep_in(folder);
+        let tests = ran?;
+        doubted?;
+        record.folder.end_shard(shard, tests)?;
+        Ok(record.summary)
     }
 
     fn campaign(&self) -> Result<Campaign<'a>, Error> {
@@ -352,7 +381,12 @@ struct Record<'r, 'a> {
     summary: Summary,
 }
 
-impl Record<'_, '_> {
+impl<'r, 'a> Record<'r, 'a> {
+    fn new(runner: &'r Runner<'a>, folder: Folder) -> Self {
+        let (learned, summary) = (Learned::new(), Summary::default());
+        Self { runner, folder, trials: Vec::new(), learned, summary }
+    }
+
     fn keep(&mut self, trial: &Trial) {
         self.summary.add(trial);
         trial.clone().append_to(&mut self.trials);

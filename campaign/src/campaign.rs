@@ -10,7 +10,7 @@ use crate::expected::Expected;
 use crate::observer::{FirstFailure, Observer};
 use crate::scales::Learned;
 use crate::steering::Steering;
-use crate::{Error, Extension, Log, Reason, Study, Supervision, Trial, Worker, proposal};
+use crate::{Error, Extension, Log, Reason, Shard, Study, Supervision, Trial, Worker, proposal};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Point, Values};
 use std::num::NonZeroUsize;
@@ -233,6 +233,61 @@ impl<'a> Campaign<'a> {
         }
         observers.iter_mut().try_for_each(|observer| observer.ended())?;
         Ok(finish)
+    }
+
+    /// Runs a shard of the campaign, and skips the tests whose trials were set by [`resume`](Self::resume). Every observer sees every trial of the
+    /// shard in order. Returns the number of tests of the shard.
+    ///
+    /// # Errors
+    /// The tests of the study depend on outcomes; an observer ends the shard; or the errors of [`Campaign::run`].
+    pub fn run_shard(mut self, shard: Shard, observers: &mut [&mut dyn Observer]) -> Result<usize, Error> {
+        Shard::check(self.study)?;
+        self.check_known()?;
+        let known = std::mem::take(&mut self.known);
+        let range = shard.range(self.study.sampling().budget);
+        let all_tests = self.proposals()?;
+        let tests = &all_tests[range.start.min(all_tests.len())..range.end.min(all_tests.len())];
+        let differs = |(at, trial): &(usize, &Trial)| tests.get(*at) != Some(&trial.test);
+        if let Some((_, trial)) = known.iter().enumerate().find(differs) {
+            return Err(foreign(trial));
+        }
+        let mut observers: Vec<&mut dyn Observer> =
+            observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer).collect();
+        observers.iter_mut().try_for_each(|observer| observer.begun())?;
+        for trial in &known {
+            if all(&mut observers, |observer| observer.known(trial))?.is_break() {
+                return Err(Error::Interrupted);
+            }
+        }
+        let mut expected = Expected::of(self.study, &known);
+        let rest = &tests[known.len()..];
+        let show = |trial: &Trial| all(&mut observers, |observer| observer.trial(trial));
+        if self.run_batch(rest, range.start + known.len(), &mut expected, show)?.is_break() {
+            return Err(Error::Interrupted);
+        }
+        observers.iter_mut().try_for_each(|observer| observer.ended())?;
+        Ok(tests.len())
+    }
+
+    /// Returns all tests of the campaign of an open-loop strategy.
+    fn proposals(&mut self) -> Result<Vec<Values>, Error> {
+        let study = self.study;
+        if study.runs_given_tests() {
+            return Ok(self.given.clone());
+        }
+        let existing = self.extension.take().map(|(_, points)| points).unwrap_or_default();
+        let (batch, budget) = (study.sampling().batch_size().unwrap_or(BATCH), study.sampling().budget);
+        let mut steering = Steering::new(study, existing)?;
+        let mut tests = Vec::new();
+        while tests.len() < budget {
+            let points = steering.ask(batch.min(budget - tests.len()));
+            proposal::check(study.space(), study.sampling().strategy, &points)?;
+            if points.is_empty() {
+                break;
+            }
+            tests.extend(points.iter().map(|point| study.space().decode(point)));
+        }
+        Ok(tests)
     }
 
     /// Checks that known tests still end as they did: code that has changed shows in nothing else. A driver in this process that needs no images is

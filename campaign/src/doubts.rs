@@ -59,7 +59,11 @@ impl Doubts {
     /// # Errors
     /// The file cannot be read or written.
     pub fn keep_in(&self, folder: &Path) -> Result<(), Error> {
-        let notes = self.notes();
+        Self::add(folder, self.notes())
+    }
+
+    /// Adds doubts in words to the file in the folder of a campaign.
+    pub(crate) fn add(folder: &Path, notes: Vec<String>) -> Result<(), Error> {
         if notes.is_empty() {
             return Ok(());
         }

@@ -13,11 +13,12 @@ use crate::scales::Learned;
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::trial::Line;
 use crate::trials_file::{Read, TRIALS, read_trials};
-use crate::{Error, Extension, Failure, Reason, Study, Trial, doubts, run_in};
+use crate::{Error, Extension, Failure, Reason, Shard, Study, Trial, doubts, run_in, shard};
 use same_file::Handle;
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -118,6 +119,30 @@ impl Folder {
     /// # Errors
     /// The folder cannot be written, or holds a campaign.
     pub fn create(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<Self, Error> {
+        Self::begin(path, study, extension, &StudyFile::new(study, &Learned::new(), extension).text(), None)
+    }
+
+    /// Begins a shard of a campaign in a folder, and creates the folder if necessary.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or holds a campaign.
+    pub fn create_shard(
+        path: &Path,
+        study: &Study,
+        extension: Option<&Extension>,
+        shard: Shard,
+    ) -> Result<Self, Error> {
+        Self::begin(path, study, extension, &StudyFile::new(study, &Learned::new(), extension).text(), Some(shard))
+    }
+
+    /// Begins a campaign, or a shard of it, with this text of `campaign.json`.
+    pub(crate) fn begin(
+        path: &Path,
+        study: &Study,
+        extension: Option<&Extension>,
+        text: &str,
+        shard: Option<Shard>,
+    ) -> Result<Self, Error> {
         if path.exists() && !path.is_dir() {
             return Err(FolderFlaw::File { path: path.to_owned() }.into());
         }
@@ -126,10 +151,12 @@ impl Folder {
         if let Some(name) = present(path, &[STUDY]) {
             return Err(FolderFlaw::Occupied { path: path.to_owned(), name }.into());
         }
-        let text = write_study(path, study, &Learned::new(), extension)?;
+        // Nobody may take a shard for a whole campaign.
+        shard.map_or(Ok(()), |shard| shard.write(path, None))?;
+        write_whole_here(&path.join(STUDY), text.as_bytes())?;
         keep_extended(path, study, extension)?;
         run_in::keep(path, study)?;
-        Self::open(path, log, Some(hash_of_text(&text)))
+        Self::open(path, log, Some(hash_of_text(text)))
     }
 
     /// Opens the folder of a study's campaign to continue the campaign, and returns the trials in the log. Begins the
@@ -144,12 +171,39 @@ impl Folder {
             }
             return Self::create(path, study, extension).map(|folder| (folder, Vec::new()));
         }
+        shard::is_whole(path)?;
+        Self::go_on(path, study, extension, 0..study.sampling().budget)
+    }
+
+    /// Opens the folder of a shard to continue the shard, and returns the trials in its log. Begins the shard if the folder holds no campaign yet.
+    ///
+    /// # Errors
+    /// The folder holds another campaign or shard, or a log that is broken before its last line.
+    pub fn resume_shard(
+        path: &Path,
+        study: &Study,
+        extension: Option<&Extension>,
+        shard: Shard,
+    ) -> Result<(Self, Vec<Trial>), Error> {
+        if !path.join(STUDY).exists() {
+            return Self::create_shard(path, study, extension, shard).map(|folder| (folder, Vec::new()));
+        }
+        shard.is_in(path)?;
+        Self::go_on(path, study, extension, shard.range(study.sampling().budget))
+    }
+
+    fn go_on(
+        path: &Path,
+        study: &Study,
+        extension: Option<&Extension>,
+        indices: Range<usize>,
+    ) -> Result<(Self, Vec<Trial>), Error> {
         let log = Lock::of(&path.join(TRIALS))?;
         let hash = same_study(path, study, extension)?;
         keep_extended(path, study, extension)?;
         let mut folder = Self::open(path, log, Some(hash.clone()))?;
         let file = path.join(TRIALS);
-        let Read { trials, bytes, is_older } = read_trials(&file, Lines::of(&folder.log), study, &hash)?;
+        let Read { trials, bytes, is_older } = read_trials(&file, Lines::of(&folder.log), study, &hash, indices)?;
         // A log of an older version goes on as it began.
         folder.study = folder.study.filter(|_| !is_older);
         folder.log.set_len(bytes).map_err(Error::io("write", &file))?;
@@ -197,6 +251,21 @@ impl Folder {
         self.log.write_all(line.as_bytes()).map_err(Error::io("write", &file))
     }
 
+    /// Notes in the folder of a shard that all tests of the shard have run.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn end_shard(&self, shard: Shard, tests: usize) -> Result<(), Error> {
+        self.is_still_there()?;
+        shard.write(&self.path, Some(tests))
+    }
+
+    /// Appends lines of a log to the log.
+    pub(crate) fn append_lines(&mut self, lines: &[u8]) -> Result<(), Error> {
+        self.is_still_there()?;
+        self.log.write_all(lines).map_err(Error::io("write", &self.path.join(TRIALS)))
+    }
+
     /// Writes a file to the campaign's folder, completely or not at all.
     ///
     /// # Errors
@@ -223,7 +292,7 @@ impl Folder {
 
     /// Returns `true` if the campaign reserves the given file name for its own files.
     pub fn owns(name: &OsStr) -> bool {
-        [STUDY, TRIALS, EXTENDED].into_iter().chain(OF_PROGRAMS).chain(DERIVED).any(|ours| ours == name)
+        [STUDY, TRIALS, EXTENDED, shard::FILE].into_iter().chain(OF_PROGRAMS).chain(DERIVED).any(|ours| ours == name)
     }
 }
 

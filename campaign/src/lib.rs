@@ -43,6 +43,7 @@ mod judge;
 mod jury;
 mod lock;
 mod log;
+mod merge;
 mod observer;
 pub mod perception;
 mod process;
@@ -54,6 +55,7 @@ mod scales;
 #[cfg(feature = "camera")]
 pub mod seeing;
 mod setting_names;
+mod shard;
 mod simulator;
 mod space_file;
 mod steering;
@@ -78,10 +80,12 @@ pub use extension::{Extension, ExtensionRecord};
 pub use folder::{DERIVED, Folder};
 pub use json::{Number, differing_key};
 pub use log::{Log, read_tests, read_tests_from};
+pub use merge::merge;
 pub use observer::Observer;
 pub use process::end_all_processes;
 pub use regression::{Expectation, Regression, Replayed};
 pub use scales::{Learned, Scales};
+pub use shard::Shard;
 pub use simulator::Recording;
 pub use space_file::{SpaceFile, is_model};
 pub use steering::Steering;
@@ -116,6 +120,7 @@ pub mod reasons {
     pub use crate::proposal::{ForeignPoint, PointFlaw};
     pub use crate::regression::{NoRegressionName, RegressionFlaw};
     pub use crate::samples::TraceFlaw;
+    pub use crate::shard::ShardFlaw;
     pub use crate::space_file::SpaceFileFlaw;
     pub use crate::study::{
         AppearanceFlaw, DriverFlaw, EntryFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario,

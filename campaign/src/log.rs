@@ -6,10 +6,11 @@ use crate::scales::{Learned, Scales};
 use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::test_set::TestSet;
 use crate::trials_file::{TRIALS, read_trials};
-use crate::{Catalogue, Error, Extension, Folder, Reason, SpaceFile, Study, Trial, Trust, run_in};
+use crate::{Catalogue, Error, Extension, Folder, Reason, Shard, SpaceFile, Study, Trial, Trust, run_in, shard};
 use paracosm_space::Point;
 use paracosm_space::pict::Aliases;
 use std::io::Read;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -51,13 +52,23 @@ impl Log {
     /// The folder holds no campaign, or one of its files is broken. If the catalogue does not have the scenario, the
     /// error comes only when a test is run.
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
+        shard::is_whole(path)?;
+        Self::read_range(path, catalogue, |study| 0..study.sampling().budget)
+    }
+
+    /// Reads the log of a shard from its folder.
+    pub(crate) fn read_shard(path: &Path, catalogue: &Catalogue, shard: Shard) -> Result<Self, Error> {
+        Self::read_range(path, catalogue, |study| shard.range(study.sampling().budget))
+    }
+
+    fn read_range(path: &Path, catalogue: &Catalogue, indices: impl Fn(&Study) -> Range<usize>) -> Result<Self, Error> {
         let file = path.join(STUDY);
         let text = read_text_here(&file)?;
         let read = StudyFile::parse(&text, &catalogue.near(path));
         let hash = hash_of_text(&text);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
         let log = path.join(TRIALS);
-        let read = read_trials(&log, Lines::open_here(&log)?, &study, &hash)?;
+        let read = read_trials(&log, Lines::open_here(&log)?, &study, &hash, indices(&study))?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
         Ok(Self { run_in: run_in::read(path), hash: Some(hash), ..Self::new(study, learned, extension, read.trials) })
     }

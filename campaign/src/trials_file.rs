@@ -9,6 +9,7 @@ use paracosm_oracles::Verdict;
 use paracosm_space::{SpaceError, did_you_mean, nearest, plural};
 use std::collections::HashSet;
 use std::io::{self, BufRead, BufReader};
+use std::ops::Range;
 use std::path::Path;
 use thiserror::Error;
 
@@ -109,8 +110,14 @@ pub(crate) struct Read {
 }
 
 /// Reads the trials of a log line by line. A last line without its end is ignored. The trials have to belong to
-/// the study, which has the given hash.
-pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: &str) -> Result<Read, Error> {
+/// the study, which has the given hash, and to have these indices.
+pub(crate) fn read_trials(
+    file: &Path,
+    log: impl io::Read,
+    study: &Study,
+    hash: &str,
+    indices: Range<usize>,
+) -> Result<Read, Error> {
     let mut log = BufReader::new(log);
     let mut found = Read::default();
     let ids: HashSet<&str> = study.requirements().iter().map(|requirement| requirement.id.as_str()).collect();
@@ -119,15 +126,16 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: 
         line.clear();
         log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
         let Some(text) = line.strip_suffix(b"\n") else { break };
-        let index = found.trials.len();
-        let budget = study.sampling().budget;
-        if index >= budget {
-            return Err(Error::in_file(file, index + 1, LogFlaw::Surplus { budget }));
+        let number = found.trials.len() + 1;
+        let index = indices.start + found.trials.len();
+        if index >= indices.end {
+            let budget = study.sampling().budget;
+            return Err(Error::in_file(file, number, LogFlaw::Surplus { budget }));
         }
-        let line_read = parse(text, index, hash).map_err(|flaw| Error::in_file(file, index + 1, flaw))?;
+        let line_read = parse(text, index, hash).map_err(|flaw| Error::in_file(file, number, flaw))?;
         let is_older = line_read.study().is_none();
-        if index > 0 && is_older != found.is_older {
-            return Err(Error::in_file(file, index + 1, LogFlaw::Mixed));
+        if number > 1 && is_older != found.is_older {
+            return Err(Error::in_file(file, number, LogFlaw::Mixed));
         }
         found.is_older = is_older;
         let problem = line_read.contradiction();
@@ -139,7 +147,7 @@ pub(crate) fn read_trials(file: &Path, log: impl io::Read, study: &Study, hash: 
                 None => Ok(trial),
             }
         });
-        trial.map_err(|flaw| Error::in_file(file, index + 1, flaw))?.append_to(&mut found.trials);
+        trial.map_err(|flaw| Error::in_file(file, number, flaw))?.append_to(&mut found.trials);
         found.bytes += line.len() as u64;
     }
     Ok(found)

@@ -2,7 +2,7 @@
 
 use super::{
     Failure, Status, Verbosity, arguments, audit, bench, blame, describe, diff, doctor, export, likelihood, list, map,
-    monitor, page, perceive, record, repeat, replay, roads, run, sensitivity, shrink, trace, usage, view,
+    merge, monitor, page, perceive, record, repeat, replay, roads, run, sensitivity, shrink, trace, usage, view,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use paracosm_campaign::Catalogue;
@@ -98,6 +98,11 @@ enum Verb {
     /// The parameters have given distributions.
     #[command(after_long_help = likelihood::EXAMPLES)]
     Likelihood(Box<likelihood::Options>),
+    /// Put the shards of a campaign together
+    ///
+    /// Each shard has run a part of the tests, on any machine (`run --shard`).
+    #[command(after_long_help = merge::EXAMPLES)]
+    Merge(merge::Options),
     /// Put a suite of tests on trial: what would it have missed?
     ///
     /// The audit shows what the suite does not cover, and which defects of a driver it does not notice.
@@ -219,6 +224,7 @@ impl Command {
         match self.verb {
             None => self.run.execute(catalogue, self.verbosity),
             Some(Verb::Run(options)) => options.execute(catalogue, self.verbosity),
+            Some(Verb::Merge(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Likelihood(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Audit(options)) => options.execute(catalogue, self.verbosity),
             Some(Verb::Bench(options)) => options.execute(catalogue, self.verbosity),

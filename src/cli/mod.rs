@@ -21,6 +21,7 @@ mod interrupt;
 mod likelihood;
 mod list;
 mod map;
+mod merge;
 mod monitor;
 mod odd;
 mod output;

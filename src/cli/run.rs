@@ -2,8 +2,8 @@
 
 use super::arguments::{CHOSEN, OUTPUT, REQUIRED, RUNNING};
 use super::github::StepSummary;
-use super::output::{Format, FormatOption, broken, broken_words, json, plural};
-use super::progress::Progress;
+use super::output::{Format, FormatOption, Table, broken, broken_words, json, plural};
+use super::progress::{Progress, bar};
 use super::sampling::Sampling;
 use super::subject::Subject;
 use super::usage;
@@ -15,9 +15,10 @@ use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
 use paracosm_campaign::{
-    Catalogue, Error, Extension, Failure as Breakdown, Finish, StatedRequirement, Study, StudyBuilder, Supervision,
-    Trial,
+    Catalogue, Error, Extension, Failure as Breakdown, Finish, Shard, StatedRequirement, Study, StudyBuilder,
+    Supervision, Trial,
 };
+use serde_json::{Map, json};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -77,6 +78,12 @@ pub(super) struct Options {
     /// Continue the campaign in the folder
     #[arg(long, help_heading = RUNNING)]
     resume: bool,
+    /// Run only one part of the campaign
+    ///
+    /// The tests are divided into N parts of the same size, and part I is run, such as 2/64. `merge` puts the parts together. The strategy must
+    /// not learn from outcomes.
+    #[arg(long, value_name = "I/N", help_heading = RUNNING, hide_short_help = true)]
+    shard: Option<Shard>,
     /// Excuse violations that no driver avoids
     ///
     /// A violation that none of these drivers avoids in the same test gets the verdict `unpreventable`; such a test is no
@@ -117,7 +124,10 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
-        self.conduct(catalogue, verbosity, Ok).map(|conducted| conducted.found)
+        match self.shard {
+            Some(shard) => self.run_shard(shard, catalogue, verbosity),
+            None => self.conduct(catalogue, verbosity, Ok).map(|conducted| conducted.found),
+        }
     }
 
     /// Runs the campaign and prints its summary. `prepare` may open more parameters.
@@ -130,19 +140,10 @@ impl Options {
         if self.resume {
             self.is_no_folder(catalogue)?;
         }
-        let study = prepare(self.subject.study(catalogue, verbosity)?)?.sampling(self.sampling()?);
-        let study = self.reference.iter().fold(study, |study, name| study.reference(name)).maybe_one_test().build()?;
-        note_one_test(&study, verbosity);
-        self.subject.note_before(&study, verbosity)?;
-        let file = self.tests.as_ref().or(self.extend.as_ref());
-        let extension = file.map(|path| Extension::read(path, &study)).transpose()?;
-        let study = match extension.as_ref().filter(|_| study.runs_given_tests()) {
-            Some(given) => study.sampled(paracosm_campaign::Sampling {
-                budget: given.record().tests.max(1),
-                ..study.sampling().clone()
-            })?,
-            None => study,
-        };
+        if self.shard.is_some() {
+            return Err(usage("--shard is for `run`".to_owned()).into());
+        }
+        let (study, extension) = self.study(catalogue, verbosity, prepare)?;
         let done_before = extension.as_ref().filter(|_| !study.runs_given_tests());
         if let Some(extension) = &extension {
             let (source, of_strategy) = (&extension.record().name, done_before.is_some());
@@ -201,31 +202,79 @@ impl Options {
             let more = self.output_of_programs();
             return Err(format!("every test ended in an error; the first error: {first}{more}").into());
         }
-        // A gate that says yes although some tests have no result would be false assurance.
-        if let Some(trial) = log.trials().iter().find(|trial| self.fail_on_violation && trial.verdict == Verdict::Error)
-        {
-            let (errors, tests) = (summary.count(Verdict::Error), plural(summary.tests(), "test"));
-            let (index, first) = (trial.index, trial.error().unwrap_or_default());
-            let message = format!(
-                "{errors} of {tests} ended in an error, so they have no verdict; the first, test {index}: {first}"
-            );
-            return Err(message.into());
-        }
-        if self.fail_on_violation
-            && summary.tests() > 0
-            && let Some(why) = untested(summary)
-        {
-            return Err(format!("the campaign does not show whether a requirement is violated: {why}").into());
-        }
-        let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
-        if let Some(id) = misspelled(log.study()).filter(|_| self.fail_on_violation && !violated) {
-            return Err(format!(
-                "requirement `{id}` was not judged: it has no formula, and the scenario has no requirement of this name"
-            )
-            .into());
-        }
-        let found = if violated { Status::Violation } else { Status::Nothing };
+        let found = gate(&report, self.fail_on_violation)?;
         Ok(Conducted { report, found, stop: supervision.stop })
+    }
+
+    /// Returns the study, with the tests of a file that it runs or extends.
+    fn study(
+        &self,
+        catalogue: &Catalogue,
+        verbosity: Verbosity,
+        prepare: impl FnOnce(StudyBuilder) -> Result<StudyBuilder, Error>,
+    ) -> Result<(Study, Option<Extension>), Failure> {
+        let study = prepare(self.subject.study(catalogue, verbosity)?)?.sampling(self.sampling()?);
+        let study = self.reference.iter().fold(study, |study, name| study.reference(name)).maybe_one_test().build()?;
+        note_one_test(&study, verbosity);
+        self.subject.note_before(&study, verbosity)?;
+        let file = self.tests.as_ref().or(self.extend.as_ref());
+        let extension = file.map(|path| Extension::read(path, &study)).transpose()?;
+        let study = match extension.as_ref().filter(|_| study.runs_given_tests()) {
+            Some(given) => study.sampled(paracosm_campaign::Sampling {
+                budget: given.record().tests.max(1),
+                ..study.sampling().clone()
+            })?,
+            None => study,
+        };
+        Ok((study, extension))
+    }
+
+    /// Runs a shard of the campaign.
+    fn run_shard(&self, shard: Shard, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
+        let whole = [
+            ("--locate", self.locate.is_some()),
+            ("--junit", self.junit),
+            ("--github", self.github),
+            ("--fail-on-violation", self.fail_on_violation),
+        ];
+        if let Some((option, _)) = whole.into_iter().find(|(_, is_given)| *is_given) {
+            let message = format!("{option} is for a whole campaign, and --shard {shard} runs a part of it");
+            return Err(usage(message).into());
+        }
+        if self.resume {
+            self.is_no_folder(catalogue)?;
+        }
+        let (study, extension) = self.study(catalogue, verbosity, Ok)?;
+        Shard::check(&study).map_err(Error::from)?;
+        let supervision = verbosity.supervision();
+        on_interrupt(supervision.stop.clone());
+        let runner = self.runner(&study, extension.as_ref()).until(supervision.clone());
+        let progress = bar(verbosity, shard.range(study.sampling().budget).len());
+        let summary = runner.run_shard_into(shard, &self.out, &mut [&mut |_: &Trial| progress.inc(1)]);
+        progress.finish_and_clear();
+        supervision.doubts.notes().iter().for_each(|note| verbosity.note(note));
+        let summary = summary?;
+        let counts = Verdict::ALL.map(|verdict| (verdict, summary.count(verdict)));
+        print(&match self.form.format {
+            Format::Table => {
+                let mut table = Table::default();
+                let tests = plural(summary.tests(), "test");
+                table.heading(&format!("{}, strategy {}: shard {shard}, {tests}", study.title(), study.sampling()));
+                for (verdict, count) in counts.iter().filter(|(_, count)| *count > 0) {
+                    table.row(&verdict.to_string(), &count.to_string());
+                }
+                table.row("written to", &self.out.display().to_string());
+                table.row("then", "`merge` puts all shards together");
+                table.finish()
+            }
+            Format::Json => {
+                let verdicts = counts.map(|(verdict, count)| (verdict.to_string(), count.into()));
+                json(
+                    &json!({"shard": shard, "tests": summary.tests(), "verdicts": Map::from_iter(verdicts), "out": self.out}),
+                )
+            }
+        })?;
+        Ok(Status::Nothing)
     }
 
     fn runner<'a>(&self, study: &'a Study, extension: Option<&'a Extension>) -> Runner<'a> {
@@ -420,4 +469,31 @@ fn safe_words(trials: usize) -> String {
         1 => "the first trial is".to_owned(),
         trials => format!("the first {trials} trials are"),
     }
+}
+
+/// Returns the status of a campaign. With --fail-on-violation, a campaign that shows too little is an error.
+pub(super) fn gate(report: &Report, fail_on_violation: bool) -> Result<Status, Failure> {
+    let (log, summary) = (&report.log, &report.summary);
+    // A gate that says yes although some tests have no result would be false assurance.
+    if let Some(trial) = log.trials().iter().find(|trial| fail_on_violation && trial.verdict == Verdict::Error) {
+        let (errors, tests) = (summary.count(Verdict::Error), plural(summary.tests(), "test"));
+        let (index, first) = (trial.index, trial.error().unwrap_or_default());
+        let message =
+            format!("{errors} of {tests} ended in an error, so they have no verdict; the first, test {index}: {first}");
+        return Err(message.into());
+    }
+    if fail_on_violation
+        && summary.tests() > 0
+        && let Some(why) = untested(summary)
+    {
+        return Err(format!("the campaign does not show whether a requirement is violated: {why}").into());
+    }
+    let violated = fail_on_violation && summary.count(Verdict::Fail) > 0;
+    if let Some(id) = misspelled(log.study()).filter(|_| fail_on_violation && !violated) {
+        return Err(format!(
+            "requirement `{id}` was not judged: it has no formula, and the scenario has no requirement of this name"
+        )
+        .into());
+    }
+    Ok(if violated { Status::Violation } else { Status::Nothing })
 }

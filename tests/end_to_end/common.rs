@@ -1,5 +1,6 @@
 //! What the end-to-end tests share: calling the programs, and comparing what they print with golden files.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -63,4 +64,10 @@ pub fn golden(name: &str, found: &str) {
     }
     let expected = fs::read_to_string(&path).unwrap_or_default();
     assert!(expected == found, "{name} differs; UPDATE_GOLDEN=1 accepts this:\n{found}");
+}
+
+/// The names and the contents of all files in a folder.
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(path).unwrap())).collect()
 }

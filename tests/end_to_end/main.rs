@@ -57,6 +57,7 @@ mod roads;
 mod scenario_chances;
 mod scenario_files;
 mod sensitivity;
+mod shards;
 mod signals;
 mod spec;
 mod strength;

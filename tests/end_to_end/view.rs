@@ -1,7 +1,7 @@
 //! The viewer: a page that plays any test and runs further tests, in a real browser and against requests of strangers.
 
 use crate::cameras::can_draw;
-use crate::common::{fuzz, refused, stdout, succeeds};
+use crate::common::{files, fuzz, refused, stdout, succeeds};
 use crate::page::browsed;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -109,12 +109,6 @@ fn by_program(dir: &Path, values: &str) -> (String, String) {
     let trial: Value = serde_json::from_str(&fs::read_to_string(dir.join("one/trials.jsonl")).unwrap()).unwrap();
     fs::remove_dir_all(dir.join("one")).unwrap();
     ["verdict", "trace_hash"].map(|key| trial[key].as_str().unwrap().to_owned()).into()
-}
-
-/// The names and the contents of all files in a folder.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.map(|path| (path.display().to_string(), fs::read(path).unwrap())).collect()
 }
 
 #[test]
