@@ -153,18 +153,14 @@ impl<'a> Audited<'a> {
             let place = sides.chain(row).collect::<Vec<_>>().join(", ");
             let (failing, tried) = (count(witness, "failing")?, count(witness, "tried")?);
             Some(format!(
-                "{name}: a driver that does not brake where {place} gets all verdicts of the given driver in the {tests} tests, and fails in {failing} of {} there.",
+                "{name}: a driver that does not brake where {place} gets the same verdicts as the given driver in the {tests} tests, and fails in {failing} of {} there.",
                 plural(tried, "test")
             ))
         });
         let additions = self.part("additions").and_then(|additions| {
             let missed = count(additions, "missed").filter(|missed| *missed > 0)?;
             let more = additions.get("tests")?.as_array()?.len();
-            Some(format!(
-                "{name} misses {}; {} would notice what it misses.",
-                plural(missed, "mutant"),
-                plural(more, "more test")
-            ))
+            Some(format!("{name} misses {}; {} kill them.", plural(missed, "mutant"), plural(more, "more test")))
         });
         let better = self.part("better").and_then(|better| {
             let (fewer, hole) = (count(better, "tests")?, bracket(better.get("hole")?)?);

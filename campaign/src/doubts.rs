@@ -7,7 +7,7 @@ use crate::Error;
 use crate::files::{read_text_here, write_whole_here};
 use paracosm_space::plural;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -29,6 +29,8 @@ struct Seen {
     images: Option<(usize, String)>,
     /// A known test that ends otherwise now.
     differing: Option<usize>,
+    /// The doubts that the folder had before; `None` until they are read.
+    earlier: Option<Vec<String>>,
 }
 
 /// The contents of the file.
@@ -59,17 +61,18 @@ impl Doubts {
     /// # Errors
     /// The file cannot be read or written.
     pub fn keep_in(&self, folder: &Path) -> Result<(), Error> {
-        Self::add(folder, self.notes())
+        let notes = self.notes();
+        let earlier = self.seen().earlier.take();
+        let earlier = earlier.map_or_else(|| Self::read(folder), Ok)?;
+        let both = earlier.iter().cloned().chain(notes.iter().cloned()).collect();
+        self.seen().earlier = Some(earlier);
+        if notes.is_empty() { Ok(()) } else { Self::write(folder, both) }
     }
 
-    /// Adds doubts in words to the file in the folder of a campaign.
-    pub(crate) fn add(folder: &Path, notes: Vec<String>) -> Result<(), Error> {
-        if notes.is_empty() {
-            return Ok(());
-        }
-        let mut doubts = Self::read(folder)?;
-        doubts.extend(notes);
-        doubts.dedup();
+    /// Writes doubts in words to the folder of a campaign, each once.
+    pub(crate) fn write(folder: &Path, mut doubts: Vec<String>) -> Result<(), Error> {
+        let mut said = HashSet::new();
+        doubts.retain(|doubt| said.insert(doubt.clone()));
         let text = serde_json::to_string_pretty(&Written { doubts }).expect("texts are always JSON");
         write_whole_here(&folder.join(FILE), format!("{text}\n").as_bytes())
     }
@@ -86,7 +89,7 @@ impl Doubts {
 
     /// Returns the doubts in words.
     pub fn notes(&self) -> Vec<String> {
-        let Seen { recovered, images, differing } = &*self.seen();
+        let Seen { recovered, images, differing, .. } = &*self.seen();
         let recovered = recovered.first_key_value().map(|(index, error)| {
             let tests = plural(recovered.len(), "test");
             format!(

@@ -62,12 +62,16 @@ pub fn merge(out: &Path, folders: &[PathBuf], catalogue: &Catalogue, trust: &Tru
     // The text of the shards, which their lines refer to: this may be another version of the software.
     let text = read_text_here(&parts[&1].folder.join(STUDY))?;
     let mut folder = Folder::begin(out, log.study(), log.extension(), &text, None)?;
+    let mut doubts = Vec::new();
     for part in parts.values() {
         let mut lines = Vec::new();
         let file = part.folder.join(TRIALS);
         Lines::open_here(&file)?.read_to_end(&mut lines).map_err(Error::io("read", &file))?;
         folder.append_lines(&lines)?;
-        Doubts::add(out, Doubts::read(part.folder)?)?;
+        doubts.extend(Doubts::read(part.folder)?);
+    }
+    if !doubts.is_empty() {
+        Doubts::write(out, doubts)?;
     }
     Ok(Log::read(out, catalogue)?.trusting(trust))
 }

@@ -1,16 +1,19 @@
 //! `paracosm-fuzz view`: shows a campaign in a browser, also while it runs, and runs further tests.
 
-use super::{Failure, Status, Verbosity, on_interrupt, print, program, trust};
+use super::{Failure, Status, Verbosity, on_interrupt, print, program, trust, usage};
 use crate::report::viewer::{Doorway, Viewer};
 use crate::{Beside, Report};
 use clap::Args;
 use paracosm_campaign::cameras::read_cameras;
-use paracosm_campaign::{Catalogue, Error, Log};
+use paracosm_campaign::{Catalogue, Error, Log, Subject, end_all_processes};
 #[cfg(unix)]
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::{self, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
+use std::time::Duration;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -40,6 +43,9 @@ pub(super) struct Options {
     /// Open the page in a browser
     #[arg(long)]
     open: bool,
+    /// The port of the page [default: a free port]
+    #[arg(long, value_name = "N")]
+    port: Option<u16>,
     /// The cameras that film tests on the page
     ///
     /// `record --print-cameras` prints a file of cameras [default: the cameras of the driver, or a camera at the front].
@@ -69,8 +75,15 @@ impl Options {
             cameras: cameras.as_ref(),
             supervision: supervision.clone(),
         };
-        let doorway = Doorway::new().map_err(Error::unavailable)?;
+        if let (Some(file), Subject::System(_)) = (&self.cameras, log.study().subject()) {
+            let message = format!("--cameras {}: a system has no world that a camera could film", file.display());
+            return Err(usage(message).into());
+        }
+        // Nobody should see an address that answers nothing.
+        log.study().check_trust()?;
+        let doorway = Doorway::at(self.port.unwrap_or(0)).map_err(Error::unavailable)?;
         on_interrupt(supervision.stop.clone());
+        end_soon_after(supervision.stop.clone());
         print(&format!("{doorway}\n"))?;
         verbosity.note("Ctrl-C ends the viewer");
         if self.open && !opened(&doorway.to_string()) {
@@ -79,6 +92,19 @@ impl Options {
         viewer.serve(doorway)?;
         Ok(Status::Nothing)
     }
+}
+
+/// Ends the program some time after the flag is set. A page of a large campaign takes a minute to make, and nobody waits for it any more. Nothing is
+/// lost, because a viewer writes nothing.
+fn end_soon_after(stop: Arc<AtomicBool>) {
+    thread::spawn(move || {
+        while !stop.load(Ordering::Relaxed) {
+            thread::sleep(Duration::from_millis(50));
+        }
+        thread::sleep(Duration::from_secs(2));
+        end_all_processes();
+        process::exit(0);
+    });
 }
 
 /// Opens an address in the browser of the user; returns `true` if a program for this was found.

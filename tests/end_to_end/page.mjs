@@ -48,6 +48,23 @@ if (task === "use") {
     return red;
   });
   seen.plots = await page.locator("dialog .uplot").count();
+  seen.run = await page.locator("#run").evaluate(({ dataset }) => [dataset.test, dataset.state]);
+  await page.click("#play");
+  seen.state = await page.locator("#run").getAttribute("data-state");
+  seen.ids = await page.evaluate(() => ["map", "run", "play", "scrub", "x-axis", "y-axis", "table", "parallel"].filter((id) => document.querySelectorAll(`#${id}`).length !== 1));
+  // Enter on a button that the next test has, too, leaves the focus there.
+  await page.locator("dialog button[aria-label='Next failing test']").focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((old) => document.querySelector("dialog h2").textContent !== old, seen.test);
+  seen.focus = await page.evaluate(() => document.activeElement.getAttribute("aria-label"));
+  await page.click("dialog header button:last-child");
+  // Each failing test has a place on the map.
+  seen.spots = await page.locator("#map [data-test]:visible").count();
+  const spot = page.locator("#map [data-test]").last();
+  seen.spot = await spot.getAttribute("data-test");
+  await spot.click();
+  await page.waitForSelector("#run");
+  seen.bySpot = await page.locator("#run").getAttribute("data-test");
   await page.click("dialog header button:last-child");
   // Other axes give another map.
   const map = page.locator(".canvases canvas").first();

@@ -1,7 +1,7 @@
 //! The report page, in a real browser.
 
 use crate::common::{fuzz, refused, stderr, stdout, succeeds};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -75,6 +75,10 @@ fn a_page_opens_without_any_request_and_plays_the_worst_test() {
         "{pointed}"
     );
     assert!(seen["byMatrix"].as_str().unwrap().contains("est 2"), "{}", seen["byMatrix"]);
+    assert_eq!((&seen["ids"], &seen["state"]), (&json!([]), &json!("playing")), "{seen}");
+    assert_eq!((&seen["run"][1], &seen["focus"]), (&json!("ended"), &json!("Next failing test")));
+    let fails = trials(dir.path()).iter().filter(|trial| trial["verdict"] == "fail").count();
+    assert_eq!((&seen["spots"], &seen["bySpot"]), (&json!(fails), &seen["spot"]));
     // The second failing test of the campaign.
     let failing = trials(dir.path()).into_iter().filter(|trial| trial["verdict"] == "fail").nth(1).unwrap();
     for named in [&seen["focused"], &seen["byStripKey"]] {

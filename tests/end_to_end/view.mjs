@@ -48,6 +48,8 @@ if (task === "use") {
   // A place far from every test, and a click on it.
   await clickNowhere();
   seen.clicked = await outcome("");
+  await page.waitForSelector("#run");
+  seen.run = await page.locator("#run").evaluate(({ dataset: { test, verdict, traceHash } }) => [test, verdict, traceHash]);
   await page.waitForSelector("dialog .world canvas[data-time]");
   const time = () => page.locator("dialog .world canvas").getAttribute("data-time").then(Number);
   await page.waitForFunction(() => Number(document.querySelector("dialog .world canvas").dataset.time) > 0.2, undefined, { timeout: 10000 });
@@ -66,7 +68,8 @@ if (task === "use") {
   await page.click("dialog .inquiries >> text=Blame");
   await page.waitForSelector(".answer th");
   seen.blame = await page.textContent(".answer p");
-  await page.click("dialog .inquiries >> text=Shrink");
+  await page.locator("dialog .inquiries >> text=Shrink").focus();
+  await page.keyboard.press("Space");
   await page.waitForSelector(".answer button");
   seen.shrunk = await page.textContent(".answer p");
   // A film, which is in step with the run.

@@ -126,6 +126,7 @@ fn a_click_on_the_map_and_a_dragged_value_run_tests_that_end_as_the_program_says
         assert_eq!(tried["hash"], hash, "{tried}");
     }
     assert_ne!(seen["clicked"]["values"], seen["dragged"]["values"]);
+    assert_eq!((&seen["run"][0], &seen["run"][2]), (&json!("new"), &seen["clicked"]["hash"]), "{seen}");
     assert!(seen["blame"].as_str().unwrap().contains("prevent"), "{seen}");
     assert!(seen["shrunk"].as_str().unwrap().contains("violates no-collision already when"), "{seen}");
     assert!(seen["simplest"]["verdict"].as_str().unwrap().ends_with("fail"), "{seen}");
@@ -181,6 +182,37 @@ fn the_buttons_of_a_failing_test_answer_as_the_commands_do() {
     for question in [json!({"shrink": passing}), json!({"blame": passing})] {
         assert!(viewing.refuses(&question).contains("expected a failing test"));
     }
+}
+
+#[test]
+fn a_test_that_ends_otherwise_than_in_the_log_is_shown_with_a_warning() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "5", "--out", "out", "-q"]));
+    let log = dir.path().join("out/trials.jsonl");
+    let text = fs::read_to_string(&log).unwrap();
+    let other = text.replacen("\"trace_hash\":\"", "\"trace_hash\":\"0", 1);
+    fs::write(&log, other).unwrap();
+    let viewing = Viewing::of(dir.path(), &[]);
+    let differs = viewing.tells(&json!({"run": 0}))["differs"].to_string();
+    assert!(differs.contains("The log says that test 0 ends as") && differs.contains("another trace"), "{differs}");
+    assert_eq!(viewing.tells(&json!({"run": 1}))["differs"], Value::Null);
+    // The page is made again for a folder that has changed, and only then.
+    let page = || viewing.asked(&format!("GET /{}/", viewing.secret()), &[], "").1;
+    let before = page();
+    assert!(page() == before);
+    succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
+    assert!(page() != before);
+}
+
+#[test]
+fn a_viewer_has_the_port_that_the_user_asks_for() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "out", "-q"]));
+    let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let viewing = Viewing::of(dir.path(), &["--port", &free.to_string()]);
+    assert_eq!(viewing.host(), format!("127.0.0.1:{free}"));
+    let taken = fuzz(dir.path(), &["view", "out", "--port", &free.to_string()]);
+    refused(&taken, &["the viewer cannot listen at 127.0.0.1"]);
 }
 
 #[test]

@@ -131,7 +131,10 @@ impl Study {
     }
 
     /// Checks that the commands of the study may be run, and that its driver may be asked.
-    pub(crate) fn check_trust(&self) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// The study names a command or an address that the user does not trust.
+    pub fn check_trust(&self) -> Result<(), Error> {
         if let Some(address) = self.address().filter(|address| !self.trust().covers(address)) {
             return Err(UntrustedAddress { address: address.to_owned() }.into());
         }

@@ -20,6 +20,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::SystemTime;
 use tokio::sync::oneshot;
 use wanted::Wanted;
 
@@ -99,6 +100,8 @@ struct Played {
     trace_hash: Option<String>,
     /// The reason why the test has no result.
     problem: Option<String>,
+    /// A sentence if a test of the campaign ends otherwise now than in the log.
+    differs: Option<String>,
     /// The run; `None` if there is no world to show.
     run: Option<Record>,
 }
@@ -116,7 +119,13 @@ impl Viewer<'_> {
         let (runs, run_questions) = channel();
         let (errands, errand_questions) = channel();
         std::thread::scope(|scope| {
-            scope.spawn(|| answer_all(page_questions, |question, _| self.about_campaign(&question)));
+            scope.spawn(|| {
+                let mut made = None;
+                answer_all(page_questions, |question, _| match question {
+                    Question::Page => self.page_by_now(&mut made),
+                    question => self.about_campaign(&question),
+                });
+            });
             scope
                 .spawn(|| answer_all(run_questions, |question, _| self.about_test(&question, &mut worker, &mut known)));
             scope.spawn(|| answer_all(errand_questions, |question, gone| self.about_errand(question, gone)));
@@ -134,6 +143,19 @@ impl Viewer<'_> {
         }
     }
 
+    /// Returns the page, which is made again only if the campaign or its folder has changed.
+    fn page_by_now(&self, made: &mut Option<(Vec<SystemTime>, String)>) -> Result<Answer, Error> {
+        let changed =
+            [self.folder.to_owned(), self.folder.join("trials.jsonl")].map(|path| path.metadata()?.modified());
+        let times: Option<Vec<SystemTime>> = changed.into_iter().map(std::io::Result::ok).collect();
+        if let Some((_, page)) = made.as_ref().filter(|(before, _)| times.as_ref() == Some(before)) {
+            return Ok(Answer::Page(page.clone()));
+        }
+        let page = (self.page)()?;
+        *made = times.map(|times| (times, page.clone()));
+        Ok(Answer::Page(page))
+    }
+
     fn about_test(&self, question: &Question, worker: &mut Worker, known: &mut Option<Log>) -> Result<Answer, Error> {
         let Question::Run(wanted) = question else { return self.about_campaign(question) };
         let log = match known.take().filter(|log| wanted.is_in(log)) {
@@ -146,7 +168,9 @@ impl Viewer<'_> {
             return Err(Error::Interrupted);
         }
         let run = recorder.record(self.study, trial.index, trial.verdict.to_string(), trace.as_ref());
-        Ok(json(&Played::of(trial, run)))
+        let logged = wanted.logged(log).filter(|logged| !trial.repeats(logged));
+        let differs = logged.map(|logged| differing(logged, &trial));
+        Ok(json(&Played { differs, ..Played::of(trial, run) }))
     }
 
     fn about_errand(&self, question: Question, gone: Arc<AtomicBool>) -> Result<Answer, Error> {
@@ -160,10 +184,20 @@ impl Viewer<'_> {
 impl Played {
     fn of(trial: Trial, run: Option<Record>) -> Self {
         let robustness = trial.requirements().map(|id| (id.to_owned(), Number(trial.robustness(id)))).collect();
-        let problem = trial.error().map(str::to_owned);
+        let (problem, differs) = (trial.error().map(str::to_owned), None);
         let Trial { test, verdict, trace_hash, .. } = trial;
-        Self { test, verdict: verdict.to_string(), robustness, trace_hash, problem, run }
+        Self { test, verdict: verdict.to_string(), robustness, trace_hash, problem, differs, run }
     }
+}
+
+/// Says how a run differs from the log, where the page shows the results of the log beside the run.
+fn differing(logged: &Trial, now: &Trial) -> String {
+    let (index, before, verdict) = (logged.index, logged.verdict, now.verdict);
+    let how = if before == verdict { "has another trace".to_owned() } else { format!("ends as {verdict} now") };
+    format!(
+        "The log says that test {index} ends as {before}, but the test {how}. The page shows the run as it is now: the driver, the scenario or the \
+         software has changed since the campaign."
+    )
 }
 
 fn answer_all(questions: Receiver<Asked>, mut answer: impl FnMut(Question, Arc<AtomicBool>) -> Result<Answer, Error>) {

@@ -52,12 +52,12 @@ struct Desk {
 }
 
 impl Doorway {
-    /// Makes a doorway at a free port of 127.0.0.1, with a new secret.
+    /// Makes a doorway at a port of 127.0.0.1, with a new secret. The port 0 stands for any free port.
     ///
     /// # Errors
-    /// No port is free, or the machine has no random numbers.
-    pub fn new() -> Result<Self, NoServer> {
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+    /// The port is not free, or the machine has no random numbers.
+    pub fn at(port: u16) -> Result<Self, NoServer> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         listener.set_nonblocking(true)?;
         let mut bytes = [0; SECRET];
         getrandom::fill(&mut bytes).map_err(io::Error::other)?;
@@ -223,7 +223,7 @@ mod tests {
 
     #[test]
     fn each_doorway_has_a_secret_and_a_port_of_its_own() {
-        let doorways = [Doorway::new().unwrap(), Doorway::new().unwrap()];
+        let doorways = [Doorway::at(0).unwrap(), Doorway::at(0).unwrap()];
         let [one, other] = doorways.each_ref().map(ToString::to_string);
         assert!(one.starts_with("http://127.0.0.1:") && one.len() > 2 * SECRET + 20, "{one}");
         assert_ne!(one, other);

@@ -37,9 +37,14 @@ impl Reason for NoTest {}
 impl Wanted {
     /// Returns `true` if `log` is enough to run the test.
     pub fn is_in(&self, log: &Log) -> bool {
+        matches!(self, Self::New(_)) || self.logged(log).is_some()
+    }
+
+    /// Returns the test of the campaign as its log has it; `None` for a new test, or if the log does not have the test.
+    pub fn logged<'l>(&self, log: &'l Log) -> Option<&'l Trial> {
         match self {
-            Self::Logged(index) => *index < log.trials().len(),
-            Self::New(_) => true,
+            Self::Logged(index) => log.trials().get(*index),
+            Self::New(_) => None,
         }
     }
 

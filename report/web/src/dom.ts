@@ -24,7 +24,9 @@ export class Sheet {
   constructor(private readonly paint: (context: CanvasRenderingContext2D, sheet: Sheet) => void, label: string) {
     this.canvas = h("canvas", { role: "img", "aria-label": label });
     new ResizeObserver(() => this.fit()).observe(this.canvas);
-    onTheme(() => this.draw());
+    // A sheet whose canvas is gone is no longer drawn.
+    const self = new WeakRef(this);
+    onTheme(() => self.deref()?.draw(), self);
   }
 
   private fit() {
@@ -57,20 +59,22 @@ export class Sheet {
   }
 }
 
-const listeners: (() => void)[] = [];
+let listeners: { listener: () => void; of: WeakRef<object> | null }[] = [];
 
-export function onTheme(listener: () => void) {
-  listeners.push(listener);
+/** Calls a function after each change of the theme, as long as the object is there for which it is called. */
+export function onTheme(listener: () => void, of: WeakRef<object> | null = null) {
+  listeners = listeners.filter(({ of }) => of === null || of.deref() !== undefined);
+  listeners.push({ listener, of });
 }
 
 /** Forgets all listeners, because what they draw is gone. */
 export function forgetThemes() {
-  listeners.length = 0;
+  listeners = [];
 }
 
 function announce() {
   colours.clear();
-  listeners.forEach((listener) => listener());
+  listeners.forEach(({ listener }) => listener());
 }
 
 /** The button that changes between light and dark; at first the page has the theme of the system. */

@@ -34,12 +34,17 @@ export class Film {
   /** The number of tests whose runs are asked for. */
   private pending = 0;
   private readonly inquiries: Inquiries;
+  /** How runs are shown: the speed, and whether the view follows the car. */
+  private speed = 1;
+  private follows = true;
   /** The names of the cameras that film tests, once somebody has asked for them. */
   private cameras: Promise<string[]> | null = null;
 
   constructor(private readonly store: () => Store) {
     this.inquiries = new Inquiries(store);
     this.dialog.addEventListener("close", () => {
+      this.asked += 1;
+      this.waiting = null;
       this.stop();
       this.inquiries.clear();
     });
@@ -56,30 +61,37 @@ export class Film {
   /** Opens the dialog for a test, and plays its run if there is one. */
   async show(index: number) {
     const asked = ++this.asked;
+    this.waiting = null;
     this.pending += 1;
     const store = this.store();
     const row = store.rowOf(index);
     let [run, why]: [Run | null, string] = [null, this.without(index)];
+    let differs: string | null = null;
     try {
-      run = await store.run(index);
+      if (store.page.served && store.page.study.scenario !== null) ({ run, differs } = await runOf(index));
+      else run = await store.run(index);
     } catch (error) {
       why = reason(error);
     }
     this.pending -= 1;
     if (this.asked !== asked) return;
     this.stop();
+    const focused = this.dialog.contains(document.activeElement) ? document.activeElement?.getAttribute("aria-label") : null;
     this.stage.replaceChildren(h("p", { class: "note" }, why));
     this.dialog.replaceChildren(this.head(index, row), this.stage, this.about(index, row));
+    if (differs) this.stage.before(h("p", { class: "differs", role: "alert" }, differs));
     this.inquiries.about(index, row < 0 ? "" : store.verdictName(row));
     this.dialog.append(this.inquiries.element);
     if (store.page.served && row >= 0) this.dialog.append(this.change(store.numbersOf(row)));
     if (!this.dialog.open) this.dialog.showModal();
+    if (focused) [...this.dialog.querySelectorAll("button")].find((button) => button.getAttribute("aria-label") === focused)?.focus();
     if (run) this.play(run, `Test ${index}`, index);
   }
 
   /** Opens the dialog for a new test, runs it and plays its run. */
   async attempt(numbers: number[]) {
     this.asked += 1;
+    this.waiting = null;
     this.stop();
     this.stage.replaceChildren(h("p", { class: "note" }, "The test runs."));
     this.inquiries.clear();
@@ -133,7 +145,11 @@ export class Film {
       h("p", { class: "muted" }, "This test is no test of the campaign. Its values: ", h("code", { class: "values" }, JSON.stringify(ran.test)), ", its trace hash: ", h("code", { class: "hash" }, ran.trace_hash ?? "none")),
     ] : []));
     this.stage.replaceChildren(h("p", { class: "note" }, why));
-    if (ran?.run) this.play(ran.run, "A new test", wanted, time, isPlaying);
+    if (ran?.run) {
+      this.play(ran.run, "A new test", wanted, time, isPlaying);
+      const canvas = this.stage.querySelector<HTMLElement>("#run");
+      if (canvas) Object.assign(canvas.dataset, { verdict: ran.verdict, traceHash: ran.trace_hash ?? "none" });
+    }
   }
 
   private newHead(verdict: string): HTMLElement {
@@ -175,21 +191,31 @@ export class Film {
     const motion = new Motion(run);
     const player = new Player(motion, `${name} from above`);
     const clock = h("output", { class: "clock" });
-    const scrub = h("input", { type: "range", min: 0, max: motion.duration, step: 0.01, value: 0, "aria-label": "Time", input: () => seek(Number(scrub.value)) });
-    const button = h("button", { type: "button", class: "play", click: () => (isPlaying ? pause() : start()) });
-    let speed = 1;
-    const speeds = h("select", { "aria-label": "Speed", change: () => (speed = Number(speeds.value)) }, ...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === 1 }, `${factor}×`)));
+    const scrub = h("input", { id: "scrub", type: "range", min: 0, max: motion.duration, step: 0.01, value: 0, "aria-label": "Time", input: () => seek(Number(scrub.value)) });
+    const button = h("button", { id: "play", type: "button", class: "play", click: () => (isPlaying ? pause() : start()) });
+    const { canvas } = player.sheet;
+    canvas.id = "run";
+    canvas.dataset.test = typeof test === "number" ? String(test) : "new";
+    player.follows = this.follows;
+    const speeds = h("select", { "aria-label": "Speed", change: () => (this.speed = Number(speeds.value)) }, ...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === this.speed }, `${factor}×`)));
     const lens = new Lens();
     const view = h("select", { "aria-label": "View", change: () => {
       const camera = view.selectedOptions[0]?.dataset.camera;
-      player.sheet.canvas.hidden = camera !== undefined;
+      canvas.hidden = camera !== undefined;
       if (camera !== undefined) return void lens.show(test, camera, () => seek(player.time));
       lens.hide();
-      player.follows = view.value === "car";
+      player.follows = this.follows = view.value === "car";
       player.sheet.draw();
-    } }, h("option", { value: "car" }, "follow the car"), h("option", { value: "all" }, "whole way"));
-    if (this.store().page.served) this.cameras ??= cameras().catch(() => []);
-    void this.cameras?.then((names) => view.append(...names.map((name) => h("option", { "data-camera": name }, `camera ${name}`))));
+    } }, h("option", { value: "car", selected: this.follows }, "follow the car"), h("option", { value: "all", selected: !this.follows }, "whole way"));
+    if (this.store().page.served) this.cameras ??= cameras();
+    this.cameras?.then(
+      (names) => view.append(...names.map((name) => h("option", { "data-camera": name }, `camera ${name}`))),
+      (error: unknown) => {
+        // The next run asks again.
+        this.cameras = null;
+        view.append(h("option", { disabled: true }, `no camera: ${reason(error)}`));
+      },
+    );
     const plots = this.plots(run, (time) => {
       pause();
       seek(time);
@@ -200,11 +226,11 @@ export class Film {
       scrub.value = String(player.time);
       clock.textContent = `${player.time.toFixed(2)} of ${motion.duration.toFixed(2)} s`;
       plots.cursor(player.time);
-      lens.seek(player.time, isPlaying, speed);
+      lens.seek(player.time, isPlaying, this.speed);
     };
     const tick = (now: number) => {
       if (!isPlaying) return;
-      seek(player.time + (speed * (now - last)) / 1000);
+      seek(player.time + (this.speed * (now - last)) / 1000);
       last = now;
       if (player.isAtEnd) pause();
       else frame = requestAnimationFrame(tick);
@@ -218,15 +244,17 @@ export class Film {
     const pause = () => {
       isPlaying = false;
       cancelAnimationFrame(frame);
-      lens.seek(player.time, isPlaying, speed);
+      lens.seek(player.time, isPlaying, this.speed);
       tell();
     };
     const tell = () => {
       button.textContent = isPlaying ? "Pause" : "Play";
       this.dialog.dataset.playing = String(isPlaying);
+      canvas.dataset.state = isPlaying ? "playing" : player.isAtEnd ? "ended" : "paused";
     };
     const keys = (event: KeyboardEvent) => {
-      if (event.target instanceof HTMLSelectElement || event.target instanceof HTMLInputElement) return;
+      if (event.target instanceof Element && event.target.closest("select, input, summary")) return;
+      if (event.key === " " && event.target instanceof HTMLButtonElement) return;
       if (event.key === " ") isPlaying ? pause() : start();
       else if (event.key === "ArrowLeft" || event.key === "ArrowRight") seek(player.time + (event.key === "ArrowLeft" ? -0.1 : 0.1));
       else return;

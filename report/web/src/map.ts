@@ -26,9 +26,20 @@ interface Facet {
   tree: Quadtree<number> | null;
   /** The element over the map that hears of the pointer. */
   pane: HTMLElement;
+  /** For failing tests an element at the place of the mark, so that other programs find them. */
+  spots: { row: number; element: HTMLElement }[];
 }
 
+/** The greatest number of failing tests of a map with an element of their own. */
+const MOST_SPOTS = 500;
+
 type Scale = ScaleLinear<number, number>;
+
+/** The place of the pointer in an element. */
+function within(element: HTMLElement, event: MouseEvent): [number, number] {
+  const { left, top } = element.getBoundingClientRect();
+  return [event.clientX - left, event.clientY - top];
+}
 
 const line = (scale: Scale): Line => ({ scale: scale(1) - scale(0), offset: scale(0) });
 
@@ -60,7 +71,7 @@ export class MapView {
     this.overlay.canvas.setAttribute("aria-hidden", "true");
     const choose = (axis: 0 | 1) => {
       const options = continuous.map((at) => h("option", { value: at, selected: at === this.axes[axis] }, page.coordinates[at].label));
-      return h("select", { "aria-label": axis === 0 ? "Horizontal axis" : "Vertical axis", change: (event: Event) => {
+      return h("select", { id: axis === 0 ? "x-axis" : "y-axis", "aria-label": axis === 0 ? "Horizontal axis" : "Vertical axis", change: (event: Event) => {
         this.axes[axis] = Number((event.target as HTMLSelectElement).value);
         this.changed();
       } }, ...options);
@@ -80,7 +91,7 @@ export class MapView {
       h("button", { type: "button", class: "quiet", click: () => this.reset() }, "Whole map"),
     );
     const canvases = h("div", { class: "canvases" }, this.sheet.canvas, this.overlay.canvas, this.panes, this.tip);
-    this.element = h("div", { class: "map" }, controls, canvases, this.note);
+    this.element = h("div", { class: "map", id: "map" }, controls, canvases, this.note);
     store.onFilter(() => {
       this.sheet.draw();
       this.overlay.draw();
@@ -192,6 +203,7 @@ export class MapView {
         height: Math.max(20, hgt - MARGIN.top - MARGIN.bottom - title),
         tree: null,
         pane: h("div", { class: "pane" }),
+        spots: [],
       };
     });
     const [{ width: inner, height: tall }] = this.facets;
@@ -203,9 +215,11 @@ export class MapView {
       pane.addEventListener("pointerleave", () => this.leave());
       pane.addEventListener("click", (event) => {
         if (this.hovered) this.store.show(this.store.tests.index[this.hovered.row]);
-        else if (this.store.page.served) this.store.attempt(this.numbersAt(facet, event.offsetX, event.offsetY));
+        else if (this.store.page.served) this.store.attempt(this.numbersAt(facet, ...within(pane, event)));
       });
       select<HTMLElement, unknown>(pane).call(this.zooming).on("dblclick.zoom", null);
+      facet.spots = this.spotsOf(facet);
+      pane.append(...facet.spots.map(({ element }) => element));
     }
     this.panes.replaceChildren(...this.facets.map(({ pane }) => pane));
     // The new maps show the part that the maps before showed, as far as their size allows.
@@ -250,6 +264,7 @@ export class MapView {
       }
     }
     context.restore();
+    this.placeSpots(facet, x, y);
     this.paintAxes(context, facet, x, y);
   }
 
@@ -331,8 +346,31 @@ export class MapView {
     context.restore();
   }
 
+  /** The elements of failing tests. The table of tests does the same by keyboard, so that they are no stops of the tab key. */
+  private spotsOf({ rows }: Facet): Facet["spots"] {
+    const { store } = this;
+    const failing = [...rows].filter((row) => store.verdictName(row) === "fail").slice(0, MOST_SPOTS);
+    return failing.map((row) => {
+      const index = store.tests.index[row];
+      const element = h("button", { type: "button", class: "spot", tabindex: -1, "aria-hidden": "true", "data-test": index, click: (event: Event) => {
+        event.stopPropagation();
+        store.show(index);
+      } });
+      return { row, element };
+    });
+  }
+
+  private placeSpots({ spots, width, height }: Facet, x: Scale, y: Scale) {
+    const [across, up] = this.axes.map((at) => this.store.tests.coordinates[at]);
+    for (const { row, element } of spots) {
+      const [left, top] = [x(across[row]), y(up[row])];
+      element.hidden = !this.store.mask[row] || left < 0 || left > width || top < 0 || top > height;
+      Object.assign(element.style, { left: `${left}px`, top: `${top}px` });
+    }
+  }
+
   private hover(facet: Facet, event: PointerEvent) {
-    const { offsetX: px, offsetY: py } = event;
+    const [px, py] = within(facet.pane, event);
     const found = this.nearest(facet, px, py);
     if (!found) return this.leave();
     this.hovered = found;

@@ -38,7 +38,7 @@ export class Parallel {
       store.verdict = verdicts.value === "" ? null : Number(verdicts.value);
       store.filter();
     } }, h("option", { value: "" }, "all verdicts"), ...store.page.verdicts.map(({ name, tests }, at) => ({ name, tests, at })).filter(({ tests }) => tests > 0).map(({ name, at }) => h("option", { value: at }, name)));
-    this.element = h("div", { class: "parallel" },
+    this.element = h("div", { class: "parallel", id: "parallel" },
       h("div", { class: "controls" }, verdicts, h("button", { type: "button", class: "quiet", click: () => store.clear() }, "Remove all filters"), this.count),
       canvas,
       h("details", {}, h("summary", {}, "Filter by numbers"), h("div", { class: "choices" }, ...rows)),

@@ -10,6 +10,8 @@ export interface Ran {
   trace_hash: string | null;
   /** The reason why the test has no result. */
   problem: string | null;
+  /** What differs from the log, if a test of the campaign ends otherwise now. */
+  differs: string | null;
   /** The run; null if there is no world to show. */
   run: Run | null;
 }

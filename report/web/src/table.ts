@@ -36,7 +36,7 @@ export class Table {
       { name: "impact (m/s)", of: (row) => tests.impact[row], words: (row) => (Number.isNaN(tests.impact[row]) ? "" : digits(tests.impact[row])) },
     ];
     this.head = h("tr", {}, ...this.columns.map(({ name }, at) => h("th", { scope: "col" }, h("button", { type: "button", click: () => this.sort(at) }, name))));
-    const table = h("table", { "aria-rowcount": tests.rows }, h("thead", {}, this.head), this.body);
+    const table = h("table", { id: "table", "aria-rowcount": tests.rows }, h("thead", {}, this.head), this.body);
     this.scroll = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Table of tests", scroll: () => this.fill(), keydown: (event: KeyboardEvent) => this.key(event) }, table);
     this.element = h("div", {}, this.scroll, this.note);
     new ResizeObserver(() => this.fill()).observe(this.scroll);

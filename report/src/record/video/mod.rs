@@ -66,6 +66,14 @@ impl<W: Write + Seek> Video<W> {
     /// # Errors
     /// Returns an error if nothing can be written.
     pub fn show(&mut self, rgb: &[u8], seconds: f64) -> Result<(), Failure> {
+        // A film begins at time 0. The camera may have no image then, and the film is black until there is one.
+        if self.track.pictures.is_empty() && seconds > 0.0 {
+            self.add(&vec![0; rgb.len()], 0.0)?;
+        }
+        self.add(rgb, seconds)
+    }
+
+    fn add(&mut self, rgb: &[u8], seconds: f64) -> Result<(), Failure> {
         self.planes.take(rgb);
         let [width, height] = self.planes.size().map(|pixels| pixels as usize);
         let [y, u, v] = self.planes.all();
