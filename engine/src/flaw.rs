@@ -44,6 +44,18 @@ pub enum WorldFlaw {
         /// The value that has a wrong type.
         value: Value,
     },
+    /// A range of a parameter is no part of the values that the parameter takes.
+    #[error("parameter `{parameter}`: {what} is {}..{}, expected a part of {}..{}", range[0], range[1], domain[0], domain[1])]
+    Outside {
+        /// The name of the parameter.
+        parameter: String,
+        /// The function of the program that has set the range: `plausible` or `opens`.
+        what: &'static str,
+        /// The least and the greatest value of the range.
+        range: [f64; 2],
+        /// The least and the greatest value that the parameter takes.
+        domain: [f64; 2],
+    },
     /// A parameter cannot vary over time with the given shape.
     #[error(transparent)]
     Parameter(#[from] ParameterError),

@@ -6,7 +6,7 @@ use crate::signal::Quantity;
 use crate::stream::Sketch;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
-use paracosm_space::{Space, SpaceError, Values};
+use paracosm_space::{Domain, Space, SpaceError, Values};
 use std::any::Any;
 use std::borrow::Cow;
 use std::fmt;
@@ -126,10 +126,33 @@ pub enum ProgramError {
         /// The message of the panic.
         message: String,
     },
+    /// The program panicked when it built its world for a test.
+    #[error("scenario `{program}` panicked with the values of a test: {message}")]
+    TestPanicked {
+        /// The name of the scenario.
+        program: String,
+        /// The message of the panic.
+        message: String,
+    },
 }
 
 fn joined(flaws: &[WorldFlaw]) -> String {
     flaws.iter().map(WorldFlaw::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the ranges of a parameter that are no part of its values.
+fn outside(declared: &Declared) -> Vec<WorldFlaw> {
+    let Domain::Interval { lo, hi } = declared.parameter.domain else { return Vec::new() };
+    let opens = match declared.opens {
+        Some(Domain::Interval { lo, hi }) => Some([lo, hi]),
+        _ => None,
+    };
+    let ranges = [("opens", opens), ("plausible", declared.plausible)];
+    let flaw = |(what, range): (&'static str, Option<[f64; 2]>)| {
+        let range = range.filter(|[least, greatest]| !(lo <= *least && least <= greatest && *greatest <= hi))?;
+        Some(WorldFlaw::Outside { parameter: declared.parameter.name.clone(), what, range, domain: [lo, hi] })
+    };
+    ranges.into_iter().filter_map(flaw).collect()
 }
 
 /// Returns the message of a panic that was caught.
@@ -216,9 +239,7 @@ impl Program {
     /// # Errors
     /// The parameters form no space, or the world cannot be built with nominal values: it has flaws, or the program panics.
     pub fn declare(&self) -> Result<Declaration, ProgramError> {
-        let scenario = catch_unwind(AssertUnwindSafe(|| self.built(None))).unwrap_or_else(|panic| {
-            Err(ProgramError::Panicked { program: self.name().to_owned(), message: panic_message(&*panic).to_owned() })
-        })?;
+        let scenario = self.caught(None)?;
         let parameters = scenario.parameters.borrow().clone();
         Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())
             .map_err(|source| ProgramError::Parameters { program: self.name().to_owned(), source })?;
@@ -238,7 +259,7 @@ impl Program {
     /// # Errors
     /// The program cannot build its world, or it asks for other parameters than the test gives.
     pub fn check<'a>(&self, test: impl Into<Test<'a>>) -> Result<(), ProgramError> {
-        self.built(Some(test.into())).map(|_| ())
+        self.caught(Some(test.into())).map(|_| ())
     }
 
     /// Returns how far each parameter reaches into the world of a test, in the order of the declaration.
@@ -246,14 +267,15 @@ impl Program {
     /// # Errors
     /// The program cannot build its world, or it asks for other parameters than the test gives.
     pub fn reaches<'a>(&self, test: impl Into<Test<'a>>) -> Result<Vec<(String, Reach)>, ProgramError> {
-        Ok(self.built(Some(test.into()))?.reaches())
+        Ok(self.caught(Some(test.into()))?.reaches())
     }
 
     /// Returns the remarks of the program on the world of a test, for example which parts of a file have no effect.
     pub fn notes<'a>(&self, test: impl Into<Test<'a>>) -> Vec<String> {
         let mut scenario = Scenario::new(Some(&test.into()));
         scenario.notes = Some(Vec::new());
-        self.build(&mut scenario);
+        // A program that panics has no more to say; its run ends in an error.
+        let _ = catch_unwind(AssertUnwindSafe(|| self.build(&mut scenario)));
         scenario.notes.unwrap_or_default()
     }
 
@@ -270,6 +292,18 @@ impl Program {
     /// Runs the program, with a test or without, and checks the world that it built.
     pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
         self.built_in(Scenario::new(test.as_ref()), test)
+    }
+
+    /// Runs the program like [`built`](Self::built), and returns an error if it panics.
+    fn caught(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
+        let is_nominal = test.is_none();
+        catch_unwind(AssertUnwindSafe(|| self.built(test))).unwrap_or_else(|panic| {
+            let (program, message) = (self.name().to_owned(), panic_message(&*panic).to_owned());
+            Err(match is_nominal {
+                true => ProgramError::Panicked { program, message },
+                false => ProgramError::TestPanicked { program, message },
+            })
+        })
     }
 
     fn built_in(&self, mut scenario: Scenario, test: Option<Test>) -> Result<Scenario, ProgramError> {
@@ -297,6 +331,7 @@ impl Program {
                 flaws.push(flaw);
             }
         }
+        flaws.extend(scenario.parameters.borrow().iter().flat_map(outside));
         // A program that refuses a test may end before it places anything.
         let is_refused = flaws.iter().any(|flaw| matches!(flaw, WorldFlaw::Refused { .. }));
         if !is_refused && (scenario.cars.len() != 1 || scenario.networks.len() != 1) {

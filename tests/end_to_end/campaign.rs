@@ -212,6 +212,50 @@ fn a_test_that_panics_is_an_error_and_the_others_go_on() {
 }
 
 #[test]
+fn a_scenario_that_panics_at_some_values_ends_no_command() {
+    fn panics(s: &mut Scenario) {
+        let x = s.interval("x", 0.0..=1.0).default(0.1);
+        assert!(x.value() <= 0.4, "x is {}", x.value());
+        let road = s.place(RoadSegment::new(200.0));
+        s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(5.0));
+        s.duration(1.0);
+    }
+    let program = Program::new("panics", "panics at most values", panics);
+    let study = Study::of(program.clone()).driver("cruise").budget(4).build().unwrap();
+    let said = "scenario `panics` panicked with the values of a test: x is 0.5";
+    let test = study.space().decode(&paracosm::space::Point { continuous: vec![0.5], discrete: Vec::new() });
+    assert_eq!(program.check(&test).unwrap_err().to_string(), said);
+    assert_eq!(program.reaches(&test).unwrap_err().to_string(), said);
+    // The commands ask before the tests which parameters nothing reads.
+    assert!(paracosm::analysis::effects::foreseen(&study).is_ok());
+    let dir = tempfile::tempdir().unwrap();
+    let report = paracosm::run_into(&study, &dir.path().join("out"), &mut []).unwrap();
+    assert_eq!((report.summary.count(Verdict::Error), report.summary.count(Verdict::Pass)), (2, 2));
+}
+
+#[test]
+fn a_range_that_is_no_part_of_a_parameter_is_a_mistake_of_the_scenario() {
+    fn plausible(s: &mut Scenario) {
+        s.interval("v", 1.0..=6.0).plausible(10.0..=20.0);
+    }
+    fn opens(s: &mut Scenario) {
+        s.nominal("v", 1.0..=6.0, 2.0).opens(3.0..=7.0);
+    }
+    fn turned(s: &mut Scenario) {
+        let (least, greatest) = (4.0, 3.0);
+        s.interval("v", 1.0..=6.0).plausible(least..=greatest);
+    }
+    for (build, says) in [
+        (plausible as fn(&mut Scenario), "parameter `v`: plausible is 10..20, expected a part of 1..6"),
+        (opens, "parameter `v`: opens is 3..7, expected a part of 1..6"),
+        (turned, "parameter `v`: plausible is 4..3, expected a part of 1..6"),
+    ] {
+        let error = Program::new("ranges", "has a wrong range", build).declare().unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}
+
+#[test]
 fn a_state_that_is_no_number_is_an_error() {
     fn no_number(s: &mut Scenario) {
         let x = s.interval("x", 0.0..=1.0);

@@ -1,7 +1,7 @@
 //! Perceivers in their own processes, by the command line.
 
 use crate::cameras::can_draw;
-use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use crate::common::{fuzz, refused, stdout, succeeds};
 use crate::python::python;
 use serde_json::Value;
 use std::fs;
