@@ -32,6 +32,7 @@ if (task === "use") {
   seen.plays = true;
   seen.test = await page.textContent("dialog h2");
   await page.keyboard.press("Space");
+  seen.paused = await page.locator("#run").getAttribute("data-state");
   await page.locator("dialog input[type=range]").evaluate((scrub) => {
     scrub.value = scrub.max;
     scrub.dispatchEvent(new Event("input"));
@@ -52,10 +53,16 @@ if (task === "use") {
   await page.click("#play");
   seen.state = await page.locator("#run").getAttribute("data-state");
   seen.ids = await page.evaluate(() => ["map", "run", "play", "scrub", "x-axis", "y-axis", "table", "parallel"].filter((id) => document.querySelectorAll(`#${id}`).length !== 1));
-  // Enter on a button that the next test has, too, leaves the focus there.
-  await page.locator("dialog button[aria-label='Next failing test']").focus();
-  await page.keyboard.press("Enter");
-  await page.waitForFunction((old) => document.querySelector("dialog h2").textContent !== old, seen.test);
+  // A button that the next test has, too, keeps the focus.
+  await page.locator("dialog button[aria-label='Next failing test']").evaluate((button) => {
+    button.focus();
+    button.click();
+  });
+  const isNext = (old) => document.querySelector("dialog h2").textContent !== old;
+  await page.waitForFunction(isNext, seen.test, { polling: 100 }).catch(async () => {
+    const state = await page.evaluate(() => [document.hasFocus(), document.activeElement.outerHTML.slice(0, 200), document.querySelector("dialog h2").textContent]);
+    throw new Error(`the next failing test is not shown: ${JSON.stringify([state, seen.errors])}`);
+  });
   seen.focus = await page.evaluate(() => document.activeElement.getAttribute("aria-label"));
   await page.click("dialog header button:last-child");
   // Each failing test has a place on the map.

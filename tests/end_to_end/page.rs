@@ -76,6 +76,7 @@ fn a_page_opens_without_any_request_and_plays_the_worst_test() {
     );
     assert!(seen["byMatrix"].as_str().unwrap().contains("est 2"), "{}", seen["byMatrix"]);
     assert_eq!((&seen["ids"], &seen["state"]), (&json!([]), &json!("playing")), "{seen}");
+    assert_eq!(seen["paused"], "paused", "the space bar pauses the run that was just opened");
     assert_eq!((&seen["run"][1], &seen["focus"]), (&json!("ended"), &json!("Next failing test")));
     let fails = trials(dir.path()).iter().filter(|trial| trial["verdict"] == "fail").count();
     assert_eq!((&seen["spots"], &seen["bySpot"]), (&json!(fails), &seen["spot"]));

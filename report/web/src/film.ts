@@ -86,6 +86,7 @@ export class Film {
     if (!this.dialog.open) this.dialog.showModal();
     if (focused) [...this.dialog.querySelectorAll("button")].find((button) => button.getAttribute("aria-label") === focused)?.focus();
     if (run) this.play(run, `Test ${index}`, index);
+    if (!focused) this.focusPlay();
   }
 
   /** Opens the dialog for a new test, runs it and plays its run. */
@@ -147,9 +148,15 @@ export class Film {
     this.stage.replaceChildren(h("p", { class: "note" }, why));
     if (ran?.run) {
       this.play(ran.run, "A new test", wanted, time, isPlaying);
+      if (!this.dialog.querySelector(".change")?.contains(document.activeElement)) this.focusPlay();
       const canvas = this.stage.querySelector<HTMLElement>("#run");
       if (canvas) Object.assign(canvas.dataset, { verdict: ran.verdict, traceHash: ran.trace_hash ?? "none" });
     }
+  }
+
+  /** The space bar plays and pauses from the beginning. */
+  private focusPlay() {
+    this.stage.querySelector<HTMLElement>("#play")?.focus();
   }
 
   private newHead(verdict: string): HTMLElement {
@@ -221,8 +228,10 @@ export class Film {
       seek(time);
     });
     let [isPlaying, last, frame] = [false, 0, 0];
+    const state = () => (canvas.dataset.state = isPlaying ? "playing" : player.isAtEnd ? "ended" : "paused");
     const seek = (time: number) => {
       player.seek(time);
+      state();
       scrub.value = String(player.time);
       clock.textContent = `${player.time.toFixed(2)} of ${motion.duration.toFixed(2)} s`;
       plots.cursor(player.time);
@@ -250,7 +259,7 @@ export class Film {
     const tell = () => {
       button.textContent = isPlaying ? "Pause" : "Play";
       this.dialog.dataset.playing = String(isPlaying);
-      canvas.dataset.state = isPlaying ? "playing" : player.isAtEnd ? "ended" : "paused";
+      state();
     };
     const keys = (event: KeyboardEvent) => {
       if (event.target instanceof Element && event.target.closest("select, input, summary")) return;
