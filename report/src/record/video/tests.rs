@@ -99,7 +99,7 @@ fn what_a_player_has_to_know_is_said_of_the_pictures() {
 #[test]
 fn odd_sizes_are_rounded_up_and_a_film_may_be_one_picture() {
     for ([width, height], even) in [([41, 25], [42, 26]), ([1, 1], [2, 2]), ([16, 17], [16, 18])] {
-        let file = film([width, height], 10.0, &[0.4]);
+        let file = film([width, height], 10.0, &[0.0]);
         let header = words(&inside(&file, "moov/trak/tkhd")[76..]);
         assert_eq!(header, even.map(|pixels| pixels << 16));
         assert_eq!(table(&file, "stts"), [1, 1, 9000]);
@@ -114,7 +114,8 @@ fn a_film_runs_at_the_right_speed_where_images_were_lost_and_rates_are_no_whole_
         let runs = runs[1..].chunks_exact(2).map(|run| vec![run[1]; run[0] as usize]);
         runs.flatten().collect::<Vec<u32>>()
     };
-    assert_eq!(durations(10.0, &[0.5, 0.6, 1.0, 1.1]), [9000, 36_000, 9000, 9000]);
+    // Before its first image, the film is black for half a second.
+    assert_eq!(durations(10.0, &[0.5, 0.6, 1.0, 1.1]), [45_000, 9000, 36_000, 9000, 9000]);
     let found = durations(7.0, &every(7.0, 50));
     assert_eq!(found.len(), 50);
     assert_eq!(found.iter().sum::<u32>(), (50.0 / 7.0 * 90_000.0_f64).round() as u32);
