@@ -170,7 +170,7 @@ impl<'a> Campaign<'a> {
     /// campaign, a known test ends otherwise now, or a system gave no result for any of its first tests.
     pub fn run(mut self, observers: &mut [&mut dyn Observer]) -> Result<Finish, Error> {
         let study = self.study;
-        let (batch, budget) = (study.sampling().batch_size().unwrap_or(BATCH), study.sampling().budget);
+        let budget = study.sampling().budget;
         let mut first_failure = FirstFailure;
         let mut observers: Vec<&mut dyn Observer> =
             observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer).collect();
@@ -187,8 +187,7 @@ impl<'a> Campaign<'a> {
         let mut finish = Finish::Budget;
         while done < budget {
             expected.go_on()?;
-            let points = steering.ask(batch.min(budget - done));
-            proposal::check(study.space(), study.sampling().strategy, &points)?;
+            let points = propose(&mut steering, study, done)?;
             if points.is_empty() {
                 finish = Finish::Exhausted;
                 break;
@@ -251,17 +250,15 @@ impl<'a> Campaign<'a> {
         if let Some((_, trial)) = known.iter().enumerate().find(differs) {
             return Err(foreign(trial));
         }
-        let mut observers: Vec<&mut dyn Observer> =
-            observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer).collect();
         observers.iter_mut().try_for_each(|observer| observer.begun())?;
         for trial in &known {
-            if all(&mut observers, |observer| observer.known(trial))?.is_break() {
+            if all(observers, |observer| observer.known(trial))?.is_break() {
                 return Err(Error::Interrupted);
             }
         }
         let mut expected = Expected::of(self.study, &known);
         let rest = &tests[known.len()..];
-        let show = |trial: &Trial| all(&mut observers, |observer| observer.trial(trial));
+        let show = |trial: &Trial| all(observers, |observer| observer.trial(trial));
         if self.run_batch(rest, range.start + known.len(), &mut expected, show)?.is_break() {
             return Err(Error::Interrupted);
         }
@@ -276,12 +273,10 @@ impl<'a> Campaign<'a> {
             return Ok(self.given.clone());
         }
         let existing = self.extension.take().map(|(_, points)| points).unwrap_or_default();
-        let (batch, budget) = (study.sampling().batch_size().unwrap_or(BATCH), study.sampling().budget);
         let mut steering = Steering::new(study, existing)?;
         let mut tests = Vec::new();
-        while tests.len() < budget {
-            let points = steering.ask(batch.min(budget - tests.len()));
-            proposal::check(study.space(), study.sampling().strategy, &points)?;
+        while tests.len() < study.sampling().budget {
+            let points = propose(&mut steering, study, tests.len())?;
             if points.is_empty() {
                 break;
             }
@@ -463,6 +458,15 @@ impl Drop for Hired<'_, '_> {
 
 fn foreign(trial: &Trial) -> Error {
     ForeignTrial { index: trial.index }.into()
+}
+
+/// Returns the next tests of a campaign that has proposed some tests already; no tests if the strategy is exhausted.
+fn propose(steering: &mut Steering<'_>, study: &Study, proposed: usize) -> Result<Vec<Point>, Error> {
+    let sampling = study.sampling();
+    let batch = sampling.batch_size().unwrap_or(BATCH);
+    let points = steering.ask(batch.min(sampling.budget - proposed));
+    proposal::check(study.space(), sampling.strategy, &points)?;
+    Ok(points)
 }
 
 /// Shows something to every observer, and returns a break if an observer wants to end the campaign.

@@ -1,8 +1,8 @@
 //! Divides a campaign into shards, which run on any machines. `merge.rs` puts the shards together again.
 //!
-//! A shard has the tests of one range of indices. All shards know the whole study, and each finds its tests by itself: so only a strategy whose tests
-//! do not depend on outcomes can be divided. The folder of a shard is that of a campaign, with a file `shard.json` that keeps other commands
-//! away from a part of a log.
+//! A shard has the tests of one range of indices. Each shard knows the whole study, and computes its tests itself. So a study can be divided only if
+//! its tests do not depend on outcomes. The folder of a shard looks like the folder of a campaign. The file `shard.json` in it tells other commands
+//! that the log is not whole.
 
 use crate::files::{read_text_here, write_whole_here};
 use crate::{Error, Reason, Study};

@@ -41,11 +41,11 @@ pub enum LogFlaw {
         /// True if the line has the entry.
         is_there: bool,
     },
-    /// The log has more trials than the budget of the study.
-    #[error("found more trials than the budget of the study, which is {}", plural(*budget, "test"))]
+    /// The log has more trials than the campaign or the shard has tests.
+    #[error("found another trial, expected at most {} in this log", plural(*most, "test"))]
     Surplus {
-        /// The budget of the study.
-        budget: usize,
+        /// The greatest number of tests in the log.
+        most: usize,
     },
     /// The index of the trial does not match the number of the line.
     #[error("found trial {found}, expected trial {expected}")]
@@ -129,8 +129,7 @@ pub(crate) fn read_trials(
         let number = found.trials.len() + 1;
         let index = indices.start + found.trials.len();
         if index >= indices.end {
-            let budget = study.sampling().budget;
-            return Err(Error::in_file(file, number, LogFlaw::Surplus { budget }));
+            return Err(Error::in_file(file, number, LogFlaw::Surplus { most: indices.len() }));
         }
         let line_read = parse(text, index, hash).map_err(|flaw| Error::in_file(file, number, flaw))?;
         let is_older = line_read.study().is_none();

@@ -1,7 +1,7 @@
 //! `paracosm-fuzz merge`: puts the shards of a campaign together.
 
+use super::gate::gate;
 use super::output::{Format, FormatOption, json};
-use super::run::gate;
 use super::{Failure, Status, Verbosity, on_interrupt, print, program, report, trust};
 use crate::Runner;
 use clap::Args;
@@ -15,7 +15,7 @@ Examples:
   paracosm-fuzz merge highway shard-*
       the whole campaign, as if one machine had run it
 
-The new folder has the same files as the folder of a campaign that one machine has run, byte for byte. Each shard is given once, in any order. The last \
+The results in the new folder are the results of a campaign that one machine has run, byte for byte. The output of programs stays in the folders of the shards. Each shard is given once, in any order. The last \
     test of each verdict runs again, to check that this machine gets the same results.";
 
 /// The options of `merge`.

@@ -15,6 +15,7 @@ mod doctor;
 mod draw;
 mod export;
 mod fuzz;
+mod gate;
 mod github;
 mod given;
 mod interrupt;

@@ -1,6 +1,7 @@
 //! `paracosm-fuzz run`: runs a campaign, shows its progress and prints its summary.
 
 use super::arguments::{CHOSEN, OUTPUT, REQUIRED, RUNNING};
+use super::gate::gate;
 use super::github::StepSummary;
 use super::output::{Format, FormatOption, Table, broken, broken_words, json, plural};
 use super::progress::{Progress, bar};
@@ -8,15 +9,13 @@ use super::sampling::Sampling;
 use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, program, report};
-use crate::analysis::Summary;
 use crate::generators::{GeneratorError, Purpose, Strategy};
 use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
 use clap::Args;
 use paracosm_campaign::{
-    Catalogue, Error, Extension, Failure as Breakdown, Finish, Shard, StatedRequirement, Study, StudyBuilder,
-    Supervision, Trial,
+    Catalogue, Error, Extension, Failure as Breakdown, Finish, Shard, Study, StudyBuilder, Supervision, Trial,
 };
 use serde_json::{Map, json};
 use std::num::NonZeroUsize;
@@ -78,9 +77,9 @@ pub(super) struct Options {
     /// Continue the campaign in the folder
     #[arg(long, help_heading = RUNNING)]
     resume: bool,
-    /// Run only one part of the campaign
+    /// Run only one shard of the campaign
     ///
-    /// The tests are divided into N parts of the same size, and part I is run, such as 2/64. `merge` puts the parts together. The strategy must
+    /// The tests are divided into N shards of the same size, and shard I is run, such as 2/64. `merge` puts the shards together. The strategy must
     /// not learn from outcomes.
     #[arg(long, value_name = "I/N", help_heading = RUNNING, hide_short_help = true)]
     shard: Option<Shard>,
@@ -396,30 +395,6 @@ impl Options {
     }
 }
 
-/// Returns the reason why the tests of a campaign show nothing; `None` if at least one test shows whether it passes.
-fn untested(summary: &Summary) -> Option<String> {
-    if [Verdict::Pass, Verdict::Fail].iter().all(|verdict| summary.count(*verdict) == 0) {
-        let counts = [Verdict::Unpreventable, Verdict::Inconclusive, Verdict::Invalid]
-            .map(|verdict| (summary.count(verdict), verdict));
-        let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, verdict)| format!("{count} {verdict}"));
-        return Some(format!("no test passed or failed ({})", words.collect::<Vec<_>>().join(", ")));
-    }
-    summary.requirements().is_empty().then(|| "there is no requirement; --spec or --requirements states one".to_owned())
-}
-
-/// Returns the id of a requirement of a file whose id seems to be misspelled: it has no formula, and it is similar to the id of another
-/// requirement or says nothing else. A requirement that nobody has a formula for yet says what it is.
-fn misspelled(study: &Study) -> Option<String> {
-    if study.subject().scenario().is_err() {
-        return None;
-    }
-    let (judged, unjudged): (Vec<_>, Vec<_>) = study.requirements().iter().partition(|one| one.formula.is_some());
-    let says_nothing = |one: &&StatedRequirement| one.text.is_empty() && one.source.is_none() && one.severity.is_none();
-    let is_similar =
-        |one: &&StatedRequirement| nearest(&one.id, judged.iter().map(|other| other.id.as_str())).is_some();
-    unjudged.into_iter().find(|one| says_nothing(one) || is_similar(one)).map(|one| one.id.clone())
-}
-
 /// Notes that there is one test, and how to vary parameters.
 fn note_one_test(study: &Study, verbosity: Verbosity) {
     if study.is_one_test() {
@@ -469,31 +444,4 @@ fn safe_words(trials: usize) -> String {
         1 => "the first trial is".to_owned(),
         trials => format!("the first {trials} trials are"),
     }
-}
-
-/// Returns the status of a campaign. With --fail-on-violation, a campaign that shows too little is an error.
-pub(super) fn gate(report: &Report, fail_on_violation: bool) -> Result<Status, Failure> {
-    let (log, summary) = (&report.log, &report.summary);
-    // A gate that says yes although some tests have no result would be false assurance.
-    if let Some(trial) = log.trials().iter().find(|trial| fail_on_violation && trial.verdict == Verdict::Error) {
-        let (errors, tests) = (summary.count(Verdict::Error), plural(summary.tests(), "test"));
-        let (index, first) = (trial.index, trial.error().unwrap_or_default());
-        let message =
-            format!("{errors} of {tests} ended in an error, so they have no verdict; the first, test {index}: {first}");
-        return Err(message.into());
-    }
-    if fail_on_violation
-        && summary.tests() > 0
-        && let Some(why) = untested(summary)
-    {
-        return Err(format!("the campaign does not show whether a requirement is violated: {why}").into());
-    }
-    let violated = fail_on_violation && summary.count(Verdict::Fail) > 0;
-    if let Some(id) = misspelled(log.study()).filter(|_| fail_on_violation && !violated) {
-        return Err(format!(
-            "requirement `{id}` was not judged: it has no formula, and the scenario has no requirement of this name"
-        )
-        .into());
-    }
-    Ok(if violated { Status::Violation } else { Status::Nothing })
 }

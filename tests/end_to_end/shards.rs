@@ -40,6 +40,18 @@ fn merged_shards_are_the_campaign_of_one_machine_byte_for_byte() {
 }
 
 #[test]
+fn shards_of_the_tests_of_a_file_are_merged_byte_for_byte_and_so_are_tests_that_add_to_a_file() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    succeeds(fuzz(dir, &["--budget", "25", "--out", "base", "-q"]));
+    for campaign in [&["--tests", "base/trials.csv"][..], &["--extend", "base/trials.csv", "--budget", "20"]] {
+        in_shards(dir, campaign, 3);
+        assert!(files(&dir.join("all")) == files(&dir.join("one")), "{campaign:?}");
+        ["all", "one", "s1", "s2", "s3"].iter().for_each(|folder| fs::remove_dir_all(dir.join(folder)).unwrap());
+    }
+}
+
+#[test]
 fn a_shard_goes_on_after_an_interruption_and_other_commands_do_not_take_it_for_a_campaign() {
     let dir = tempfile::tempdir().unwrap();
     let dir = dir.path();

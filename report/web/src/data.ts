@@ -223,9 +223,21 @@ export async function readTests(described: Document["tests"]): Promise<Tests> {
 
 const roads = new Map<number, Promise<Ground[]>>();
 
-/** Reads the run of a test; null if the page does not have it. */
-export async function readRun(page: Document, index: number): Promise<Run | null> {
-  if (page.served) return page.study.scenario === null ? null : (await ran(index)).run;
+/** The run of a test of the campaign. */
+export interface Seen {
+  /** The run; null if the page does not have it. */
+  run: Run | null;
+  /** A sentence if the test ends otherwise now than in the log. */
+  differs: string | null;
+}
+
+/** Reads the run of a test. */
+export async function readRun(page: Document, index: number): Promise<Seen> {
+  if (page.served && page.study.scenario !== null) return ran(index);
+  return { run: await inPage(page, index), differs: null };
+}
+
+async function inPage(page: Document, index: number): Promise<Run | null> {
   const place = page.runs.roads[index];
   if (place === undefined) return null;
   if (!roads.has(place)) roads.set(place, json<Ground[]>(`roads-${place}`));

@@ -68,8 +68,7 @@ export class Film {
     let [run, why]: [Run | null, string] = [null, this.without(index)];
     let differs: string | null = null;
     try {
-      if (store.page.served && store.page.study.scenario !== null) ({ run, differs } = await runOf(index));
-      else run = await store.run(index);
+      ({ run, differs } = await store.run(index));
     } catch (error) {
       why = reason(error);
     }

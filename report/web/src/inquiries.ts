@@ -18,10 +18,8 @@ export class Inquiries {
     const { page } = this.store();
     if (!page.served || verdict !== "fail") return;
     const answer = h("div", { class: "answer", "aria-live": "polite" });
-    const button = (name: string, title: string, answered: (signal: AbortSignal) => Promise<Node[]>) => {
-      const made = h("button", { type: "button", class: "quiet", title, click: () => void this.ask(answer, name, answered) }, name);
-      return made;
-    };
+    const button = (name: string, title: string, answered: (signal: AbortSignal) => Promise<Node[]>) =>
+      h("button", { type: "button", class: "quiet", title, click: () => void this.ask(answer, name, answered) }, name);
     this.element.replaceChildren(
       button("Shrink", "Find the simplest test near this test that still fails", (signal) => this.simplest(test, signal)),
       // A system has no driver that others could replace.

@@ -7,6 +7,7 @@ import { zoom, zoomIdentity, type ZoomTransform } from "d3-zoom";
 import { plain, type Grid } from "./data";
 import { colour, h, Sheet } from "./dom";
 import { pointed } from "./words";
+import { Spots } from "./spots";
 import type { Store } from "./store";
 import { type Line, paintTests } from "./cloud";
 import { mark, sign, verdictColour } from "./marks";
@@ -26,12 +27,8 @@ interface Facet {
   tree: Quadtree<number> | null;
   /** The element over the map that hears of the pointer. */
   pane: HTMLElement;
-  /** For failing tests an element at the place of the mark, so that other programs find them. */
-  spots: { row: number; element: HTMLElement }[];
+  spots: Spots;
 }
-
-/** The greatest number of failing tests of a map with an element of their own. */
-const MOST_SPOTS = 500;
 
 type Scale = ScaleLinear<number, number>;
 
@@ -194,16 +191,17 @@ export class MapView {
       const all = new Uint32Array(tests.rows);
       let count = 0;
       for (let i = 0; i < tests.rows; i++) if (this.facetBy < 0 || tests.coordinates[this.facetBy][i] === number) all[count++] = i;
+      const shown = all.slice(0, count);
       return {
         title: level === null ? null : `${page.coordinates[this.facetBy].name} ${level}`,
-        rows: all.slice(0, count),
+        rows: shown,
         left: column * w + MARGIN.left,
         top: row * hgt + MARGIN.top + title,
         width: Math.max(20, w - MARGIN.left - MARGIN.right),
         height: Math.max(20, hgt - MARGIN.top - MARGIN.bottom - title),
         tree: null,
         pane: h("div", { class: "pane" }),
-        spots: [],
+        spots: new Spots(this.store, shown),
       };
     });
     const [{ width: inner, height: tall }] = this.facets;
@@ -218,8 +216,7 @@ export class MapView {
         else if (this.store.page.served) this.store.attempt(this.numbersAt(facet, ...within(pane, event)));
       });
       select<HTMLElement, unknown>(pane).call(this.zooming).on("dblclick.zoom", null);
-      facet.spots = this.spotsOf(facet);
-      pane.append(...facet.spots.map(({ element }) => element));
+      pane.append(...facet.spots.elements);
     }
     this.panes.replaceChildren(...this.facets.map(({ pane }) => pane));
     // The new maps show the part that the maps before showed, as far as their size allows.
@@ -264,7 +261,7 @@ export class MapView {
       }
     }
     context.restore();
-    this.placeSpots(facet, x, y);
+    facet.spots.place(this.axes, x, y, [width, height]);
     this.paintAxes(context, facet, x, y);
   }
 
@@ -344,29 +341,6 @@ export class MapView {
       context.fillText(title, width / 2, -4, width);
     }
     context.restore();
-  }
-
-  /** The elements of failing tests. The table of tests does the same by keyboard, so that they are no stops of the tab key. */
-  private spotsOf({ rows }: Facet): Facet["spots"] {
-    const { store } = this;
-    const failing = [...rows].filter((row) => store.verdictName(row) === "fail").slice(0, MOST_SPOTS);
-    return failing.map((row) => {
-      const index = store.tests.index[row];
-      const element = h("button", { type: "button", class: "spot", tabindex: -1, "aria-hidden": "true", "data-test": index, click: (event: Event) => {
-        event.stopPropagation();
-        store.show(index);
-      } });
-      return { row, element };
-    });
-  }
-
-  private placeSpots({ spots, width, height }: Facet, x: Scale, y: Scale) {
-    const [across, up] = this.axes.map((at) => this.store.tests.coordinates[at]);
-    for (const { row, element } of spots) {
-      const [left, top] = [x(across[row]), y(up[row])];
-      element.hidden = !this.store.mask[row] || left < 0 || left > width || top < 0 || top > height;
-      Object.assign(element.style, { left: `${left}px`, top: `${top}px` });
-    }
   }
 
   private hover(facet: Facet, event: PointerEvent) {

@@ -29,7 +29,7 @@ export function thumbnail(store: Store, index: number, label: string): HTMLEleme
   const button = h("button", { type: "button", class: "thumb", "aria-label": `Play ${label}`, click: () => store.show(index) });
   const place = h("span", { class: "picture" });
   button.append(place, h("span", { class: "playmark" }, `▶ ${label}`));
-  void store.run(index).then((run) => {
+  void store.run(index).then(({ run }) => {
     if (!run) {
       place.append(h("span", { class: "muted" }, "no run on this page"));
       return;

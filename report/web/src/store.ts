@@ -1,6 +1,6 @@
 // The state that all parts of the page share: which tests pass the filters, and which test is shown.
 
-import type { Document, Run, Tests } from "./data";
+import type { Document, Seen, Tests } from "./data";
 
 export class Store {
   /** 1 for each row that passes all filters. */
@@ -18,7 +18,7 @@ export class Store {
     readonly page: Document,
     readonly tests: Tests,
     readonly show: (index: number) => void,
-    readonly run: (index: number) => Promise<Run | null>,
+    readonly run: (index: number) => Promise<Seen>,
     /** Runs a new test with a number for each coordinate, and plays it. */
     readonly attempt: (numbers: number[]) => void,
   ) {
