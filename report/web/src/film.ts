@@ -42,15 +42,27 @@ export class Film {
 
   constructor(private readonly store: () => Store) {
     this.inquiries = new Inquiries(store);
+    // The event of a closed dialog may come after the next test was asked for, so that it forgets nothing.
+    this.dialog.addEventListener("cancel", () => this.leave());
     this.dialog.addEventListener("close", () => {
-      this.asked += 1;
-      this.waiting = null;
-      this.stop();
-      this.inquiries.clear();
+      if (!this.dialog.open) this.stop();
     });
     this.dialog.addEventListener("click", (event) => {
-      if (event.target === this.dialog) this.dialog.close();
+      if (event.target === this.dialog) this.close();
     });
+  }
+
+  /** Forgets the test that is shown, and the questions about it. */
+  private leave() {
+    this.asked += 1;
+    this.waiting = null;
+    this.stop();
+    this.inquiries.clear();
+  }
+
+  private close() {
+    this.leave();
+    this.dialog.close();
   }
 
   /** True while the dialog is open, or about to open. */
@@ -161,7 +173,7 @@ export class Film {
   private newHead(verdict: string): HTMLElement {
     return h("header", {},
       h("h2", {}, "A new test", verdict ? ": " : "", h("span", { class: `verdict ${verdict}` }, `${sign(verdict)} ${verdict}`)),
-      h("button", { type: "button", class: "quiet", "aria-label": "Close", click: () => this.dialog.close() }, "Close"),
+      h("button", { type: "button", class: "quiet", "aria-label": "Close", click: () => this.close() }, "Close"),
     );
   }
 
@@ -172,7 +184,7 @@ export class Film {
     return h("header", {},
       h("h2", {}, `Test ${index}: `, h("span", { class: `verdict ${verdict}` }, `${sign(verdict)} ${verdict}`)),
       ...steps.map(([by, label]) => h("button", { type: "button", class: "quiet", "aria-label": label, title: label, click: () => this.step(index, by) }, by < 0 ? "◀ failing" : "failing ▶")),
-      h("button", { type: "button", class: "quiet", "aria-label": "Close", click: () => this.dialog.close() }, "Close"),
+      h("button", { type: "button", class: "quiet", "aria-label": "Close", click: () => this.close() }, "Close"),
     );
   }
 
