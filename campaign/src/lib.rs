@@ -84,6 +84,7 @@ pub use merge::merge;
 pub use observer::Observer;
 pub use process::end_all_processes;
 pub use regression::{Expectation, Regression, Replayed};
+pub use samples::trace_of;
 pub use scales::{Learned, Scales};
 pub use shard::Shard;
 pub use simulator::Recording;

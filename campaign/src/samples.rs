@@ -1,6 +1,7 @@
-//! The errors in a list of samples that should be a trace, whether a system answered with it or it stands in a file.
+//! Traces from lists of samples, and the errors in a list that should be a trace, whether a system answered with it or it stands in a file.
 
 use crate::Reason;
+use paracosm_oracles::Trace;
 use paracosm_space::{WordFlaw, plural, some_of, word_flaw};
 use std::collections::HashSet;
 use thiserror::Error;
@@ -125,9 +126,85 @@ impl TraceFlaw {
     }
 }
 
+/// The greatest deviation of a time, as a share of the sample period.
+const TOLERANCE: f64 = 1e-3;
+
+/// Makes a complete trace of the samples of its signals. One of the signals is `time`, in seconds, evenly spaced from 0 on.
+///
+/// # Errors
+/// There is no signal `time` or no other signal, a name occurs twice or cannot be shown, the signals differ in length, a sample is not
+/// finite, or the times are not evenly spaced from 0 on.
+pub fn trace_of(samples: &[(String, Vec<f64>)]) -> Result<Trace, TraceFlaw> {
+    let no_time = || TraceFlaw::NoTime { signals: samples.iter().map(|(name, _)| name.clone()).collect() };
+    let (_, time) = samples.iter().find(|(name, _)| name == "time").ok_or_else(no_time)?;
+    for (name, samples) in samples {
+        let signal = name.clone();
+        if samples.len() != time.len() {
+            return Err(TraceFlaw::Length { signal, found: samples.len(), expected: time.len() });
+        }
+        if let Some(sample) = samples.iter().position(|sample| !sample.is_finite()) {
+            let time = time.get(sample).copied().filter(|time| time.is_finite());
+            return Err(TraceFlaw::NoValue { signal, sample, time });
+        }
+    }
+    let dt = period(time)?;
+    let signals: Vec<&(String, Vec<f64>)> = samples.iter().filter(|(name, _)| name != "time").collect();
+    if signals.is_empty() {
+        return Err(TraceFlaw::NoSignal);
+    }
+    TraceFlaw::check_names(signals.iter().map(|(name, _)| name.as_str()))?;
+    let mut trace = Trace::new(dt, signals.iter().map(|(name, _)| name.clone()).collect());
+    trace.reserve(time.len());
+    for tick in 0..time.len() {
+        trace.record(&signals.iter().map(|(_, samples)| samples[tick]).collect::<Vec<_>>());
+    }
+    trace.finish();
+    Ok(trace)
+}
+
+/// Returns the sample period of evenly spaced times from 0 on, in seconds.
+fn period(time: &[f64]) -> Result<f64, TraceFlaw> {
+    let [first, .., last] = time else {
+        return Err(TraceFlaw::TooShort { samples: time.len() });
+    };
+    if *first != 0.0 {
+        return Err(TraceFlaw::Begins { at: *first });
+    }
+    if let Some(at) = time.windows(2).position(|pair| pair[1] <= pair[0]) {
+        return Err(TraceFlaw::Falls { from: time[at], to: time[at + 1], sample: at + 1 });
+    }
+    // Rounded to twelve digits, so that times from repeated addition give the intended period.
+    let mean = last / (time.len() - 1) as f64;
+    let dt: f64 = format!("{mean:.11e}").parse().expect("a number as it was written");
+    let uneven = |(tick, at): (usize, &f64)| (at - tick as f64 * dt).abs() > TOLERANCE * dt;
+    match time.iter().enumerate().position(uneven) {
+        None if dt > 0.0 => Ok(dt),
+        at => {
+            let sample = at.unwrap_or(0);
+            Err(TraceFlaw::Uneven { sample, found: time[sample], expected: sample as f64 * dt })
+        }
+    }
+}
+
 /// The greatest number of names in a message.
 const MOST_NAMES: usize = 20;
 
 fn found(signals: &[String]) -> String {
     if signals.is_empty() { "nothing".to_owned() } else { some_of(signals, MOST_NAMES) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_period_of_times_that_were_added_up_is_the_one_that_was_meant() {
+        let mut time = vec![0.0];
+        for tick in 0..3000 {
+            time.push(time[tick] + 0.01);
+        }
+        assert_eq!(period(&time), Ok(0.01));
+        let thirds: Vec<f64> = (0..1000).map(|tick| f64::from(tick) / 60.0).collect();
+        assert!((period(&thirds).unwrap() * 60.0 - 1.0).abs() < 1e-11);
+    }
 }

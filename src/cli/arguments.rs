@@ -25,7 +25,7 @@ pub(super) fn parse<C: Parser>() -> C {
     // The usage shows the name in the source, whatever the file is called, so that `program::help` replaces it everywhere.
     let command = C::command();
     let name = command.get_name().to_owned();
-    let matches = adapted(command.bin_name(name)).try_get_matches();
+    let matches = adapted(command.bin_name(name)).try_get_matches_from(program::words());
     let read = matches.and_then(|mut matches| C::from_arg_matches_mut(&mut matches));
     read.unwrap_or_else(|error| match explained(&error) {
         Some(message) => {

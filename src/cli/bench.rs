@@ -256,7 +256,8 @@ impl Options {
 
 /// Returns the command line, which is kept in the files that the command writes.
 fn command() -> String {
-    let arguments: Vec<String> = std::env::args().skip(1).map(|word| shell_word(&word)).collect();
+    let arguments: Vec<String> =
+        program::words().iter().skip(1).map(|word| shell_word(&word.to_string_lossy())).collect();
     format!("{} {}", program::name(), arguments.join(" "))
 }
 

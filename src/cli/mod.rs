@@ -54,6 +54,7 @@ use interrupt::on_interrupt;
 use paracosm_campaign::executor::WORKER;
 use paracosm_campaign::{Catalogue, Error, Log, Reason, SpaceFile, Study, Supervision};
 use std::borrow::Cow;
+use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
@@ -187,29 +188,46 @@ fn usage(message: String) -> Error {
 /// }
 /// ```
 pub fn fuzz(catalogue: &Catalogue) -> ExitCode {
-    program::takes_the_place();
-    quiet_workers();
-    interrupt::listen();
-    exit(fuzz::Command::of(catalogue).and_then(|command| command.execute(catalogue)))
+    ExitCode::from(fuzz_in_process(catalogue))
 }
 
 /// Runs the program `paracosm-cover` with the scenarios of a catalogue, whose spaces it can measure.
 pub fn cover(catalogue: &Catalogue) -> ExitCode {
-    interrupt::listen();
-    exit(arguments::parse::<cover::Command>().execute(catalogue).map(|()| Status::Nothing))
+    ExitCode::from(cover_in_process(catalogue))
 }
 
-fn exit(result: Result<Status, Failure>) -> ExitCode {
+/// Takes the words of the command line from the caller, for a process whose own words are others: a program in Python that runs
+/// [`fuzz_in_process`] or [`cover_in_process`]. The first word is the program. Only the first call counts.
+pub fn called_with(words: Vec<OsString>) {
+    program::is_called_with(words);
+}
+
+/// Runs the program `paracosm-fuzz`, like [`fuzz`], and returns its exit status. It ends the process itself if the arguments are wrong, for
+/// help, and after Ctrl-C.
+pub fn fuzz_in_process(catalogue: &Catalogue) -> u8 {
+    program::takes_the_place();
+    quiet_workers();
+    interrupt::listen();
+    status(fuzz::Command::of(catalogue).and_then(|command| command.execute(catalogue)))
+}
+
+/// Runs the program `paracosm-cover`, like [`cover`], and returns its exit status. It ends the process itself if the arguments are wrong, for
+/// help, and after Ctrl-C.
+pub fn cover_in_process(catalogue: &Catalogue) -> u8 {
+    interrupt::listen();
+    status(arguments::parse::<cover::Command>().execute(catalogue).map(|()| Status::Nothing))
+}
+
+/// Returns the exit status of a command, and prints its error.
+fn status(result: Result<Status, Failure>) -> u8 {
     match result {
-        Ok(Status::Nothing) => ExitCode::SUCCESS,
-        Ok(Status::Violation) => ExitCode::from(1),
+        Ok(Status::Nothing) => 0,
+        Ok(Status::Violation) => 1,
         // The reader closed the pipe, as `head` does. This is no error.
-        Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
-            ExitCode::SUCCESS
-        }
+        Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => 0,
         Err(error) => {
             complain(&format_args!("error: {error}"));
-            ExitCode::from(2)
+            2
         }
     }
 }

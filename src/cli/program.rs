@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::env::{self, consts::EXE_SUFFIX};
+use std::ffi::OsString;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -11,9 +12,22 @@ const USUAL: &str = "paracosm-fuzz";
 /// The name of the program that has the commands of the usual program.
 static NAME: OnceLock<String> = OnceLock::new();
 
+/// The words of the command line, if another program runs this one and says them.
+static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Takes the words of the command line from the caller, not from the operating system. Only the first call counts.
+pub(super) fn is_called_with(words: Vec<OsString>) {
+    let _ = WORDS.set(words);
+}
+
+/// Returns the words of the command line; the first word is the program.
+pub(super) fn words() -> Vec<OsString> {
+    WORDS.get().cloned().unwrap_or_else(|| env::args_os().collect())
+}
+
 /// Returns the program as the user called it, for commands that the user can type again.
 pub(super) fn called() -> String {
-    env::args().next().unwrap_or_else(|| USUAL.into())
+    words().into_iter().next().map_or_else(|| USUAL.into(), |word| word.to_string_lossy().into_owned())
 }
 
 /// Says that this program has the commands of `paracosm-fuzz`. Its name is the name of its file.

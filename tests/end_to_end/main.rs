@@ -49,6 +49,7 @@ mod pictures;
 mod plan;
 mod points;
 mod python;
+mod python_package;
 mod races;
 mod reference_drivers;
 mod repeat;

@@ -19,7 +19,7 @@ pub fn python(script: &Path) -> Option<String> {
     let Some(name) = ["python3", "python"].into_iter().find(has) else {
         let required = std::env::var_os("PARACOSM_REQUIRE_PYTHON").is_some_and(|required| required == "1");
         assert!(!required, "PARACOSM_REQUIRE_PYTHON=1: there is no Python 3.10 with grpcio, numpy and protobuf");
-        eprintln!("SKIPPED: no Python 3.10 with grpcio, numpy and protobuf; pip install ./python");
+        eprintln!("SKIPPED: no Python 3.10 with grpcio, numpy and protobuf; pip install './python[grpc]'");
         return None;
     };
     let path = package().join("src");
@@ -31,7 +31,7 @@ fn driver(dir: &Path, body: &str) -> Option<String> {
     let script = dir.join("driver.py");
     let body = body.replace('\n', "\n    ");
     let text = format!(
-        "import os\nimport numpy as np\nfrom paracosm import *\n\n\nclass Mine(Driver):\n    {body}\n\n\nMine().serve()\n"
+        "import os\nimport numpy as np\nfrom paracosm import Camera, Control, Delivery, Driver, Gnss, Imu, Inaccuracy, Lidar, Mount\n\n\nclass Mine(Driver):\n    {body}\n\n\nMine().serve()\n"
     );
     fs::write(&script, text).unwrap();
     python(&script)

@@ -14,6 +14,7 @@ use paracosm_coverage::valid::Validity;
 use paracosm_coverage::{Bracket, Deadline, Measure, PointSet};
 use paracosm_space::demand::TestKind;
 use paracosm_space::{Coordinate, Point, Record, Value};
+use std::sync::atomic::AtomicBool;
 use thiserror::Error;
 
 /// A function that observes the progress of measurements. It receives the measure that is at work and its bracket so
@@ -66,6 +67,21 @@ impl Coverage {
         watch: &mut Watch,
     ) -> Result<Self, Error> {
         Ok(limit.within(|deadline| measure_holes(tests, measures, k, deadline, watch))??.0)
+    }
+
+    /// Measures the coverage of a space by tests, as [`Coverage::of`] does. Measures that are not finished when `stop` is set give brackets.
+    ///
+    /// # Errors
+    /// The same as of [`Coverage::of`].
+    pub fn stoppable(
+        tests: &TestSet,
+        measures: &[Measure],
+        k: Option<usize>,
+        limit: Limit,
+        stop: &'static AtomicBool,
+    ) -> Result<Self, Error> {
+        let measured = |deadline: Deadline| measure_holes(tests, measures, k, deadline.or_when(stop), &mut |_, _| ());
+        Ok(limit.within(measured)??.0)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Reads and checks the answers of a system.
 
 use crate::json::Number;
-use crate::samples::TraceFlaw;
+use crate::samples::{TraceFlaw, trace_of};
 use paracosm_oracles::Trace;
 use paracosm_space::{Record, WordFlaw, word_flaw};
 use serde::de::Visitor;
@@ -26,9 +26,6 @@ pub enum Answer {
 
 /// The description of an expected answer, for messages.
 const EXPECTED: &str = "an answer as JSON, {\"index\": …} with `trace`, `robustness` or `error`";
-
-/// The greatest deviation of a time, as a share of the sample period.
-const TOLERANCE: f64 = 1e-3;
 
 /// The greatest number of requirements in an answer. Tables, reports and searches compare requirements by their ids.
 const MOST_REQUIREMENTS: usize = 1000;
@@ -182,55 +179,8 @@ fn read_robustness(robustness: &Record<Number>) -> Result<Vec<(String, f64)>, An
 }
 
 fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, TraceFlaw> {
-    let no_time = || TraceFlaw::NoTime { signals: answer.iter().map(|(name, _)| name.to_owned()).collect() };
-    let time = answer.get("time").ok_or_else(no_time)?;
-    for (name, samples) in answer.iter() {
-        let signal = name.to_owned();
-        if samples.len() != time.len() {
-            return Err(TraceFlaw::Length { signal, found: samples.len(), expected: time.len() });
-        }
-        if let Some(sample) = samples.iter().position(|sample| !sample.0.is_finite()) {
-            let time = time.get(sample).map(|time| time.0).filter(|time| time.is_finite());
-            return Err(TraceFlaw::NoValue { signal, sample, time });
-        }
-    }
-    let dt = period(time)?;
-    let (names, signals): (Vec<_>, Vec<_>) = answer.iter().filter(|(name, _)| *name != "time").unzip();
-    if names.is_empty() {
-        return Err(TraceFlaw::NoSignal);
-    }
-    TraceFlaw::check_names(names.iter().copied())?;
-    let mut trace = Trace::new(dt, names.into_iter().map(str::to_owned).collect());
-    trace.reserve(time.len());
-    for tick in 0..time.len() {
-        trace.record(&signals.iter().map(|samples| samples[tick].0).collect::<Vec<_>>());
-    }
-    trace.finish();
-    Ok(trace)
-}
-
-/// Returns the sample period of evenly spaced times from 0 on, in seconds.
-fn period(time: &[Sample]) -> Result<f64, TraceFlaw> {
-    let [first, .., last] = time else {
-        return Err(TraceFlaw::TooShort { samples: time.len() });
-    };
-    if first.0 != 0.0 {
-        return Err(TraceFlaw::Begins { at: first.0 });
-    }
-    if let Some(at) = time.windows(2).position(|pair| pair[1].0 <= pair[0].0) {
-        return Err(TraceFlaw::Falls { from: time[at].0, to: time[at + 1].0, sample: at + 1 });
-    }
-    // Rounded to twelve digits, so that times from repeated addition give the intended period.
-    let mean = last.0 / (time.len() - 1) as f64;
-    let dt: f64 = format!("{mean:.11e}").parse().expect("a number as it was written");
-    let uneven = |(tick, at): (usize, &Sample)| (at.0 - tick as f64 * dt).abs() > TOLERANCE * dt;
-    match time.iter().enumerate().position(uneven) {
-        None if dt > 0.0 => Ok(dt),
-        at => {
-            let sample = at.unwrap_or(0);
-            Err(TraceFlaw::Uneven { sample, found: time[sample].0, expected: sample as f64 * dt })
-        }
-    }
+    let numbers = |samples: &[Sample]| samples.iter().map(|sample| sample.0).collect::<Vec<f64>>();
+    trace_of(&answer.iter().map(|(name, samples)| (name.to_owned(), numbers(samples))).collect::<Vec<_>>())
 }
 
 impl<'de> Deserialize<'de> for Sample {
@@ -297,17 +247,6 @@ mod tests {
         let robustness = vec![("x".to_owned(), -1.0), ("y".to_owned(), f64::INFINITY)];
         assert_eq!(Answer::read(line, 3).unwrap(), Answer::Robustness(robustness));
         assert_eq!(Answer::read(r#"{"index":3,"error":"no"}"#, 3).unwrap(), Answer::NotDone { why: "no".into() });
-    }
-
-    #[test]
-    fn the_period_of_times_that_were_added_up_is_the_one_that_was_meant() {
-        let mut time = vec![Sample(0.0)];
-        for tick in 0..3000 {
-            time.push(Sample(time[tick].0 + 0.01));
-        }
-        assert_eq!(period(&time), Ok(0.01));
-        let thirds: Vec<Sample> = (0..1000).map(|tick| Sample(f64::from(tick) / 60.0)).collect();
-        assert!((period(&thirds).unwrap() * 60.0 - 1.0).abs() < 1e-11);
     }
 
     #[test]

@@ -1,49 +1,123 @@
-"""Drivers and perceivers for PARACOSM, which tests them in simulated worlds.
+"""Coverage-driven testing and falsification of autonomous driving systems.
 
-Subclass `Driver`, say which cameras it has, implement `reset` and `step`, and serve it:
+    import paracosm as pc
 
-    from paracosm import Camera, Control, Driver
+    X = pc.sample(5, n=200, method="greedy", seed=1)     # an array of 200 points in 5 dimensions
+    pc.dispersion(X)                                     # the largest empty box: exact, or between two certified bounds
+    space = pc.Space({"speed": (0.5, 10.0), "lanes": [2, 4, 6]}, constraints=["lanes > 2 or speed < 5"])
+    pc.sample(space, n=100).to_pandas()                  # a table of tests
 
-    class Careful(Driver):
-        cameras = {"front": Camera()}
+`Driver` and `Perceiver` are the base classes of systems under test in Python.
 
-        def step(self, observation):
-            image = observation.images["front"]      # (height, width, 3), or not there yet
-            return Control(throttle=0.1)
-
-    if __name__ == "__main__":
-        Careful().serve()
-
-    $ paracosm-fuzz follow-leader --driver-command "python careful.py"
-
-Subclass `Perceiver` to test a network that sees.
+The package has the same core as the programs `paracosm-fuzz` and `paracosm-cover`, so its numbers are the same to the last bit.
 """
 
-from .driver import Driver, serve
-from .observation import Body, Briefing, Control, Fix, Inertia, Observation, Picture, Scan, Vehicle, Way
-from .perceiver import Detection, Perceiver
-from .sensors import Camera, Delivery, Gnss, Imu, Inaccuracy, Lidar, Mount
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._core import (
+        Bracket,
+        CoveringArray,
+        Error,
+        Evaluation,
+        Formula,
+        Generator,
+        Space,
+        Table,
+        Tests,
+        Trace,
+        coverage,
+        covering_array,
+        measures,
+        plan,
+        sample,
+        strategies,
+    )
+    from .driver import Driver, serve
+    from ._measures import (
+        centered_discrepancy,
+        dispersion,
+        extreme_discrepancy,
+        fill_distance,
+        k_wise_coverage,
+        k_wise_dispersion,
+        l2_star_discrepancy,
+        mixture_discrepancy,
+        star_discrepancy,
+        wraparound_discrepancy,
+    )
+    from .observation import Body, Briefing, Control, Fix, Inertia, Observation, Picture, Scan, Vehicle, Way
+    from .parameters import Choice, Interval
+    from .perceiver import Detection, Perceiver
+    from .sensors import Camera, Delivery, Gnss, Imu, Inaccuracy, Lidar, Mount
 
 __all__ = [
     "Body",
+    "Bracket",
     "Briefing",
     "Camera",
+    "Choice",
     "Control",
+    "CoveringArray",
     "Delivery",
     "Detection",
     "Driver",
+    "Error",
+    "Evaluation",
     "Fix",
+    "Formula",
+    "Generator",
     "Gnss",
     "Imu",
     "Inaccuracy",
     "Inertia",
+    "Interval",
     "Lidar",
     "Mount",
     "Observation",
     "Perceiver",
     "Picture",
     "Scan",
+    "Space",
+    "Table",
+    "Tests",
+    "Trace",
     "Vehicle",
     "Way",
+    "centered_discrepancy",
+    "coverage",
+    "covering_array",
+    "dispersion",
+    "extreme_discrepancy",
+    "fill_distance",
+    "k_wise_coverage",
+    "k_wise_dispersion",
+    "l2_star_discrepancy",
+    "measures",
+    "mixture_discrepancy",
+    "plan",
+    "sample",
     "serve",
+    "star_discrepancy",
+    "strategies",
+    "wraparound_discrepancy",
 ]
+
+# The modules in which names are looked for, in this order. They are imported when a name of theirs is first used, so that a driver in a
+# process of its own starts without the compiled core.
+_MODULES = ("driver", "observation", "perceiver", "sensors", "parameters", "_core", "_measures")
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        for module in _MODULES:
+            found = getattr(import_module(f".{module}", __name__), name, None)
+            if found is not None:
+                globals()[name] = found
+                return found
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

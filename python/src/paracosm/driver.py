@@ -7,12 +7,12 @@ import stat
 import sys
 import threading
 import traceback
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any, NoReturn
 
-import grpc
-
-from . import observation, protocol, sensors
-from .observation import Control
+from . import observation, sensors
+from .observation import Briefing, Control, Observation
 
 # Each test that runs at the same time as others has a session, and a thread that waits most of the time.
 SESSIONS = 1024
@@ -42,24 +42,25 @@ class Driver:
     seed: int = 0
     """Where all chance is to come from: what `--set driver.seed=N` says."""
 
-    def reset(self, briefing):
+    def reset(self, briefing: Briefing) -> None:
         """A new test begins: forget everything. `briefing` is a `Briefing`."""
 
-    def step(self, observation):
+    def step(self, observation: Observation) -> Control:
         """What to do until the next step: a `Control`. `observation` is an `Observation`."""
         raise NotImplementedError(f"{type(self).__name__}.step")
 
-    def serve(self, address=None):
+    def serve(self, address: str | None = None) -> None:
         """Lets PARACOSM ask this driver, until the process ends; see `serve`."""
         serve(lambda: copy.deepcopy(self), address)
 
 
-def serve(make, address=None):
+def serve(make: Callable[[], Driver], address: str | None = None) -> None:
     """Serves a driver that `make()` makes for each session, until the process ends.
 
     It listens at `address`, HOST:PORT; without one, where `paracosm-fuzz --driver-command` asks for by PARACOSM_ADDRESS, and
     else at 127.0.0.1:50051.
     """
+    grpc, protocol = _messages()
     started_by = os.environ.get("PARACOSM_ADDRESS")
     address = address or started_by or "127.0.0.1:50051"
     options = [
@@ -69,7 +70,7 @@ def serve(make, address=None):
     ]
     server = grpc.server(ThreadPoolExecutor(SESSIONS), options=options, maximum_concurrent_rpcs=SESSIONS)
     handler = grpc.stream_stream_rpc_method_handler(
-        lambda requests, _: _session(make, requests),
+        lambda requests, _: _session(make, requests, protocol),
         request_deserializer=protocol.Request.FromString,
         response_serializer=protocol.Answer.SerializeToString,
     )
@@ -87,21 +88,33 @@ def serve(make, address=None):
         pass
 
 
-def _end_with_input():
+def _messages() -> tuple[Any, Any]:
+    """The packages that carry messages; only a driver in a process of its own needs them."""
+    try:
+        import grpc
+
+        from . import protocol
+    except ModuleNotFoundError as missing:
+        raise SystemExit(f"a driver in its own process needs the package {missing.name}: pip install 'paracosm[grpc]'") from None
+    return grpc, protocol
+
+
+def _end_with_input() -> NoReturn:
     while sys.stdin.buffer.read(4096):
         pass
     os._exit(0)
 
 
-def _session(make, requests):
+def _session(make: Callable[[], Driver], requests: Iterator[Any], protocol: Any) -> Iterator[Any]:
     """Answers the requests of a session; what a driver raises ends it."""
-    driver, images = None, {}
+    driver: Driver
+    images: dict[str, Any] = {}
     for request in requests:
         answer = protocol.Answer()
         try:
             match request.WhichOneof("kind"):
                 case "hello":
-                    driver = _welcome(make(), request.hello, answer.welcome)
+                    driver = _welcome(make(), request.hello, answer.welcome, protocol.VERSION)
                 case "reset":
                     images.clear()
                     driver.reset(observation.briefing(request.reset))
@@ -122,7 +135,7 @@ def _session(make, requests):
         yield answer
 
 
-def _welcome(driver, hello, welcome):
+def _welcome(driver: Driver, hello: Any, welcome: Any, version: int) -> Driver:
     """Sets a driver as it is asked to, and says what it measures with."""
     for name in hello.settings:
         if name not in driver.settings:
@@ -131,10 +144,11 @@ def _welcome(driver, hello, welcome):
             raise ValueError(f"{type(driver).__name__} has no setting `{name}`{hint}")
     driver.settings = {**driver.settings, **hello.settings}
     driver.seed = hello.seed
-    welcome.protocol = protocol.VERSION
+    welcome.protocol = version
     welcome.name = type(driver).__name__
     welcome.period = driver.period
     welcome.others = driver.others
+    described: Any
     for described, messages in [
         (driver.cameras, welcome.cameras),
         (driver.lidars, welcome.lidars),
@@ -147,7 +161,7 @@ def _welcome(driver, hello, welcome):
     return driver
 
 
-def _words(error):
+def _words(error: BaseException) -> str:
     """An exception in a line, with the place in the user's code where it was raised."""
     what = "".join(traceback.format_exception_only(error)).strip()
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename != __file__]

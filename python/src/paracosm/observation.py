@@ -2,8 +2,10 @@
 the left."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ class Way:
     """By how much the car points to the left of it, in radians."""
     spacing: float
     """Metres along the way from one point ahead to the next."""
-    ahead: np.ndarray
+    ahead: NDArray[np.float64]
     """Points ahead, the nearest first, (n, 3): x and y as seen from the car, and the curvature in 1/m, positive to the left."""
 
 
@@ -71,9 +73,9 @@ class Body:
     id: int
     kind: str
     """car, van, truck, bus, motorcycle, bicycle, pedestrian, building, tree, sign or prop."""
-    position: np.ndarray
+    position: NDArray[np.float64]
     """(2,), metres, as seen from the car."""
-    velocity: np.ndarray
+    velocity: NDArray[np.float64]
     """(2,), m/s over the ground, along the same axes."""
     heading: float
     """Radians, from where the car points."""
@@ -91,7 +93,7 @@ class Picture:
     """The k-th image is due at k periods of the camera."""
     time: float
     """When it was taken."""
-    pixels: np.ndarray
+    pixels: NDArray[np.uint8]
     """(height, width, 3), uint8, sRGB, read-only."""
 
 
@@ -102,7 +104,7 @@ class Scan:
     sensor: str
     number: int
     time: float
-    points: np.ndarray
+    points: NDArray[np.float32]
     """(n, 4), float32: x, y, z as seen from the sensor, and the intensity; read-only."""
 
 
@@ -113,8 +115,8 @@ class Fix:
     sensor: str
     number: int
     time: float
-    position: np.ndarray | None
-    velocity: np.ndarray | None
+    position: NDArray[np.float64] | None
+    velocity: NDArray[np.float64] | None
 
 
 @dataclass(frozen=True)
@@ -124,7 +126,7 @@ class Inertia:
     sensor: str
     number: int
     time: float
-    acceleration: np.ndarray
+    acceleration: NDArray[np.float64]
     yaw_rate: float
 
 
@@ -141,7 +143,7 @@ class Observation:
     odometry: tuple[float, float, float]
     """x, y and heading of the car as seen from where it began."""
     way: Way
-    images: dict[str, np.ndarray]
+    images: dict[str, NDArray[np.uint8]]
     """The last image of each camera from which one has arrived in this test: (height, width, 3), uint8, read-only."""
     pictures: list[Picture] = field(default_factory=list)
     scans: list[Scan] = field(default_factory=list)
@@ -150,13 +152,13 @@ class Observation:
     others: list[Body] = field(default_factory=list)
 
 
-def briefing(message):
+def briefing(message: Any) -> Briefing:
     """Reads a `Reset`."""
     vehicle = {name: getattr(message.vehicle, name) for name in Vehicle.__dataclass_fields__}
     return Briefing(message.cruise_speed, Vehicle(**vehicle))
 
 
-def observation(message, images):
+def observation(message: Any, images: dict[str, NDArray[np.uint8]]) -> Observation:
     """Reads a `Step`, and keeps the last image of each camera in `images`."""
     pictures = [_picture(image) for image in message.images]
     images.update((picture.camera, picture.pixels) for picture in pictures)
@@ -182,19 +184,19 @@ def observation(message, images):
     )
 
 
-def _picture(image):
+def _picture(image: Any) -> Picture:
     pixels = np.frombuffer(image.rgb, np.uint8).reshape(image.height, image.width, 3)
     return Picture(image.camera, image.number, image.time, pixels)
 
 
-def _fix(fix):
+def _fix(fix: Any) -> Fix:
     if not fix.valid:
         return Fix(fix.sensor, fix.number, fix.time, None, None)
     position, velocity = np.array([fix.x, fix.y]), np.array([fix.velocity_x, fix.velocity_y])
     return Fix(fix.sensor, fix.number, fix.time, position, velocity)
 
 
-def _body(other):
+def _body(other: Any) -> Body:
     if other.WhichOneof("outline") == "rectangle":
         length, width = other.rectangle.length, other.rectangle.width
     else:

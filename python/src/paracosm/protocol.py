@@ -5,6 +5,7 @@ step: `UPDATE_GOLDEN=1 cargo test --release -p paracosm-rpc python`. So nobody n
 """
 
 from importlib.resources import files
+from typing import Any
 
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 
@@ -13,7 +14,7 @@ METHOD = "Drive"
 VERSION = 1
 
 
-def _messages():
+def _messages() -> dict[str, Any]:
     described = descriptor_pb2.FileDescriptorSet.FromString(files(__package__).joinpath("driver.binpb").read_bytes())
     pool = descriptor_pool.DescriptorPool()
     for file in described.file:

@@ -5,6 +5,7 @@ Positions on the car are as seen from the middle of its box on the ground: x ahe
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -103,7 +104,7 @@ class Imu:
     yaw_rate: Inaccuracy | None = None
 
 
-def write(sensor, message):
+def write(sensor: Any, message: Any) -> None:
     """Writes what is set of a sensor to its message."""
     for setting in fields(sensor):
         value = getattr(sensor, setting.name)

@@ -1,0 +1,52 @@
+//! Long work beside the interpreter: other threads of Python run meanwhile, and Ctrl-C ends the work.
+
+use pyo3::{PyResult, Python};
+use std::panic;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+/// Is set while a search of a measure or of a strategy should end. Python tells only its main thread of Ctrl-C, so there is one flag.
+pub static STOP: AtomicBool = AtomicBool::new(false);
+
+/// The time between two looks at the signals of Python.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// The stack of the thread that works: as large as that of a main thread.
+const STACK: usize = 8 << 20;
+
+/// Does some work without the lock of the interpreter. If Python receives a signal with a handler that raises, such as Ctrl-C, the flag is
+/// set, and the exception of the handler is raised once the work has ended.
+///
+/// # Errors
+/// A handler of a signal raised an exception, or the system cannot start a thread.
+pub fn detached<T: Send>(py: Python, stop: &AtomicBool, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    stop.store(false, Ordering::Relaxed);
+    py.detach(|| {
+        thread::scope(|scope| {
+            let (end, ended) = mpsc::channel::<()>();
+            let worker = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || {
+                let result = work();
+                drop(end);
+                result
+            })?;
+            let mut raised = None;
+            while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                #[expect(
+                    clippy::redundant_closure_for_method_calls,
+                    reason = "a path is not general enough in its lifetime"
+                )]
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    raised = Some(error);
+                }
+                // Other work may have taken the flag back meanwhile.
+                if raised.is_some() {
+                    stop.store(true, Ordering::Relaxed);
+                }
+            }
+            let result = worker.join().unwrap_or_else(|payload| panic::resume_unwind(payload));
+            raised.map_or(Ok(result), Err)
+        })
+    })
+}

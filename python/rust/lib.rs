@@ -1,0 +1,37 @@
+//! The compiled module `paracosm._core` of the Python package. It hands the library to Python: it reads arguments, calls the library, and
+//! gives the results back as arrays, tables and exceptions. It decides nothing.
+
+mod arrays;
+mod bracket;
+mod covering;
+mod detached;
+mod error;
+mod formula;
+mod generator;
+mod json;
+mod measures;
+mod plan;
+mod programs;
+mod space;
+mod table;
+mod test_table;
+mod value;
+
+/// The compiled part of the package `paracosm`, which re-exports its names.
+#[pyo3::pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::{
+        bracket::Bracket,
+        covering::{CoveringArray, covering_array},
+        error::Error,
+        formula::{Evaluation, Formula, Trace},
+        generator::{Generator, sample, strategies},
+        measures::{coverage, measure, measures},
+        plan::plan,
+        programs::{cover, fuzz},
+        space::Space,
+        table::Table,
+        test_table::Tests,
+    };
+}

@@ -1,0 +1,25 @@
+//! Computes how many tests a guarantee needs.
+
+use crate::detached::{STOP, detached};
+use crate::error::raised;
+use crate::json::to_dict;
+use crate::measures::duration;
+use crate::space::Space;
+use paracosm::analysis::Plan;
+use pyo3::prelude::*;
+
+/// Computes how many tests a (k, epsilon)-covering set needs, as a dictionary with the keys of `paracosm-cover plan --format json`.
+#[pyfunction]
+#[pyo3(signature = (space, k = None, *, epsilon = 0.1, delta = 0.05, time_limit = 60.0))]
+pub fn plan<'py>(
+    py: Python<'py>,
+    space: &Bound<'py, Space>,
+    k: Option<usize>,
+    epsilon: f64,
+    delta: f64,
+    time_limit: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (space, limit) = (space.get(), duration(time_limit)?);
+    let plan = detached(py, &STOP, || Plan::of(&space.inner, k, &space.demand, epsilon, delta, limit))?;
+    to_dict(py, &plan.map_err(raised)?)
+}

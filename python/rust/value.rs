@@ -1,0 +1,52 @@
+//! Values of parameters between Python and the library.
+
+use crate::error::raised;
+use paracosm::space::Value;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyList, PyString};
+
+/// Reads a number, a word, or a list of numbers and words. Numbers of numpy are numbers.
+///
+/// # Errors
+/// `what` is anything else; the message names the place.
+pub fn value_of(found: &Bound<PyAny>, place: &str) -> PyResult<Value> {
+    if let Ok(word) = found.cast::<PyString>() {
+        return Ok(Value::from(word.to_str()?));
+    }
+    if found.is_instance_of::<PyBool>() {
+        return Err(raised(format!(
+            "{place}: found {found}, expected a number or a word; write \"{found}\" for a word"
+        )));
+    }
+    if let Ok(number) = found.extract::<f64>() {
+        return Ok(Value::Number(number));
+    }
+    if let Ok(values) = found.try_iter() {
+        return values.map(|value| value_of(&value?, place)).collect::<PyResult<Vec<_>>>().map(Value::from_iter);
+    }
+    let kind = found.get_type().name()?;
+    Err(raised(format!("{place}: found a value of the type {kind}, expected a number or a word")))
+}
+
+/// Gives a value to Python. A whole number of a choice is an `int`.
+pub fn to_python<'py>(py: Python<'py>, value: &Value, is_of_choice: bool) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::Word(word) => Ok(PyString::new(py, word).into_any()),
+        Value::List(values) => {
+            let values = values.iter().map(|value| to_python(py, value, is_of_choice));
+            Ok(PyList::new(py, values.collect::<PyResult<Vec<_>>>()?)?.into_any())
+        }
+        Value::Number(_) | Value::Written(_) => {
+            let number = value.number().unwrap_or(f64::NAN);
+            match whole(number).filter(|_| is_of_choice) {
+                Some(whole) => Ok(whole.into_pyobject(py)?.into_any()),
+                None => Ok(number.into_pyobject(py)?.into_any()),
+            }
+        }
+    }
+}
+
+/// Returns the number as an integer if nothing of it is lost.
+pub fn whole(number: f64) -> Option<i64> {
+    (number.trunc() == number && number.abs() < 9e15).then_some(number as i64)
+}

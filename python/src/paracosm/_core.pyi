@@ -1,0 +1,219 @@
+"""The types of the compiled module. Its documentation is in the module itself: `help(paracosm.sample)`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, final, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .parameters import Choice, Interval
+
+__all__ = [
+    "Bracket",
+    "CoveringArray",
+    "Error",
+    "Evaluation",
+    "Formula",
+    "Generator",
+    "Space",
+    "Table",
+    "Tests",
+    "Trace",
+    "cover",
+    "coverage",
+    "covering_array",
+    "fuzz",
+    "measure",
+    "measures",
+    "plan",
+    "sample",
+    "strategies",
+]
+
+class Error(ValueError): ...
+
+@final
+class Space:
+    def __new__(
+        cls,
+        parameters: Mapping[str, Interval | Choice | tuple[float, float] | list[Any]],
+        constraints: Sequence[str] = ...,
+    ) -> Space: ...
+    @classmethod
+    def cube(cls, dims: int, /) -> Space: ...
+    @classmethod
+    def read(cls, path: str | PathLike[str], /) -> Space: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def constraints(self) -> list[str]: ...
+    @property
+    def dims(self) -> int: ...
+    @property
+    def levels(self) -> list[int]: ...
+    def __len__(self) -> int: ...
+
+class Table:
+    @property
+    def columns(self) -> list[str]: ...
+    def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, key: str, /) -> NDArray[Any]: ...
+    @overload
+    def __getitem__(self, key: int, /) -> dict[str, float | int | str | None]: ...
+    def __iter__(self) -> Iterator[dict[str, float | int | str | None]]: ...
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object: ...
+    def to_pandas(self) -> Any: ...
+    def to_polars(self) -> Any: ...
+
+class Tests(Table):
+    @property
+    def space(self) -> Space: ...
+
+@final
+class CoveringArray(Tests):
+    @property
+    def k(self) -> int: ...
+    @property
+    def lower_bound(self) -> int: ...
+    @property
+    def kept(self) -> int: ...
+
+@final
+class Bracket:
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def exact(self) -> bool: ...
+    @property
+    def box(self) -> dict[str, tuple[float, float]] | None: ...
+    @property
+    def fixed(self) -> dict[str, float | int | str] | None: ...
+    @property
+    def centre(self) -> dict[str, float] | None: ...
+    def __float__(self) -> float: ...
+
+@final
+class Generator:
+    def __new__(
+        cls,
+        space: Space | int,
+        method: str = "auto",
+        *,
+        budget: int = 500,
+        seed: int | None = None,
+        skip: int | None = None,
+        k: int | None = None,
+        epsilon: float | None = None,
+        measure: Literal["dispersion", "k-wise-dispersion"] | None = None,
+        discrete: Literal["ipog", "random", "cross"] = "ipog",
+        delta: float | None = None,
+        existing: Any = None,
+    ) -> Generator: ...
+    @property
+    def method(self) -> str: ...
+    def ask(self, n: int = 1) -> Any: ...
+    def tell(self, tests: Any, robustness: Sequence[float | None] | ArrayLike) -> None: ...
+
+@final
+class Trace:
+    def __new__(cls, signals: Any, *, complete: bool = True) -> Trace: ...
+    @property
+    def signals(self) -> list[str]: ...
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def dt(self) -> float: ...
+    @property
+    def complete(self) -> bool: ...
+    @property
+    def hash(self) -> str: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, name: str, /) -> NDArray[np.float64]: ...
+    def to_dict(self) -> dict[str, NDArray[np.float64]]: ...
+
+@final
+class Evaluation:
+    @property
+    def truth(self) -> bool | None: ...
+    @property
+    def robustness(self) -> float: ...
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def cause(self) -> tuple[float, str] | None: ...
+
+@final
+class Formula:
+    def __new__(cls, text: str, /) -> Formula: ...
+    @property
+    def signals(self) -> list[str]: ...
+    @property
+    def horizon(self) -> float: ...
+    def evaluate(self, trace: Any, *, dense: bool = False) -> Evaluation: ...
+    def robustness(self, trace: Any, *, dense: bool = False) -> float: ...
+
+def measures() -> list[tuple[str, str]]: ...
+def measure(
+    name: str, tests: Any, space: Space | None = None, *, k: int | None = None, time_limit: float | None = None
+) -> Bracket: ...
+def coverage(
+    tests: Any,
+    space: Space | None = None,
+    *,
+    k: int | None = None,
+    measures: Sequence[str] | None = None,
+    time_limit: float | None = None,
+) -> dict[str, Any]: ...
+def strategies() -> list[tuple[str, str, bool]]: ...
+@overload
+def sample(
+    space: int,
+    n: int | None = None,
+    *,
+    method: str = "halton",
+    seed: int | None = None,
+    skip: int | None = None,
+    k: int | None = None,
+    epsilon: float | None = None,
+    measure: Literal["dispersion", "k-wise-dispersion"] | None = None,
+    discrete: Literal["ipog", "random", "cross"] = "ipog",
+    delta: float | None = None,
+    existing: Any = None,
+    time_limit: float | None = None,
+) -> NDArray[np.float64]: ...
+@overload
+def sample(
+    space: Space,
+    n: int | None = None,
+    *,
+    method: str = "halton",
+    seed: int | None = None,
+    skip: int | None = None,
+    k: int | None = None,
+    epsilon: float | None = None,
+    measure: Literal["dispersion", "k-wise-dispersion"] | None = None,
+    discrete: Literal["ipog", "random", "cross"] = "ipog",
+    delta: float | None = None,
+    existing: Any = None,
+    time_limit: float | None = None,
+) -> Tests: ...
+def covering_array(
+    space: Space,
+    k: int | None = None,
+    *,
+    strengths: Mapping[tuple[str, ...], int] | None = None,
+    seed: int = 0,
+    optimise: float | None = None,
+    existing: Any = None,
+) -> CoveringArray: ...
+def plan(
+    space: Space, k: int | None = None, *, epsilon: float = 0.1, delta: float = 0.05, time_limit: float = 60.0
+) -> dict[str, Any]: ...
+def fuzz(words: Sequence[str], /) -> int: ...
+def cover(words: Sequence[str], /) -> int: ...
