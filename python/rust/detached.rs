@@ -22,6 +22,19 @@ const STACK: usize = 8 << 20;
 /// # Errors
 /// A handler of a signal raised an exception, or the system cannot start a thread.
 pub fn detached<T: Send>(py: Python, stop: &AtomicBool, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    watched(py, stop, &mut |_| Ok(()), work)
+}
+
+/// Does some work as [`detached`] does, and calls `watch` some times in a second. An exception of `watch` ends the work, too.
+///
+/// # Errors
+/// `watch` or a handler of a signal raised an exception, or the system cannot start a thread.
+pub fn watched<T: Send>(
+    py: Python,
+    stop: &AtomicBool,
+    watch: &mut (dyn FnMut(Python) -> PyResult<()> + Send),
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
     stop.store(false, Ordering::Relaxed);
     py.detach(|| {
         thread::scope(|scope| {
@@ -33,11 +46,10 @@ pub fn detached<T: Send>(py: Python, stop: &AtomicBool, work: impl FnOnce() -> T
             })?;
             let mut raised = None;
             while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-                #[expect(
-                    clippy::redundant_closure_for_method_calls,
-                    reason = "a path is not general enough in its lifetime"
-                )]
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                // The first exception counts.
+                if raised.is_none()
+                    && let Err(error) = Python::attach(|py| py.check_signals().and_then(|()| watch(py)))
+                {
                     raised = Some(error);
                 }
                 // Other work may have taken the flag back meanwhile.

@@ -12,9 +12,12 @@ mod json;
 mod measures;
 mod plan;
 mod programs;
+mod report;
 mod space;
+mod study;
 mod table;
 mod test_table;
+mod trials;
 mod value;
 
 /// The compiled part of the package `paracosm`, which re-exports its names.
@@ -30,7 +33,9 @@ mod _core {
         measures::{coverage, measure, measures},
         plan::plan,
         programs::{cover, fuzz},
+        report::{Report, TrialView, load},
         space::Space,
+        study::Study,
         table::Table,
         test_table::Tests,
     };

@@ -113,7 +113,10 @@ pub fn cube(dims: usize) -> PyResult<paracosm::space::Space> {
 }
 
 /// Reads a parameter: an `Interval` or a `Choice` of the package, or a tuple or a list.
-fn parameter(name: &str, domain: &Bound<PyAny>) -> PyResult<Parameter> {
+///
+/// # Errors
+/// The domain is nothing of this. The message names the parameter.
+pub fn parameter(name: &str, domain: &Bound<PyAny>) -> PyResult<Parameter> {
     let place = format!("parameter `{name}`");
     let number = |value: Bound<PyAny>| match value_of(&value, &place)?.number() {
         Some(number) => Ok(number),

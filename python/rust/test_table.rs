@@ -30,7 +30,8 @@ impl Tests {
         let tests: Vec<Values> = proposed.iter().map(|point| inner.decode(point)).collect();
         let points = tests.iter().map(|test| inner.encode(test)).collect::<Result<_, _>>().map_err(raised)?;
         let set = TestSet { demand: demand.clone(), ..TestSet::new(inner.clone(), points) };
-        Ok(PyClassInitializer::from(table(inner, &tests)).add_subclass(Self { set, proposed }))
+        Ok(PyClassInitializer::from(Table::new(columns(inner, &tests), tests.len()))
+            .add_subclass(Self { set, proposed }))
     }
 }
 
@@ -43,8 +44,8 @@ impl Tests {
     }
 }
 
-/// Returns the table of tests, with a column for each coordinate of the space.
-pub fn table(space: &paracosm::space::Space, tests: &[Values]) -> Table {
+/// Returns a column for each coordinate of the space.
+pub fn columns(space: &paracosm::space::Space, tests: &[Values]) -> Vec<(String, Column)> {
     let mut columns = Vec::new();
     for (place, parameter) in space.parameters().iter().enumerate() {
         for index in 0..parameter.coordinates() {
@@ -55,7 +56,7 @@ pub fn table(space: &paracosm::space::Space, tests: &[Values]) -> Table {
             columns.push((coordinate(parameter, index), column(parameter, tests.iter().map(value).collect())));
         }
     }
-    Table::new(columns, tests.len())
+    columns
 }
 
 fn coordinate(parameter: &Parameter, index: usize) -> String {

@@ -7,6 +7,10 @@
     space = pc.Space({"speed": (0.5, 10.0), "lanes": [2, 4, 6]}, constraints=["lanes > 2 or speed < 5"])
     pc.sample(space, n=100).to_pandas()                  # a table of tests
 
+    study = pc.Study("pedestrian-crossing", driver="aeb", open={"friction": (0.3, 0.8)}, budget=500)
+    report = study.run("out")                            # the same folder as that of `paracosm-fuzz`
+    report.failures[0].replay()                          # a trace with columns of numpy
+
 `Driver` and `Perceiver` are the base classes of systems under test in Python.
 
 The package has the same core as the programs `paracosm-fuzz` and `paracosm-cover`, so its numbers are the same to the last bit.
@@ -23,12 +27,16 @@ if TYPE_CHECKING:
         Evaluation,
         Formula,
         Generator,
+        Report,
         Space,
+        Study,
         Table,
         Tests,
         Trace,
+        Trial,
         coverage,
         covering_array,
+        load,
         measures,
         plan,
         sample,
@@ -78,11 +86,14 @@ __all__ = [
     "Observation",
     "Perceiver",
     "Picture",
+    "Report",
     "Scan",
     "Space",
+    "Study",
     "Table",
     "Tests",
     "Trace",
+    "Trial",
     "Vehicle",
     "Way",
     "centered_discrepancy",
@@ -94,6 +105,7 @@ __all__ = [
     "k_wise_coverage",
     "k_wise_dispersion",
     "l2_star_discrepancy",
+    "load",
     "measures",
     "mixture_discrepancy",
     "plan",

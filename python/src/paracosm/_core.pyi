@@ -1,13 +1,16 @@
 """The types of the compiled module. Its documentation is in the module itself: `help(paracosm.sample)`."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Literal, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .parameters import Choice, Interval
+
+_Domain = Interval | Choice | tuple[float, float] | list[Any]
 
 __all__ = [
     "Bracket",
@@ -16,14 +19,18 @@ __all__ = [
     "Evaluation",
     "Formula",
     "Generator",
+    "Report",
     "Space",
+    "Study",
     "Table",
     "Tests",
     "Trace",
+    "Trial",
     "cover",
     "coverage",
     "covering_array",
     "fuzz",
+    "load",
     "measure",
     "measures",
     "plan",
@@ -37,7 +44,7 @@ class Error(ValueError): ...
 class Space:
     def __new__(
         cls,
-        parameters: Mapping[str, Interval | Choice | tuple[float, float] | list[Any]],
+        parameters: Mapping[str, _Domain],
         constraints: Sequence[str] = ...,
     ) -> Space: ...
     @classmethod
@@ -158,6 +165,125 @@ class Formula:
     def evaluate(self, trace: Any, *, dense: bool = False) -> Evaluation: ...
     def robustness(self, trace: Any, *, dense: bool = False) -> float: ...
 
+@final
+class Study:
+    def __new__(
+        cls,
+        scenario: str = "pedestrian-crossing",
+        *,
+        driver: str | None = ...,
+        driver_command: str | None = ...,
+        driver_settings: Mapping[str, float] | None = ...,
+        open: Mapping[str, _Domain | None] | Sequence[str] | None = ...,
+        fix: Mapping[str, float | str | Sequence[float] | Sequence[str]] | None = ...,
+        vehicle: str | None = ...,
+        vehicle_settings: Mapping[str, float] | None = ...,
+        spec: str | Sequence[str] | None = ...,
+        dense: bool | None = ...,
+        requirements: str | PathLike[str] | None = ...,
+        strategy: str | None = ...,
+        budget: int | None = ...,
+        seed: int | None = ...,
+        skip: int | None = ...,
+        k: int | None = ...,
+        epsilon: float | None = ...,
+        discrete: Literal["ipog", "random", "cross"] | None = ...,
+        delta: float | None = ...,
+        measure: Literal["dispersion", "k-wise-dispersion"] | None = ...,
+        batch: int | None = ...,
+        stop_at_first: bool | None = ...,
+        references: Sequence[str] | None = ...,
+        timeout: float | None = ...,
+    ) -> Study: ...
+    def replace(
+        self,
+        *,
+        scenario: str = ...,
+        driver: str | None = ...,
+        driver_command: str | None = ...,
+        driver_settings: Mapping[str, float] | None = ...,
+        open: Mapping[str, _Domain | None] | Sequence[str] | None = ...,
+        fix: Mapping[str, float | str | Sequence[float] | Sequence[str]] | None = ...,
+        vehicle: str | None = ...,
+        vehicle_settings: Mapping[str, float] | None = ...,
+        spec: str | Sequence[str] | None = ...,
+        dense: bool | None = ...,
+        requirements: str | PathLike[str] | None = ...,
+        strategy: str | None = ...,
+        budget: int | None = ...,
+        seed: int | None = ...,
+        skip: int | None = ...,
+        k: int | None = ...,
+        epsilon: float | None = ...,
+        discrete: Literal["ipog", "random", "cross"] | None = ...,
+        delta: float | None = ...,
+        measure: Literal["dispersion", "k-wise-dispersion"] | None = ...,
+        batch: int | None = ...,
+        stop_at_first: bool | None = ...,
+        references: Sequence[str] | None = ...,
+        timeout: float | None = ...,
+    ) -> Study: ...
+    @property
+    def scenario(self) -> str: ...
+    @property
+    def choices(self) -> dict[str, Any]: ...
+    @property
+    def space(self) -> Space: ...
+    @property
+    def requirements(self) -> list[str]: ...
+    def run(
+        self,
+        folder: str | PathLike[str],
+        *,
+        executor: int | None = None,
+        resume: bool = False,
+        locate: int | None = None,
+        junit: bool = False,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Report: ...
+
+@final
+class Report:
+    @property
+    def folder(self) -> Path: ...
+    @property
+    def verdicts(self) -> dict[str, int]: ...
+    @property
+    def trials(self) -> Table: ...
+    @property
+    def failures(self) -> list[Trial]: ...
+    @property
+    def worst(self) -> Trial | None: ...
+    @property
+    def coverage(self) -> dict[str, Any]: ...
+    @property
+    def modes(self) -> dict[str, Any]: ...
+    @property
+    def explanation(self) -> dict[str, Any] | None: ...
+    @property
+    def effects(self) -> dict[str, Any] | None: ...
+    def page(self, path: str | PathLike[str], *, max_mb: float = 8.0) -> None: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> Trial: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class Trial:
+    @property
+    def index(self) -> int: ...
+    @property
+    def test(self) -> dict[str, float | int | str | list[float] | list[str]]: ...
+    @property
+    def verdict(self) -> str: ...
+    @property
+    def robustness(self) -> dict[str, float | None]: ...
+    @property
+    def error(self) -> str | None: ...
+    @property
+    def trace_hash(self) -> str | None: ...
+    def replay(self) -> Trace: ...
+
+def load(folder: str | PathLike[str], *, trust: bool = False) -> Report: ...
 def measures() -> list[tuple[str, str]]: ...
 def measure(
     name: str, tests: Any, space: Space | None = None, *, k: int | None = None, time_limit: float | None = None

@@ -1,0 +1,255 @@
+//! `Report`: the results of a campaign, and `Replay`ing its tests.
+
+use crate::detached::detached;
+use crate::error::raised;
+use crate::formula::Trace;
+use crate::json::to_dict;
+use crate::table::Table;
+use crate::trials;
+use crate::value::to_python;
+use paracosm::campaign::{Error as LibraryError, Supervision, Trust, Worker};
+use paracosm::oracles::Verdict;
+use paracosm::report::html::Runs;
+use paracosm::{Beside, Log, catalogue};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The results of a campaign: its tests, its coverage, and where tests fail.
+///
+/// `len(report)` is the number of tests, and `report[17]` is test 17.
+#[pyclass(frozen, module = "paracosm")]
+pub struct Report {
+    inner: Arc<Results>,
+}
+
+struct Results {
+    report: paracosm::Report,
+    folder: PathBuf,
+}
+
+impl Report {
+    /// Makes the report of a campaign in a folder.
+    pub fn new(report: paracosm::Report, folder: PathBuf) -> Self {
+        Self { inner: Arc::new(Results { report, folder }) }
+    }
+
+    fn log(&self) -> &Log {
+        &self.inner.report.log
+    }
+
+    fn trial_at(&self, index: usize) -> TrialView {
+        TrialView { results: Arc::clone(&self.inner), index }
+    }
+}
+
+/// Reads the results of a campaign from its folder.
+///
+/// A campaign may run a command of its own as driver or system. Its tests are only run again with `trust=True`, because the folder may be that of a
+/// stranger.
+#[pyfunction]
+#[pyo3(signature = (folder, *, trust = false))]
+pub fn load(py: Python, folder: PathBuf, trust: bool) -> PyResult<Report> {
+    let trust = if trust { Trust::all() } else { Trust::NOTHING };
+    let read = py.detach(|| {
+        let log = Log::read(&folder, &catalogue())?.trusting(&trust);
+        paracosm::Report::read(log, &folder)
+    });
+    Ok(Report::new(read.map_err(raised)?, folder))
+}
+
+#[pymethods]
+impl Report {
+    /// The folder of the campaign.
+    #[getter]
+    fn folder(&self) -> PathBuf {
+        self.inner.folder.clone()
+    }
+
+    /// The number of tests with each verdict.
+    #[getter]
+    fn verdicts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        let summary = &self.inner.report.summary;
+        Verdict::ALL.iter().try_for_each(|verdict| dict.set_item(verdict.to_string(), summary.count(*verdict)))?;
+        Ok(dict)
+    }
+
+    /// The tests with their verdicts, robustness and metrics, as in `trials.csv`.
+    #[getter]
+    fn trials(&self) -> Table {
+        trials::table(self.log())
+    }
+
+    /// The tests that violate a requirement.
+    #[getter]
+    fn failures(&self) -> Vec<TrialView> {
+        let failing = self.log().trials().iter().enumerate().filter(|(_, trial)| trial.is_failure());
+        failing.map(|(index, _)| self.trial_at(index)).collect()
+    }
+
+    /// The worst test: it violates a requirement most, or is nearest to a violation. `None` if no test has a robustness.
+    #[getter]
+    fn worst(&self) -> Option<TrialView> {
+        let worst = self.inner.report.summary.worst(self.log().scales())?;
+        Some(self.trial_at(worst.index))
+    }
+
+    /// The coverage of the space, with the keys of `coverage.json`.
+    #[getter]
+    fn coverage<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.inner.report.coverage)
+    }
+
+    /// The failure modes, with the keys of `modes.json`.
+    #[getter]
+    fn modes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.inner.report.modes)
+    }
+
+    /// The explanation of the failures, with the keys of `explanation.json`. `None` if too few tests failed or passed.
+    #[getter]
+    fn explanation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.inner.report.explanation)
+    }
+
+    /// The open parameters that changed nothing, and how this is known, with the keys of `effects.json`. `None` if this is not known.
+    #[getter]
+    fn effects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.inner.report.effects)
+    }
+
+    /// Writes the report page, one HTML file with runs to play. `max_mb` is its greatest size.
+    #[pyo3(signature = (path, *, max_mb = 8.0))]
+    fn page(&self, py: Python, path: PathBuf, max_mb: f64) -> PyResult<()> {
+        let supervision = Supervision::default();
+        let stop = Arc::clone(&supervision.stop);
+        let Results { report, folder } = &*self.inner;
+        let html = detached(py, &stop, || -> Result<String, LibraryError> {
+            let page = report.page(folder, "paracosm-fuzz", Beside::default())?;
+            let runs = match Runs::of(&page, &supervision, |_, _| ()) {
+                // The page is worth something without runs, for example if the driver is not trusted.
+                Err(error) if !matches!(error, LibraryError::Interrupted) => Runs::none(error.to_string()),
+                runs => runs?,
+            };
+            page.html(&runs, max_mb)
+        })?;
+        std::fs::write(&path, html.map_err(raised)?)
+            .map_err(|error| raised(format!("cannot write {}: {error}", path.display())))
+    }
+
+    fn __len__(&self) -> usize {
+        self.log().trials().len()
+    }
+
+    fn __getitem__(&self, index: isize) -> PyResult<TrialView> {
+        let len = self.__len__();
+        let at = usize::try_from(if index < 0 { index + len as isize } else { index }).ok().filter(|at| *at < len);
+        at.map(|at| self.trial_at(at))
+            .ok_or_else(|| PyIndexError::new_err(format!("test {index} of a campaign with {len} tests")))
+    }
+
+    fn __repr__(&self) -> String {
+        let summary = &self.inner.report.summary;
+        let counts = Verdict::ALL.iter().map(|verdict| (summary.count(*verdict), verdict));
+        let counts: Vec<String> =
+            counts.filter(|(count, _)| *count > 0).map(|(count, verdict)| format!("{count} {verdict}")).collect();
+        format!("Report({}: {}, in {})", self.log().study().title(), counts.join(", "), self.inner.folder.display())
+    }
+
+    /// Returns the verdicts and the failure map, for notebooks.
+    fn _repr_html_(&self) -> String {
+        let map = std::fs::read_to_string(self.inner.folder.join("failure-map.svg")).unwrap_or_default();
+        let words = self.__repr__().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        format!("<p>{words}</p>{map}")
+    }
+}
+
+/// A test of a campaign with its result.
+#[pyclass(frozen, name = "Trial", module = "paracosm")]
+pub struct TrialView {
+    results: Arc<Results>,
+    index: usize,
+}
+
+impl TrialView {
+    fn trial(&self) -> &paracosm::Trial {
+        &self.results.report.log.trials()[self.index]
+    }
+}
+
+#[pymethods]
+impl TrialView {
+    /// The position of the test in the campaign, from 0.
+    #[getter]
+    fn index(&self) -> usize {
+        self.trial().index
+    }
+
+    /// The values of the open parameters.
+    #[getter]
+    fn test<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let space = self.results.report.log.study().space();
+        let dict = PyDict::new(py);
+        for (name, value) in self.trial().test.iter() {
+            let is_of_choice = space.find(name).is_some_and(|parameter| parameter.levels().is_some());
+            dict.set_item(name, to_python(py, value, is_of_choice)?)?;
+        }
+        Ok(dict)
+    }
+
+    /// The verdict: "pass", "fail", "unpreventable", "inconclusive", "invalid" or "error".
+    #[getter]
+    fn verdict(&self) -> String {
+        self.trial().verdict.to_string()
+    }
+
+    /// The robustness of each requirement; below 0 if the test violates it.
+    #[getter]
+    fn robustness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        let trial = self.trial();
+        trial.requirements().try_for_each(|id| dict.set_item(id, trial.robustness(id)))?;
+        Ok(dict)
+    }
+
+    /// The reason why the test has no result; `None` if it has one.
+    #[getter]
+    fn error(&self) -> Option<&str> {
+        self.trial().error()
+    }
+
+    /// The hash of the trace; `None` if the test has no trace.
+    #[getter]
+    fn trace_hash(&self) -> Option<&str> {
+        self.trial().trace_hash.as_deref()
+    }
+
+    /// Runs the test again, and returns its trace.
+    ///
+    /// Raises `Error` if the test does not end as in the log, or has no trace.
+    fn replay(&self, py: Python) -> PyResult<Trace> {
+        let supervision = Supervision::default();
+        let stop = Arc::clone(&supervision.stop);
+        let (log, logged) = (&self.results.report.log, self.trial());
+        let ran = detached(py, &stop, || -> Result<_, LibraryError> {
+            let mut worker = Worker::until(log.study(), supervision)?;
+            worker.start()?;
+            worker.check_repeats(log, logged)?;
+            Ok(worker.replay(log, logged, |_| ()).1)
+        })?;
+        match ran.map_err(raised)? {
+            Some(inner) => Ok(Trace { inner }),
+            None => {
+                Err(raised(format!("test {} has no trace: {}", self.index, self.error().unwrap_or("it was not run"))))
+            }
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        let values = self.trial().test.iter().map(|(name, value)| format!("{name}={value}"));
+        format!("Trial({}: {}, {})", self.index, self.trial().verdict, values.collect::<Vec<_>>().join(", "))
+    }
+}

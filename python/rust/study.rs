@@ -1,0 +1,301 @@
+//! `Study`: the description of a campaign, which is checked once and never changes; and running it.
+
+use crate::detached::watched;
+use crate::error::raised;
+use crate::report::Report;
+use crate::space::parameter;
+use crate::value::value_of;
+use paracosm::campaign::study::Variation;
+use paracosm::campaign::{Sampling, StudyBuilder, Supervision};
+use paracosm::engine::vehicle::VehicleModel;
+use paracosm::generators::{DiscreteFamily, Strategy};
+use paracosm::oracles::Semantics;
+use paracosm::space::{Distribution, did_you_mean, nearest};
+use paracosm::{Runner, Trial, catalogue};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The names of all choices of a study, in the order of the documentation.
+const CHOICES: [&str; 23] = [
+    "driver",
+    "driver_command",
+    "driver_settings",
+    "open",
+    "fix",
+    "vehicle",
+    "vehicle_settings",
+    "spec",
+    "dense",
+    "requirements",
+    "strategy",
+    "budget",
+    "seed",
+    "skip",
+    "k",
+    "epsilon",
+    "discrete",
+    "delta",
+    "measure",
+    "batch",
+    "stop_at_first",
+    "references",
+    "timeout",
+];
+
+/// The description of a campaign: a scenario, a driver, the open parameters, the requirements, and the choice of tests.
+///
+/// `Study("pedestrian-crossing", driver="aeb", open={"friction": (0.3, 0.8)}, strategy="halton", budget=500, seed=0)` is checked as a whole, and
+/// never changes. `study.replace(budget=1000)` is another study. The scenario is a name of the catalogue, or a file of OpenSCENARIO. The choices
+/// are the options of `paracosm-fuzz run`, with the same meaning and defaults.
+///
+/// Raises `Error` if a choice does not exist or makes no sense.
+#[pyclass(frozen, module = "paracosm")]
+pub struct Study {
+    scenario: String,
+    choices: Py<PyDict>,
+    inner: paracosm::Study,
+}
+
+#[pymethods]
+impl Study {
+    #[new]
+    #[pyo3(signature = (scenario = "pedestrian-crossing", **choices))]
+    fn new(py: Python, scenario: &str, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
+        let choices = match choices {
+            Some(choices) => choices.copy()?,
+            None => PyDict::new(py),
+        };
+        for name in choices.keys() {
+            let name: String = name.extract()?;
+            if !CHOICES.contains(&name.as_str()) {
+                let meant = did_you_mean(&nearest(&name, CHOICES));
+                return Err(raised(format!(
+                    "a study has no choice `{name}`{meant}; the choices are {}",
+                    CHOICES.join(", ")
+                )));
+            }
+        }
+        let inner = built(scenario, &choices)?;
+        Ok(Self { scenario: scenario.to_owned(), choices: choices.unbind(), inner })
+    }
+
+    /// Returns the same study with other choices. `None` gives a choice its default.
+    #[pyo3(signature = (**choices))]
+    fn replace(&self, py: Python, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
+        let all = self.choices.bind(py).copy()?;
+        let mut scenario = self.scenario.clone();
+        for (name, value) in choices.into_iter().flatten() {
+            if name.extract::<String>()? == "scenario" {
+                scenario = value.extract()?;
+            } else {
+                all.set_item(name, value)?;
+            }
+        }
+        Self::new(py, &scenario, Some(&all))
+    }
+
+    /// The name of the scenario, or its file.
+    #[getter]
+    fn scenario(&self) -> &str {
+        &self.scenario
+    }
+
+    /// The choices that were made, as a dictionary.
+    #[getter]
+    fn choices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.choices.bind(py).copy()
+    }
+
+    /// The space of the open parameters.
+    #[getter]
+    fn space(&self) -> crate::space::Space {
+        self.inner.space().clone().into()
+    }
+
+    /// The ids of the requirements.
+    #[getter]
+    fn requirements(&self) -> Vec<&str> {
+        self.inner.requirements().iter().map(|requirement| requirement.id.as_str()).collect()
+    }
+
+    /// Runs the study, and writes the log and all results into a new folder, as `paracosm-fuzz run` does.
+    ///
+    /// `executor` is the number of tests that run at the same time; without it, all cores work. Results do not depend on it. With
+    /// `resume=True`, a campaign in the folder goes on. `progress(done, budget)` is called some times in a second. After Ctrl-C, the folder has
+    /// all tests that have ended, and `resume=True` continues from there.
+    #[pyo3(signature = (folder, *, executor = None, resume = false, locate = None, junit = false, progress = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn run(
+        &self,
+        py: Python,
+        folder: PathBuf,
+        executor: Option<NonZeroUsize>,
+        resume: bool,
+        locate: Option<usize>,
+        junit: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Report> {
+        let supervision = Supervision::default();
+        let stop = Arc::clone(&supervision.stop);
+        let runner = Runner::new(&self.inner).until(supervision);
+        let runner = executor.into_iter().fold(runner, Runner::jobs);
+        let runner = locate.into_iter().fold(runner, Runner::locating);
+        let runner = if resume { runner.resuming() } else { runner };
+        let runner = if junit { runner.with_junit() } else { runner };
+        let (done, budget) = (AtomicUsize::new(0), self.inner.sampling().budget);
+        let mut count = |_: &Trial| {
+            done.fetch_add(1, Ordering::Relaxed);
+        };
+        let mut told = None;
+        let mut tell = |py: Python| {
+            let now = Some(done.load(Ordering::Relaxed));
+            if now != told {
+                told = now;
+                progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (now, budget)).map(drop))?;
+            }
+            Ok(())
+        };
+        let report = watched(py, &stop, &mut tell, || runner.run_into(&folder, &mut [&mut count]))?.map_err(raised)?;
+        tell(py)?;
+        Ok(Report::new(report, folder))
+    }
+
+    fn __repr__(&self) -> String {
+        let (title, sampling) = (self.inner.title(), self.inner.sampling());
+        format!("Study({title}, strategy {sampling}, {} tests)", sampling.budget)
+    }
+}
+
+/// Builds the study of a scenario.
+fn built(scenario: &str, choices: &Bound<PyDict>) -> PyResult<paracosm::Study> {
+    let choices = Choices(choices);
+    let mut study = paracosm::Study::of(catalogue().find(scenario).map_err(raised)?);
+    if let Some(driver) = choices.get::<String>("driver")? {
+        study = study.driver(&driver);
+    }
+    if let Some(command) = choices.get::<String>("driver_command")? {
+        study = study.driver_command(&command);
+    }
+    if let Some(seconds) = choices.get("timeout")? {
+        study = study.driver_timeout(seconds);
+    }
+    for (name, value) in choices.entries::<f64>("driver_settings")? {
+        study = study.set_driver(&name, value);
+    }
+    if let Some(model) = choices.get::<String>("vehicle")? {
+        study = study.vehicle(VehicleModel::find(&model).map_err(raised)?);
+    }
+    for (name, value) in choices.entries::<f64>("vehicle_settings")? {
+        study = study.set_vehicle(&name, value);
+    }
+    for (name, value) in choices.entries::<Bound<PyAny>>("fix")? {
+        study = study.fix(&name, value_of(&value, &format!("fix: parameter `{name}`"))?);
+    }
+    study = opened(study, &choices)?;
+    if let Some(file) = choices.get::<PathBuf>("requirements")? {
+        study = study.require(&file);
+    }
+    let time = if choices.get("dense")?.unwrap_or(false) { Semantics::Dense } else { Semantics::Sampled };
+    for formula in choices.texts("spec")? {
+        study = study.spec_in(time, &formula);
+    }
+    for name in choices.texts("references")? {
+        study = study.reference(&name);
+    }
+    study.sampling(sampling(&choices)?).maybe_one_test().build().map_err(raised)
+}
+
+/// Opens parameters: a list of names, or a dictionary with a domain for each name, or `None` for the range that the scenario states.
+fn opened(mut study: StudyBuilder, choices: &Choices) -> PyResult<StudyBuilder> {
+    let Some(open) = choices.get::<Bound<PyAny>>("open")? else { return Ok(study) };
+    let Ok(domains) = open.cast::<PyDict>() else {
+        return Ok(choices.texts("open")?.iter().fold(study, |study, name| study.open(name)));
+    };
+    for (name, domain) in domains {
+        let name: String = name.extract()?;
+        if domain.is_none() {
+            study = study.open(&name);
+            continue;
+        }
+        let parameter = parameter(&name, &domain)?;
+        study = study.opened(&name, Some(parameter.domain), parameter.signal.map(Variation::Shape));
+        if parameter.distribution != Distribution::default() {
+            study = study.distribute(&name, parameter.distribution);
+        }
+    }
+    Ok(study)
+}
+
+fn sampling(choices: &Choices) -> PyResult<Sampling> {
+    let usual = Sampling::default();
+    let strategy =
+        choices.get::<String>("strategy")?.map(|name| name.parse::<Strategy>().map_err(raised)).transpose()?;
+    let family = choices.get::<String>("discrete")?.map(|name| name.parse::<DiscreteFamily>().map_err(raised));
+    let family = family.transpose()?.unwrap_or_default().with_delta(choices.get("delta")?).map_err(raised)?;
+    let aim = choices.get::<String>("measure")?.map(|name| name.parse().map_err(raised)).transpose()?;
+    Ok(Sampling {
+        strategy: strategy.unwrap_or(usual.strategy),
+        discrete: family,
+        k: choices.get("k")?,
+        epsilon: choices.get("epsilon")?,
+        aim,
+        skip: choices.get("skip")?,
+        seed: choices.get("seed")?,
+        batch: choices.get("batch")?,
+        budget: choices.get("budget")?.unwrap_or(usual.budget),
+        stop_at_first: choices.get("stop_at_first")?.unwrap_or(false),
+    })
+}
+
+/// The choices of a study by their names. `None` is the default of a choice.
+struct Choices<'d, 'py>(&'d Bound<'py, PyDict>);
+
+impl<'py> Choices<'_, 'py> {
+    fn get<T>(&self, name: &str) -> PyResult<Option<T>>
+    where
+        T: for<'a> FromPyObject<'a, 'py>,
+    {
+        let Some(value) = self.0.get_item(name)?.filter(|value| !value.is_none()) else { return Ok(None) };
+        let read = value.extract::<T>();
+        read.map(Some).map_err(|error| {
+            let why: PyErr = error.into();
+            let found = value.repr().map(|text| text.to_string()).unwrap_or_default();
+            raised(format!("{name} is {found}: {}", why.value(value.py())))
+        })
+    }
+
+    /// Returns the entries of a choice that is a dictionary.
+    fn entries<T>(&self, name: &str) -> PyResult<Vec<(String, T)>>
+    where
+        T: for<'a> FromPyObject<'a, 'py>,
+    {
+        let Some(value) = self.get::<Bound<PyAny>>(name)? else { return Ok(Vec::new()) };
+        let Ok(dict) = value.cast::<PyDict>() else {
+            return Err(raised(format!(
+                "{name} is {}, expected a dictionary with a value for each name",
+                value.repr()?
+            )));
+        };
+        let read = |(key, value): (Bound<'py, PyAny>, Bound<'py, PyAny>)| {
+            let key: String = key.extract()?;
+            let found = value.extract::<T>();
+            let found =
+                found.map_err(|error| raised(format!("{name}: `{key}`: {}", error.into().value(value.py()))))?;
+            PyResult::Ok((key, found))
+        };
+        dict.iter().map(read).collect()
+    }
+
+    /// Returns the texts of a choice that is a text or a list of texts.
+    fn texts(&self, name: &str) -> PyResult<Vec<String>> {
+        match self.get::<Bound<PyAny>>(name)? {
+            None => Ok(Vec::new()),
+            Some(value) if value.is_instance_of::<PyString>() => Ok(vec![value.extract()?]),
+            Some(_) => Ok(self.get::<Vec<String>>(name)?.unwrap_or_default()),
+        }
+    }
+}

@@ -1,0 +1,193 @@
+"""Studies and their results: the folder is that of the program, byte for byte."""
+
+import csv
+import math
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import paracosm as pc
+import pytest
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.suffix not in (".lock",)}
+
+
+CAMPAIGNS = [
+    ({}, ["--budget", "40"]),
+    ({"driver": "cruise", "strategy": "auto", "seed": 3}, ["--driver", "cruise", "--strategy", "auto", "--seed", "3", "--budget", "40"]),
+    (
+        {"open": {"friction": (0.3, 0.8), "lanes": [2, 4]}, "fix": {"distance": 20.0}, "k": 2, "spec": "always (car.speed < 16)"},
+        "--open friction=0.3..0.8 --open lanes=2,4 --set distance=20 --k 2 --budget 40".split() + ["--spec", "always (car.speed < 16)"],
+    ),
+    (
+        {"open": {"friction": pc.Interval(0.3, 0.8, signal="piecewise-linear(2)")}, "strategy": "sobol-owen", "seed": 1},
+        "--open friction:piecewise-linear:2=0.3..0.8 --strategy sobol-owen --seed 1 --budget 40".split(),
+    ),
+]
+
+
+@pytest.mark.parametrize(("choices", "options"), CAMPAIGNS)
+def test_the_folder_of_a_study_is_that_of_the_program(fuzz, tmp_path, choices, options):
+    ran = fuzz("run", "pedestrian-crossing", *options, "--out", "program", "-q")
+    assert ran.returncode == 0, ran.stderr
+    pc.Study("pedestrian-crossing", budget=40, **choices).run(tmp_path / "python", executor=2)
+    assert files(tmp_path / "python") == files(tmp_path / "program")
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    study = pc.Study("pedestrian-crossing", driver="aeb", open={"friction": (0.3, 0.8), "lanes": [2, 4]}, budget=60, seed=1)
+    return study.run(tmp_path_factory.mktemp("campaign") / "out")
+
+
+def test_a_report_has_the_columns_of_the_table_of_trials(report):
+    with (report.folder / "trials.csv").open(newline="") as file:
+        header, *rows = list(csv.reader(file))
+    table = report.trials
+    assert set(table.columns) == set(header) and table.columns[:5] == header[:5]
+    assert len(table) == len(rows) == len(report) == sum(report.verdicts.values()) == 60
+    for name, column in zip(header, zip(*rows, strict=True), strict=True):
+        for cell, value in zip(column, table[name], strict=True):
+            if isinstance(value, str):
+                assert cell == value, name
+            elif value is None or (isinstance(value, float) and math.isnan(value)):
+                assert cell == "", name
+            else:
+                assert float(cell) == value, name
+
+
+def test_a_failure_is_replayed_as_arrays(report):
+    failing = report.failures
+    assert failing and all(trial.verdict == "fail" for trial in failing)
+    trial = failing[0]
+    assert report[trial.index].test == trial.test and set(trial.test) == {"speed", "distance", "friction", "lanes"}
+    assert isinstance(trial.test["lanes"], int)
+    trace = trial.replay()
+    assert trace.hash == trial.trace_hash
+    assert trace["car.speed"].dtype == np.float64 and len(trace) == report.trials["ticks"][trial.index] + 1
+    assert trial.robustness["no-collision"] < 0
+    assert report.worst.verdict == "fail"
+
+
+def test_a_folder_is_read_again(report):
+    again = pc.load(report.folder)
+    assert again.verdicts == report.verdicts and again.coverage == report.coverage and again.modes == report.modes
+    assert again.effects == report.effects
+    assert [trial.test for trial in again.failures] == [trial.test for trial in report.failures]
+    assert again[-1].replay().hash == report[59].trace_hash
+
+
+def test_a_report_shows_itself_in_a_notebook_and_as_a_page(report, tmp_path):
+    shown = report._repr_html_()
+    assert "<svg" in shown and "pedestrian-crossing" in shown
+    report.page(tmp_path / "report.html", max_mb=2)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert page.lstrip().lower().startswith("<!doctype html>") and len(page) < 2e6
+
+
+def test_a_study_is_a_value():
+    study = pc.Study("pedestrian-crossing", driver="aeb", budget=20)
+    other = study.replace(budget=1000, open=["friction"], driver=None)
+    assert study.choices == {"driver": "aeb", "budget": 20} and study.space.names == ["speed", "distance"]
+    assert other.choices["budget"] == 1000 and other.space.names == ["speed", "distance", "friction"]
+    assert study.replace(scenario="cut-in").scenario == "cut-in"
+    assert "no-collision" in study.requirements
+    with pytest.raises(AttributeError):
+        study.scenario = "cut-in"
+
+
+def test_progress_is_told_and_its_exception_ends_the_campaign_with_all_tests_kept(tmp_path):
+    seen = []
+    study = pc.Study("pedestrian-crossing", budget=30)
+    study.run(tmp_path / "whole", progress=lambda done, budget: seen.append((done, budget)))
+    assert seen[-1] == (30, 30) and seen == sorted(seen)
+
+    def fails(done, budget):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        study.run(tmp_path / "cut", progress=fails)
+    resumed = study.run(tmp_path / "cut", resume=True)
+    assert len(resumed) == 30
+    assert files(tmp_path / "cut") == files(tmp_path / "whole")
+
+
+def test_ctrl_c_keeps_the_tests_and_the_study_goes_on(tmp_path):
+    script = (
+        "import paracosm as pc\n"
+        "study = pc.Study('pedestrian-crossing', budget=20000)\n"
+        "study.run('out', progress=lambda done, budget: print(done, flush=True))\n"
+    )
+    running = subprocess.Popen([sys.executable, "-c", script], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert running.stdout is not None
+    while int(running.stdout.readline()) < 10:
+        pass
+    running.send_signal(signal.SIGINT)
+    _, errors = running.communicate(timeout=60)
+    assert "KeyboardInterrupt" in errors
+    kept = (tmp_path / "out" / "trials.jsonl").read_text().splitlines()
+    assert 10 <= len(kept) < 20000
+
+
+WRONG = [
+    (lambda _: pc.Study("pedestrian-crosing"), "did you mean `pedestrian-crossing`?"),
+    (lambda _: pc.Study(buget=3), "a study has no choice `buget` (did you mean `budget`?)"),
+    (lambda _: pc.Study(budget=0), "budget"),
+    (lambda _: pc.Study(budget="many"), "budget is 'many'"),
+    (lambda _: pc.Study(budget=-1), "budget is -1"),
+    (lambda _: pc.Study(driver="aebb"), "did you mean `aeb`?"),
+    (lambda _: pc.Study(strategy="haltn"), "did you mean `halton`?"),
+    (lambda _: pc.Study(open={"fricton": (0, 1)}), "did you mean `friction`?"),
+    (lambda _: pc.Study(open={"friction": (0.5, 9.0)}), "friction"),
+    (lambda _: pc.Study(fix={"friction": "ice"}), "friction"),
+    (lambda _: pc.Study(fix={"friction": None}), "fix: parameter `friction`"),
+    (lambda _: pc.Study(fix=3), "fix is 3, expected a dictionary"),
+    (lambda _: pc.Study(driver_settings={"latency": "long"}), "driver_settings: `latency`"),
+    (lambda _: pc.Study(spec="always (car.sped < 3)"), "did you mean `car.speed`?"),
+    (lambda _: pc.Study(vehicle="joined"), "expected `single-track` or `jointed`"),
+    (lambda _: pc.Study(discrete="random", delta=3), "delta is 3"),
+    (lambda path: pc.Study(budget=2).run(path), "already"),
+    (lambda path: pc.load(path / "nothing"), "nothing"),
+]
+
+
+@pytest.mark.parametrize(("call", "words"), WRONG, ids=[words for _, words in WRONG])
+def test_a_wrong_study_is_an_exception_that_says_what_was_expected(call, words, tmp_path):
+    (tmp_path / "notes.txt").write_text("mine")
+    pc.Study(budget=2).run(tmp_path / "done")
+    with pytest.raises(pc.Error) as caught:
+        call(tmp_path / "done" if "already" in words else tmp_path)
+    assert words in str(caught.value)
+
+
+DRIVER = """
+import pathlib
+import paracosm
+
+pathlib.Path("ran").touch()
+
+
+class Cruise(paracosm.Driver):
+    def step(self, observation):
+        return paracosm.Control()
+
+
+Cruise().serve()
+"""
+
+
+def test_a_folder_of_a_stranger_runs_no_command(tmp_path, monkeypatch):
+    pytest.importorskip("grpc")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "driver.py").write_text(DRIVER)
+    ran = pc.Study(driver_command=f"{sys.executable} driver.py", budget=2).run("out")
+    assert ran[0].replay().hash == ran[0].trace_hash
+    (tmp_path / "ran").unlink()
+    with pytest.raises(pc.Error, match="driver.py"):
+        pc.load("out")[0].replay()
+    assert not (tmp_path / "ran").exists()
+    assert pc.load("out", trust=True)[0].replay().hash == ran[0].trace_hash
