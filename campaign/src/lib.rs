@@ -101,7 +101,7 @@ pub use worker::Worker;
 
 /// The error types that [`Error::Use`] and [`BadFile`] hold as reasons.
 pub mod reasons {
-    pub use crate::black_box::{AnswerFlaw, NoSystem, TimeoutFlaw};
+    pub use crate::black_box::{AnswerFlaw, NoSystem, NotHere, TimeoutFlaw};
     #[cfg(feature = "camera")]
     pub use crate::cameras::CameraFileFlaw;
     pub use crate::campaign::{ForeignTrial, OtherResult};

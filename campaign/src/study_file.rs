@@ -68,6 +68,9 @@ struct Entries {
     duration: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     system: Option<String>,
+    /// True if the system was a function of the program that ran the campaign.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    system_is_function: bool,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     timeout: Option<f64>,
     space: Space,
@@ -210,6 +213,7 @@ impl Entries {
         let of = if self.system.is_some() { "system" } else { "scenario" };
         let Some(command) = self.system.take() else {
             must_not("timeout", of, self.timeout.is_some())?;
+            must_not("system_is_function", of, self.system_is_function)?;
             return Ok(Subject::Scenario(Box::new(Simulation {
                 scenario: self.scenario.take().ok_or(EntryFlaw::NoSubject)?,
                 files: self.scenario_files.take(),
@@ -236,7 +240,7 @@ impl Entries {
         must_not("stop_runs_early", of, self.stop_runs_early)?;
         must_not("dt", of, self.dt.is_some())?;
         must_not("duration", of, self.duration.is_some())?;
-        Ok(Subject::System(BlackBox { command, timeout: must("timeout", of, self.timeout)? }))
+        Ok(Subject::System(BlackBox::of_file(command, must("timeout", of, self.timeout)?, self.system_is_function)))
     }
 
     /// Sets the entries of the subject.
@@ -256,9 +260,12 @@ impl Entries {
                 duration: Some(simulation.duration),
                 ..self
             },
-            Subject::System(BlackBox { command, timeout }) => {
-                Self { system: Some(command), timeout: Some(timeout), ..self }
-            }
+            Subject::System(system) => Self {
+                system_is_function: system.is_function(),
+                timeout: Some(system.timeout),
+                system: Some(system.command),
+                ..self
+            },
         }
     }
 }
@@ -329,6 +336,7 @@ impl From<StudyFile> for Entries {
             dt: None,
             duration: None,
             system: None,
+            system_is_function: false,
             timeout: None,
             space: study.space().clone(),
             requirements: study.requirements().to_vec(),

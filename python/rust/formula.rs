@@ -19,15 +19,23 @@ pub struct Trace {
     pub inner: paracosm::oracles::Trace,
 }
 
+/// Returns the names of the columns of a dictionary or of a data frame.
+///
+/// # Errors
+/// A name is no text.
+pub fn named(columns: &Bound<PyAny>) -> PyResult<Vec<String>> {
+    match columns.getattr_opt("columns")? {
+        Some(names) => names.try_iter()?.map(|name| Ok(name?.str()?.to_string())).collect(),
+        None => columns.try_iter()?.map(|name| name?.extract()).collect(),
+    }
+}
+
 #[pymethods]
 impl Trace {
     #[new]
     #[pyo3(signature = (signals, *, complete = true))]
     fn new(signals: &Bound<PyAny>, complete: bool) -> PyResult<Self> {
-        let names: Vec<String> = match signals.getattr_opt("columns")? {
-            Some(columns) => columns.try_iter()?.map(|name| Ok(name?.str()?.to_string())).collect::<PyResult<_>>()?,
-            None => signals.try_iter()?.map(|name| name?.extract()).collect::<PyResult<_>>()?,
-        };
+        let names = named(signals)?;
         let column = |name: String| {
             let samples = column_of(&signals.get_item(&name)?, &format!("signal `{name}`"))?;
             PyResult::Ok((name, samples))

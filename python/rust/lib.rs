@@ -15,6 +15,7 @@ mod programs;
 mod report;
 mod space;
 mod study;
+mod system;
 mod table;
 mod test_table;
 mod trials;

@@ -3,7 +3,8 @@
 use crate::detached::watched;
 use crate::error::raised;
 use crate::report::Report;
-use crate::space::parameter;
+use crate::space::{Space, cube, parameter};
+use crate::system::system_of;
 use crate::value::value_of;
 use paracosm::campaign::study::Variation;
 use paracosm::campaign::{Sampling, StudyBuilder, Supervision};
@@ -13,7 +14,7 @@ use paracosm::oracles::Semantics;
 use paracosm::space::{Distribution, did_you_mean, nearest};
 use paracosm::{Runner, Trial, catalogue};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::{PyDict, PyString, PyType};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -55,16 +56,44 @@ const CHOICES: [&str; 23] = [
 /// Raises `Error` if a choice does not exist or makes no sense.
 #[pyclass(frozen, module = "paracosm")]
 pub struct Study {
-    scenario: String,
+    subject: Subject,
     choices: Py<PyDict>,
     inner: paracosm::Study,
 }
 
-#[pymethods]
+/// The system under test: a driver in a scenario, or a function of Python.
+enum Subject {
+    Scenario(String),
+    Function { name: String, function: Py<PyAny>, space: paracosm::space::Space, is_cube: bool },
+}
+
+impl Subject {
+    fn another(&self, py: Python) -> Self {
+        match self {
+            Self::Scenario(name) => Self::Scenario(name.clone()),
+            Self::Function { name, function, space, is_cube } => Self::Function {
+                name: name.clone(),
+                function: function.clone_ref(py),
+                space: space.clone(),
+                is_cube: *is_cube,
+            },
+        }
+    }
+
+    /// Begins the study.
+    fn study(&self, py: Python) -> PyResult<StudyBuilder> {
+        Ok(match self.another(py) {
+            Self::Scenario(name) => paracosm::Study::of(catalogue().find(&name).map_err(raised)?),
+            Self::Function { name, function, space, is_cube } => {
+                paracosm::Study::of_system(system_of(&name, function, space.clone(), is_cube), space)
+            }
+        })
+    }
+}
+
 impl Study {
-    #[new]
-    #[pyo3(signature = (scenario = "pedestrian-crossing", **choices))]
-    fn new(py: Python, scenario: &str, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
+    /// Checks the choices, and builds the study.
+    fn made(py: Python, subject: Subject, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
         let choices = match choices {
             Some(choices) => choices.copy()?,
             None => PyDict::new(py),
@@ -73,35 +102,73 @@ impl Study {
             let name: String = name.extract()?;
             if !CHOICES.contains(&name.as_str()) {
                 let meant = did_you_mean(&nearest(&name, CHOICES));
-                return Err(raised(format!(
-                    "a study has no choice `{name}`{meant}; the choices are {}",
-                    CHOICES.join(", ")
-                )));
+                let all = CHOICES.join(", ");
+                return Err(raised(format!("a study has no choice `{name}`{meant}; the choices are {all}")));
             }
         }
-        let inner = built(scenario, &choices)?;
-        Ok(Self { scenario: scenario.to_owned(), choices: choices.unbind(), inner })
+        let inner = built(subject.study(py)?, &choices)?;
+        Ok(Self { subject, choices: choices.unbind(), inner })
+    }
+}
+
+#[pymethods]
+impl Study {
+    #[new]
+    #[pyo3(signature = (scenario = "pedestrian-crossing", **choices))]
+    fn new(py: Python, scenario: &str, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
+        Self::made(py, Subject::Scenario(scenario.to_owned()), choices)
+    }
+
+    /// Makes the study of a function of Python over a space. The function gets each test as a dictionary, or as an array if `space` is a number of
+    /// dimensions. It returns a robustness (below 0 for a failure), a dictionary with a robustness for each requirement, or a trace: a `Trace`, or
+    /// columns with `time`. A trace needs the choice `spec`, a formula. An exception ends the test with the verdict "error". The answer should depend on the
+    /// test alone.
+    #[classmethod]
+    #[pyo3(signature = (function, space, *, name = None, **choices))]
+    fn of_function(
+        cls: &Bound<PyType>,
+        function: &Bound<PyAny>,
+        space: &Bound<PyAny>,
+        name: Option<String>,
+        choices: Option<&Bound<PyDict>>,
+    ) -> PyResult<Self> {
+        if !function.is_callable() {
+            return Err(raised(format!("found {}, expected a function that gets a test", function.repr()?)));
+        }
+        let own = || function.getattr("__name__").and_then(|name| name.extract::<String>()).ok();
+        let name = name.or_else(own).unwrap_or_else(|| "function".to_owned());
+        let (inner, is_cube) = match space.cast::<Space>() {
+            Ok(space) => (space.get().inner.clone(), false),
+            Err(_) => {
+                let dims = space.extract::<usize>();
+                let dims = dims.map_err(|_| raised("expected a Space, or a number of dimensions from 1 on"))?;
+                (cube(dims)?, true)
+            }
+        };
+        let subject = Subject::Function { name, function: function.clone().unbind(), space: inner, is_cube };
+        Self::made(cls.py(), subject, choices)
     }
 
     /// Returns the same study with other choices. `None` gives a choice its default.
     #[pyo3(signature = (**choices))]
     fn replace(&self, py: Python, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
         let all = self.choices.bind(py).copy()?;
-        let mut scenario = self.scenario.clone();
+        let mut subject = self.subject.another(py);
         for (name, value) in choices.into_iter().flatten() {
-            if name.extract::<String>()? == "scenario" {
-                scenario = value.extract()?;
-            } else {
-                all.set_item(name, value)?;
+            match (name.extract::<String>()?.as_str(), &mut subject) {
+                ("scenario", Subject::Scenario(scenario)) => *scenario = value.extract()?,
+                _ => all.set_item(name, value)?,
             }
         }
-        Self::new(py, &scenario, Some(&all))
+        Self::made(py, subject, Some(&all))
     }
 
-    /// The name of the scenario, or its file.
+    /// The scenario or its file; the name of the function for a study of a function.
     #[getter]
     fn scenario(&self) -> &str {
-        &self.scenario
+        match &self.subject {
+            Subject::Scenario(name) | Subject::Function { name, .. } => name,
+        }
     }
 
     /// The choices that were made, as a dictionary.
@@ -170,10 +237,9 @@ impl Study {
     }
 }
 
-/// Builds the study of a scenario.
-fn built(scenario: &str, choices: &Bound<PyDict>) -> PyResult<paracosm::Study> {
+/// Makes the choices for a study.
+fn built(mut study: StudyBuilder, choices: &Bound<PyDict>) -> PyResult<paracosm::Study> {
     let choices = Choices(choices);
-    let mut study = paracosm::Study::of(catalogue().find(scenario).map_err(raised)?);
     if let Some(driver) = choices.get::<String>("driver")? {
         study = study.driver(&driver);
     }

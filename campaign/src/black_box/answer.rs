@@ -103,6 +103,27 @@ pub enum AnswerFlaw {
 }
 
 impl Answer {
+    /// Makes the answer with the robustness of each requirement. A robustness below 0 is a violation.
+    ///
+    /// # Errors
+    /// There is no requirement, there are too many, a robustness is NaN, or an id cannot be shown.
+    pub fn of_robustness(robustness: Vec<(String, f64)>) -> Result<Self, AnswerFlaw> {
+        let found = robustness.len();
+        if found == 0 {
+            return Err(AnswerFlaw::NoRobustness);
+        }
+        if found > MOST_REQUIREMENTS {
+            return Err(AnswerFlaw::TooMany { found });
+        }
+        for (id, number) in &robustness {
+            if number.is_nan() {
+                return Err(AnswerFlaw::Robustness { requirement: id.clone() });
+            }
+            word_flaw(id).map_or(Ok(()), |flaw| Err(AnswerFlaw::Id { flaw }))?;
+        }
+        Ok(Self::Robustness(robustness))
+    }
+
     /// Reads the answer of an external system to the test with the given index.
     ///
     /// # Errors
@@ -120,7 +141,7 @@ impl Answer {
         }
         match (answer.trace, answer.robustness, answer.error) {
             (Some(trace), None, None) => Ok(Self::Trace(read_trace(&trace)?)),
-            (None, Some(robustness), None) => read_robustness(&robustness).map(Self::Robustness),
+            (None, Some(robustness), None) => read_robustness(&robustness),
             (None, None, Some(error)) => Ok(Self::NotDone { why: error }),
             (None, None, None) => Err(AnswerFlaw::Empty),
             _ => Err(AnswerFlaw::Several),
@@ -163,19 +184,9 @@ fn words(error: &serde_json::Error) -> String {
     }
 }
 
-fn read_robustness(robustness: &Record<Number>) -> Result<Vec<(String, f64)>, AnswerFlaw> {
-    let found = robustness.iter().count();
-    if found > MOST_REQUIREMENTS {
-        return Err(AnswerFlaw::TooMany { found });
-    }
-    let worth = |(id, number): (&str, &Number)| {
-        let number = number.0.filter(|number| !number.is_nan());
-        let number = number.ok_or_else(|| AnswerFlaw::Robustness { requirement: id.to_owned() })?;
-        word_flaw(id).map_or(Ok(()), |flaw| Err(AnswerFlaw::Id { flaw }))?;
-        Ok((id.to_owned(), number))
-    };
-    let all: Vec<_> = robustness.iter().map(worth).collect::<Result<_, AnswerFlaw>>()?;
-    if all.is_empty() { Err(AnswerFlaw::NoRobustness) } else { Ok(all) }
+fn read_robustness(robustness: &Record<Number>) -> Result<Answer, AnswerFlaw> {
+    let worth = |(id, number): (&str, &Number)| (id.to_owned(), number.0.unwrap_or(f64::NAN));
+    Answer::of_robustness(robustness.iter().map(worth).collect())
 }
 
 fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, TraceFlaw> {

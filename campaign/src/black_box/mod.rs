@@ -1,4 +1,5 @@
-//! Tests external systems. Each test is a question to a process: one line of JSON in, one line of JSON out.
+//! Tests external systems. Each test is a question to a process: one line of JSON in, one line of JSON out. A system may also be a
+//! function of this process (`here.rs`).
 //!
 //! The question is `{"index":3,"test":{"throttle":[0.1,0.9],"brake":0}}`. The answer is a trace
 //! (`{"index":3,"trace":{"time":[0,0.1],"speed":[0,0.2]}}`), the robustness of requirements
@@ -11,8 +12,12 @@
 //! answers depend only on the test thus gives the same trials for any number of workers.
 
 mod answer;
+mod here;
 
 pub use answer::{Answer, AnswerFlaw};
+pub use here::NotHere;
+
+use here::Here;
 
 use crate::conversation::Process;
 use crate::process::{self, CommandFlaw};
@@ -23,13 +28,15 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// An external system under test, which a command starts.
+/// An external system under test, which a command starts, or which is a function of this process.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlackBox {
-    /// The command that starts the system, with words separated and quoted as in a shell.
+    /// The command that starts the system, with words separated and quoted as in a shell; or the name of a function of this process.
     pub command: String,
-    /// The time that the system may take to answer, in seconds.
+    /// The time that the system may take to answer, in seconds. A function of this process may take any time.
     pub timeout: f64,
+    /// The function, if the system is one.
+    here: Option<Here>,
 }
 
 /// The role of the process in messages.
@@ -77,9 +84,42 @@ impl BlackBox {
     /// # Errors
     /// The command is empty or has a quote without an end; or the time-out is not positive or longer than a year.
     pub fn new(command: &str, timeout: Option<f64>) -> Result<Self, Error> {
-        let system = Self { command: command.to_owned(), timeout: checked_timeout(timeout)? };
+        let system = Self { command: command.to_owned(), timeout: checked_timeout(timeout)?, here: None };
         system.words()?;
         Ok(system)
+    }
+
+    /// Makes a system of this process: `answer` gets the index of a test and the test, and returns a trace, the robustness of requirements, or the
+    /// reason why it cannot run the test. Several threads call it at the same time. Its answer should depend on the test alone.
+    ///
+    /// ```
+    /// use paracosm_campaign::{Answer, BlackBox, Campaign, Study};
+    /// use paracosm_space::Space;
+    ///
+    /// let system = BlackBox::own("disc", |_, test| {
+    ///     let x = test.get("x1").and_then(|x| x.number()).unwrap_or(0.0);
+    ///     Answer::of_robustness(vec![("inside".into(), x - 0.25)])
+    /// });
+    /// let study = Study::of_system(system, Space::unit_cube(1)).budget(20).build()?;
+    /// let log = Campaign::new(&study)?.into_log()?;
+    /// assert_eq!(log.trials().iter().filter(|trial| trial.is_failure()).count(), 5);
+    /// # Ok::<(), paracosm_campaign::Error>(())
+    /// ```
+    pub fn own(
+        name: &str,
+        answer: impl Fn(usize, &Values) -> Result<Answer, AnswerFlaw> + Send + Sync + 'static,
+    ) -> Self {
+        Self { command: name.to_owned(), timeout: TIMEOUT, here: Some(Here::new(answer)) }
+    }
+
+    /// Makes the system that a file names. A function of another process cannot run tests.
+    pub(crate) fn of_file(command: String, timeout: f64, is_function: bool) -> Self {
+        Self { command, timeout, here: is_function.then(Here::default) }
+    }
+
+    /// Returns `true` if the system is a function, and not the process of a command.
+    pub fn is_function(&self) -> bool {
+        self.here.is_some()
     }
 
     fn words(&self) -> Result<Vec<String>, NoSystem> {
@@ -87,8 +127,9 @@ impl BlackBox {
     }
 }
 
-/// A connection to an external system, which runs in a separate process.
+/// A connection to an external system, which runs in a separate process or is a function of this process.
 pub struct Connection {
+    here: Option<(String, Here)>,
     words: Vec<String>,
     timeout: Duration,
     process: Option<Process>,
@@ -101,9 +142,13 @@ impl Connection {
     /// # Errors
     /// The system was read from a file, and its command or its time-out is invalid.
     pub fn new(system: &BlackBox, supervision: Supervision) -> Result<Self, Error> {
-        let system = BlackBox::new(&system.command, Some(system.timeout))?;
-        let timeout = Duration::from_secs_f64(system.timeout);
-        Ok(Self { words: system.words()?, timeout, process: None, supervision })
+        let timeout = Duration::from_secs_f64(checked_timeout(Some(system.timeout))?);
+        if let Some(here) = &system.here {
+            here.check(&system.command)?;
+            let here = Some((system.command.clone(), here.clone()));
+            return Ok(Self { here, words: Vec::new(), timeout, process: None, supervision });
+        }
+        Ok(Self { here: None, words: system.words()?, timeout, process: None, supervision })
     }
 
     /// Starts the process of the external system, if the process does not run yet.
@@ -111,7 +156,7 @@ impl Connection {
     /// # Errors
     /// The process cannot be started, for example because the program does not exist.
     pub fn start(&mut self) -> Result<(), Error> {
-        if self.process.is_none() {
+        if self.process.is_none() && self.here.is_none() {
             self.process = Some(Process::start(&self.words, ROLE, &self.supervision).map_err(Error::unavailable)?);
         }
         Ok(())
@@ -119,6 +164,9 @@ impl Connection {
 
     /// Sends a test to the system and returns the answer, or the problem if the answer is missing or invalid.
     pub fn ask(&mut self, index: usize, test: &Values) -> Result<Answer, Problem> {
+        if let Some((name, here)) = &self.here {
+            return here.ask(name, index, test);
+        }
         let mut question = serde_json::to_vec(&Question { index, test }).expect("a test is always JSON");
         question.push(b'\n');
         let has_past = self.process.as_ref().is_some_and(Process::has_answered);

@@ -82,6 +82,7 @@ impl Study {
     /// server that runs already.
     pub fn commands(&self) -> Vec<NamedCommand<'_>> {
         match self.subject() {
+            Subject::System(system) if system.is_function() => Vec::new(),
             Subject::System(system) => vec![NamedCommand { option: NamedCommand::SYSTEM, command: &system.command }],
             Subject::Scenario(simulation) => {
                 let driver = simulation.driver().command();
@@ -125,9 +126,10 @@ impl Study {
         }
     }
 
-    /// Returns `true` if a part of every test runs in another process, which may have changed since.
+    /// Returns `true` if a part of every test runs in another process, or is a function of the user's program. Both may have changed since.
     pub fn is_outside(&self) -> bool {
-        !self.commands().is_empty() || self.address().is_some()
+        let is_function = matches!(self.subject(), Subject::System(system) if system.is_function());
+        is_function || !self.commands().is_empty() || self.address().is_some()
     }
 
     /// Checks that the commands of the study may be run, and that its driver may be asked.

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
         strategies,
     )
     from .driver import Driver, serve
+    from ._falsify import falsify
     from ._measures import (
         centered_discrepancy,
         dispersion,
@@ -101,6 +102,7 @@ __all__ = [
     "covering_array",
     "dispersion",
     "extreme_discrepancy",
+    "falsify",
     "fill_distance",
     "k_wise_coverage",
     "k_wise_dispersion",
@@ -118,7 +120,7 @@ __all__ = [
 
 # The modules in which names are looked for, in this order. They are imported when a name of theirs is first used, so that a driver in a
 # process of its own starts without the compiled core.
-_MODULES = ("driver", "observation", "perceiver", "sensors", "parameters", "_core", "_measures")
+_MODULES = ("driver", "observation", "perceiver", "sensors", "parameters", "_core", "_falsify", "_measures")
 
 
 def __getattr__(name: str) -> Any:

@@ -195,6 +195,29 @@ class Study:
         references: Sequence[str] | None = ...,
         timeout: float | None = ...,
     ) -> Study: ...
+    @classmethod
+    def of_function(
+        cls,
+        function: Callable[[Any], Any],
+        space: Space | int,
+        *,
+        name: str | None = None,
+        spec: str | Sequence[str] | None = ...,
+        dense: bool | None = ...,
+        requirements: str | PathLike[str] | None = ...,
+        strategy: str | None = ...,
+        budget: int | None = ...,
+        seed: int | None = ...,
+        skip: int | None = ...,
+        k: int | None = ...,
+        epsilon: float | None = ...,
+        discrete: Literal["ipog", "random", "cross"] | None = ...,
+        delta: float | None = ...,
+        measure: Literal["dispersion", "k-wise-dispersion"] | None = ...,
+        batch: int | None = ...,
+        stop_at_first: bool | None = ...,
+        timeout: float | None = ...,
+    ) -> Study: ...
     def replace(
         self,
         *,
