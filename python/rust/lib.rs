@@ -8,6 +8,7 @@ mod detached;
 mod error;
 mod formula;
 mod generator;
+mod inquiries;
 mod json;
 mod measures;
 mod plan;

@@ -3,6 +3,7 @@
 use crate::detached::detached;
 use crate::error::raised;
 use crate::formula::Trace;
+use crate::inquiries;
 use crate::json::to_dict;
 use crate::table::Table;
 use crate::trials;
@@ -14,6 +15,7 @@ use paracosm::{Beside, Log, catalogue};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -121,6 +123,25 @@ impl Report {
         to_dict(py, &self.inner.report.effects)
     }
 
+    /// Says for each failing test which reference drivers would have avoided the failure, with the keys of `blame.json`. `drivers` are the reference
+    /// drivers, and `executor` is the number of tests that run at the same time.
+    #[pyo3(signature = (drivers = None, *, executor = None))]
+    fn blame<'py>(
+        &self,
+        py: Python<'py>,
+        drivers: Option<Vec<String>>,
+        executor: Option<NonZeroUsize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        inquiries::blame(py, self.log(), drivers, executor)
+    }
+
+    /// Compares the same tests under this campaign and a later one, for example of another version of a driver: new failures, mended ones and
+    /// changed margins, with the keys of `paracosm-fuzz diff --format json`.
+    #[pyo3(signature = (after, /))]
+    fn diff<'py>(&self, py: Python<'py>, after: &Self) -> PyResult<Bound<'py, PyAny>> {
+        inquiries::difference(py, self.log(), after.log())
+    }
+
     /// Writes the report page, one HTML file with runs to play. `max_mb` is its greatest size.
     #[pyo3(signature = (path, *, max_mb = 8.0))]
     fn page(&self, py: Python, path: PathBuf, max_mb: f64) -> PyResult<()> {
@@ -225,6 +246,13 @@ impl TrialView {
     #[getter]
     fn trace_hash(&self) -> Option<&str> {
         self.trial().trace_hash.as_deref()
+    }
+
+    /// Finds the simplest test near this failing test that still fails, with the keys of `paracosm-fuzz shrink --format json`. `same_mode=True` keeps
+    /// the failure mode, and `budget` is the greatest number of tests to run.
+    #[pyo3(signature = (*, same_mode = false, budget = None))]
+    fn shrink<'py>(&self, py: Python<'py>, same_mode: bool, budget: Option<usize>) -> PyResult<Bound<'py, PyAny>> {
+        inquiries::shrink(py, &self.results.report.log, self.trial(), same_mode, budget)
     }
 
     /// Runs the test again, and returns its trace.

@@ -2,10 +2,12 @@
 
 use crate::detached::watched;
 use crate::error::raised;
+use crate::inquiries::likelihood;
 use crate::report::Report;
 use crate::space::{Space, cube, parameter};
 use crate::system::system_of;
 use crate::value::value_of;
+use paracosm::analysis::likelihood::Question;
 use paracosm::campaign::study::Variation;
 use paracosm::campaign::{Sampling, StudyBuilder, Supervision};
 use paracosm::engine::vehicle::VehicleModel;
@@ -229,6 +231,22 @@ impl Study {
         let report = watched(py, &stop, &mut tell, || runner.run_into(&folder, &mut [&mut count]))?.map_err(raised)?;
         tell(py)?;
         Ok(Report::new(report, folder))
+    }
+
+    /// Estimates the probability that a test fails, if the open parameters have the distributions of the space: with the keys of
+    /// `paracosm-fuzz likelihood --format json`. The method is "monte-carlo", "qmc" or "subset".
+    #[pyo3(signature = (*, method = "monte-carlo", budget = 1000, confidence = 0.95, seed = 0, executor = None))]
+    fn likelihood<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        budget: usize,
+        confidence: f64,
+        seed: u64,
+        executor: Option<NonZeroUsize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let question = Question { method: method.parse().map_err(raised)?, budget, confidence, seed };
+        likelihood(py, &self.inner, question, executor)
     }
 
     fn __repr__(&self) -> String {

@@ -1,7 +1,9 @@
 """Studies and their results: the folder is that of the program, byte for byte."""
 
 import csv
+import json
 import math
+import shutil
 import signal
 import subprocess
 import sys
@@ -79,6 +81,42 @@ def test_a_folder_is_read_again(report):
     assert again.effects == report.effects
     assert [trial.test for trial in again.failures] == [trial.test for trial in report.failures]
     assert again[-1].replay().hash == report[59].trace_hash
+
+
+def test_further_questions_have_the_answers_of_the_program(report, fuzz, tmp_path):
+    def told(*arguments):
+        ran = fuzz(*arguments, "--format", "json", "-q")
+        assert ran.returncode == 0, ran.stderr
+        return json.loads(ran.stdout)
+
+    folder, failing = str(report.folder), report.failures[0]
+    assert failing.shrink() == told("shrink", folder, str(failing.index))
+    assert failing.shrink(same_mode=True, budget=40) == told("shrink", folder, str(failing.index), "--same-mode", "--budget", "40")
+    study = pc.Study("pedestrian-crossing", driver="aeb", open={"friction": (0.3, 0.8), "lanes": [2, 4]}, budget=60, seed=1)
+    after = study.replace(driver="cruise").run(tmp_path / "after")
+    assert report.diff(after) == told("diff", folder, "after")
+    assert study.likelihood(budget=100, seed=3)["probability"] == told(
+        "likelihood", "pedestrian-crossing", *"--open friction=0.3..0.8 --open lanes=2,4 --budget 100 --seed 3".split()
+    )["probability"]
+    blamed = report.blame(["rss"])
+    shutil.copytree(folder, tmp_path / "copy")
+    assert blamed == told("blame", "copy", "--driver", "rss")
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda report: report[[t.verdict for t in report].index("pass")].shrink(), "expected a failing test"),
+        (lambda report: report.blame(["rs"]), "did you mean"),
+        (lambda report: pc.Study().likelihood(method="monte"), "no method is called `monte`"),
+        (lambda report: pc.Study().likelihood(confidence=2), "the confidence is 2"),
+        (lambda report: pc.falsify(lambda x: 1.0, 1, strategy="halton", budget=3).blame(), "<lambda>"),
+    ],
+)
+def test_a_question_that_has_no_answer_is_an_exception(report, call, words):
+    with pytest.raises(pc.Error) as caught:
+        call(report)
+    assert words in str(caught.value)
 
 
 def test_a_report_shows_itself_in_a_notebook_and_as_a_page(report, tmp_path):

@@ -33,7 +33,7 @@ fn perceiver(dir: &Path, body: &str) -> Option<String> {
     let script = dir.join("perceiver.py");
     let body = body.replace('\n', "\n    ");
     let text = format!(
-        "import numpy as np\nfrom paracosm import *\n\n\nclass Mine(Perceiver):\n    {body}\n\n\nMine().serve()\n"
+        "import numpy as np\nfrom paracosm import Detection, Perceiver\n\n\nclass Mine(Perceiver):\n    {body}\n\n\nMine().serve()\n"
     );
     fs::write(&script, text).unwrap();
     can_draw().then(|| python(&script)).flatten()
