@@ -88,6 +88,27 @@ impl Space {
         self.inner.levels()
     }
 
+    fn __eq__(&self, other: &Self) -> bool {
+        self.inner == other.inner && self.demand == other.demand
+    }
+
+    /// Says how to make the space again from a pickle.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        if self.demand != Demand::default() {
+            return Err(raised(
+                "a space with the further demands of a PICT model cannot be pickled: pickle the path of its file",
+            ));
+        }
+        let text = serde_json::to_string(&self.inner).map_err(raised)?;
+        Ok((py.get_type::<Self>().getattr("_of_json")?, (text,)))
+    }
+
+    /// Makes the space of a pickle.
+    #[classmethod]
+    fn _of_json(_: &Bound<PyType>, text: &str) -> PyResult<Self> {
+        Ok(serde_json::from_str::<paracosm::space::Space>(text).map_err(raised)?.into())
+    }
+
     fn __len__(&self) -> usize {
         self.inner.parameters().len()
     }

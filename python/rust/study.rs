@@ -16,7 +16,7 @@ use paracosm::oracles::Semantics;
 use paracosm::space::{Distribution, did_you_mean, nearest};
 use paracosm::{Runner, Trial, catalogue};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyType};
+use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -247,6 +247,24 @@ impl Study {
     ) -> PyResult<Bound<'py, PyAny>> {
         let question = Question { method: method.parse().map_err(raised)?, budget, confidence, seed };
         likelihood(py, &self.inner, question, executor)
+    }
+
+    /// Says how to make the study again from a pickle. The function of a study has to be one that can be pickled.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (this, choices) = (py.get_type::<Self>(), self.choices.bind(py).copy()?);
+        let arguments = match &self.subject {
+            Subject::Scenario(name) => vec![this.into_any(), name.into_pyobject(py)?.into_any()],
+            Subject::Function { name, function, space, is_cube } => {
+                choices.set_item("name", name)?;
+                let space = match is_cube {
+                    true => space.dims().into_pyobject(py)?.into_any(),
+                    false => Bound::new(py, Space::from(space.clone()))?.into_any(),
+                };
+                vec![this.getattr("of_function")?, function.bind(py).clone(), space]
+            }
+        };
+        let partial = py.import("functools")?.getattr("partial")?;
+        Ok((partial.call(PyTuple::new(py, arguments)?, Some(&choices))?, PyTuple::empty(py)))
     }
 
     fn __repr__(&self) -> String {

@@ -1,8 +1,10 @@
 """Studies and their results: the folder is that of the program, byte for byte."""
 
+import copy
 import csv
 import json
 import math
+import pickle
 import shutil
 import signal
 import subprocess
@@ -136,6 +138,31 @@ def test_a_study_is_a_value():
     assert "no-collision" in study.requirements
     with pytest.raises(AttributeError):
         study.scenario = "cut-in"
+
+
+def pull(test):
+    return test["friction"] - 0.2
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))])
+def test_a_study_and_a_space_survive_a_pickle(again, tmp_path):
+    space = pc.Space({"friction": pc.Interval(0.1, 0.8, distribution="beta:2,5"), "lanes": [2, 4]}, constraints=["lanes > 2 or friction > 0.3"])
+    assert again(space) == space != pc.Space({"friction": (0.1, 0.8)})
+    for number, study in enumerate([
+        pc.Study("cut-in", driver="aeb", open={"friction": (0.3, 0.8)}, budget=12, seed=1),
+        pc.Study.of_function(pull, space, name="pull", strategy="auto", budget=12),
+        pc.Study.of_function(max, 2, strategy="halton", budget=5),
+    ]):
+        first, second = tmp_path / f"{number}-first", tmp_path / f"{number}-second"
+        study.run(first)
+        again(study).run(second)
+        assert files(first) == files(second)
+
+
+def test_a_function_that_cannot_be_pickled_says_so():
+    study = pc.Study.of_function(lambda x: 1.0, 2, budget=5)
+    with pytest.raises((pickle.PicklingError, AttributeError)):
+        pickle.dumps(study)
 
 
 def test_progress_is_told_and_its_exception_ends_the_campaign_with_all_tests_kept(tmp_path):
