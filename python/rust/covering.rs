@@ -29,7 +29,13 @@ pub struct CoveringArray {
 /// A group of discrete parameters, and its strength.
 type Group = (Vec<usize>, usize);
 
-/// Makes a covering array for the discrete parameters of a space.
+/// Makes a covering array for a space of discrete parameters: few tests that contain every valid combination of values of any k parameters.
+///
+/// strengths: groups of parameters with a higher strength, such as {("lanes", "weather", "surface"): 3}.
+/// optimise: the seconds of a search for a smaller array. After Ctrl-C, `KeyboardInterrupt` is raised.
+/// existing: tests that the array keeps; they come first.
+///
+/// Raises `Error` if the space has continuous parameters, or if k is out of range.
 #[pyfunction]
 #[pyo3(signature = (space, k = None, *, strengths = None, seed = 0, optimise = None, existing = None))]
 pub fn covering_array<'py>(

@@ -89,7 +89,24 @@ fn family(name: &str, delta: Option<f64>) -> PyResult<DiscreteFamily> {
     name.parse::<DiscreteFamily>().and_then(|family| family.with_delta(delta)).map_err(raised)
 }
 
-/// Makes a set of tests by a strategy that needs no results. In a unit cube, the set is an array of the shape (n, d).
+/// Makes a set of tests by a strategy that needs no results.
+///
+/// `space` is a `Space`, or the number d of dimensions of a unit cube. In a unit cube, the set is a float64 array of the shape (n, d), with coordinates
+/// in [0, 1). Otherwise it is a table, `Tests`.
+///
+/// n: the number of tests. It may be left out with `epsilon`, and if all parameters are discrete.
+/// method: the name of a strategy; `strategies()` lists all.
+/// seed: the seed of all random choices. Without a seed, a sequence such as halton is plain.
+/// skip: the first index of a sequence.
+/// k: the number of discrete parameters in each covered combination (2).
+/// epsilon: tests are added until no row of discrete values has an empty box above this volume.
+/// measure: the measure that greedy makes small, "dispersion" or "k-wise-dispersion".
+/// discrete: the rows of discrete values: "ipog" (a covering array), "random" or "cross". delta: the chance that random rows miss a
+/// combination (0.05).
+/// existing: tests that the new tests complete; they are not returned.
+/// time_limit: the limit in seconds of the search for epsilon (60).
+///
+/// Raises `Error` if the strategy cannot do what is asked.
 #[pyfunction]
 #[pyo3(signature = (
     space, n = None, *, method = "halton", seed = None, skip = None, k = None, epsilon = None, measure = None,

@@ -40,6 +40,11 @@ pub fn measures() -> Vec<(&'static str, &'static str)> {
 }
 
 /// Measures the coverage of a space by tests, and returns the result as a dictionary with the keys of `coverage.json`.
+///
+/// tests: an array of points of the unit cube; `Tests`; or, with `space`, a dictionary or a data frame with a column for each parameter.
+/// k: the number of parameters in each combination (2).
+/// measures: the names of the measures; `measures()` lists all. By default, all are taken.
+/// time_limit: the limit of all measures in seconds. Without it, the limit is an amount of work that is the same on every machine.
 #[pyfunction]
 #[pyo3(signature = (tests, space = None, *, k = None, measures = None, time_limit = None))]
 pub fn coverage<'py>(

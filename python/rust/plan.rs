@@ -9,6 +9,9 @@ use paracosm::analysis::Plan;
 use pyo3::prelude::*;
 
 /// Computes how many tests a (k, epsilon)-covering set needs, as a dictionary with the keys of `paracosm-cover plan --format json`.
+///
+/// epsilon: the largest volume of an empty box. delta: the chance that a random set misses the guarantee. time_limit: the limit of all work, in
+/// seconds.
 #[pyfunction]
 #[pyo3(signature = (space, k = None, *, epsilon = 0.1, delta = 0.05, time_limit = 60.0))]
 pub fn plan<'py>(
