@@ -7,11 +7,13 @@ use crate::error::raised;
 use crate::measures::duration;
 use crate::space::{Space, cube};
 use crate::test_table::{Tests, tests_of};
+use crate::value::is_truth;
 use paracosm::campaign::TestSet;
 use paracosm::coverage::Deadline;
 use paracosm::generators::{DiscreteFamily, Request, Strategy};
 use paracosm::space::Point;
 use pyo3::prelude::*;
+use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -159,7 +161,7 @@ pub fn sample<'py>(
         let mut generator = choices.strategy.build(&request).map_err(raised)?;
         // Tests are asked for in parts, so that a number beyond what the strategy has needs no memory.
         let mut points = Vec::new();
-        while points.len() < budget {
+        while points.len() < budget && !STOP.load(Ordering::Relaxed) {
             let more = generator.ask(PART.min(budget - points.len()));
             if more.is_empty() {
                 break;
@@ -171,8 +173,8 @@ pub fn sample<'py>(
     target.tests(py, points)
 }
 
-/// The number of tests of a part.
-const PART: usize = 1 << 16;
+/// The number of tests of a part. Ctrl-C ends the work after a part.
+const PART: usize = 64;
 
 /// A strategy that proposes tests and learns from their results.
 ///
@@ -225,6 +227,7 @@ impl Generator {
     /// Returns at most `n` new tests. There are none once the strategy has nothing more to propose.
     #[pyo3(signature = (n = 1))]
     fn ask<'py>(&self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyAny>> {
+        TestSet::check_size(n, self.target.space.inner.coordinates().count()).map_err(raised)?;
         let points = py.detach(|| self.inner.lock().unwrap_or_else(PoisonError::into_inner).ask(n));
         self.target.tests(py, points)
     }
@@ -251,6 +254,13 @@ impl Generator {
 /// Reads the robustness of tests, with `None` for a test that ended in an error.
 fn told(robustness: &Bound<PyAny>) -> PyResult<Vec<Option<f64>>> {
     let known = |number: f64| (!number.is_nan()).then_some(number);
+    if let Ok(values) = robustness.try_iter() {
+        for value in values {
+            if is_truth(&value?) {
+                return Err(raised("found a truth as a robustness, expected a number: below 0 for a failure"));
+            }
+        }
+    }
     if let Ok(list) = robustness.extract::<Vec<Option<f64>>>() {
         return Ok(list.into_iter().map(|number| number.and_then(known)).collect());
     }

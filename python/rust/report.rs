@@ -8,6 +8,8 @@ use crate::json::to_dict;
 use crate::table::Table;
 use crate::trials;
 use crate::value::to_python;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD as STANDARD;
 use paracosm::campaign::{Error as LibraryError, Supervision, Trust, Worker};
 use paracosm::oracles::Verdict;
 use paracosm::report::html::Runs;
@@ -182,7 +184,9 @@ impl Report {
 
     /// Returns the verdicts and the failure map, for notebooks.
     fn _repr_html_(&self) -> String {
-        let map = std::fs::read_to_string(self.inner.folder.join("failure-map.svg")).unwrap_or_default();
+        // As an image, because a file of a stranger's folder may hold a script.
+        let map = std::fs::read(self.inner.folder.join("failure-map.svg")).map(|svg| STANDARD.encode(svg));
+        let map = map.map(|svg| format!("<img src=\"data:image/svg+xml;base64,{svg}\">")).unwrap_or_default();
         let words = self.__repr__().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
         format!("<p>{words}</p>{map}")
     }
@@ -270,9 +274,11 @@ impl TrialView {
         })?;
         match ran.map_err(raised)? {
             Some(inner) => Ok(Trace { inner }),
-            None => {
-                Err(raised(format!("test {} has no trace: {}", self.index, self.error().unwrap_or("it was not run"))))
-            }
+            None => Err(raised(format!(
+                "test {} has no trace: {}",
+                self.index,
+                self.error().unwrap_or("the system answered with robustness alone")
+            ))),
         }
     }
 

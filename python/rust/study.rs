@@ -97,7 +97,7 @@ impl Study {
     /// Checks the choices, and builds the study.
     fn made(py: Python, subject: Subject, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
         let choices = match choices {
-            Some(choices) => choices.copy()?,
+            Some(choices) => deep_copy(choices)?,
             None => PyDict::new(py),
         };
         for name in choices.keys() {
@@ -176,7 +176,7 @@ impl Study {
     /// The choices that were made, as a dictionary.
     #[getter]
     fn choices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.choices.bind(py).copy()
+        deep_copy(self.choices.bind(py))
     }
 
     /// The space of the open parameters.
@@ -271,6 +271,11 @@ impl Study {
         let (title, sampling) = (self.inner.title(), self.inner.sampling());
         format!("Study({title}, strategy {sampling}, {} tests)", sampling.budget)
     }
+}
+
+/// Copies choices with all that they hold, so that nobody changes a study.
+fn deep_copy<'py>(choices: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
+    Ok(choices.py().import("copy")?.call_method1("deepcopy", (choices,))?.cast_into::<PyDict>()?)
 }
 
 /// Makes the choices for a study.

@@ -3,7 +3,7 @@
 use crate::arrays::column_of;
 use crate::error::raised;
 use crate::formula::{Trace, named};
-use crate::value::to_python;
+use crate::value::{is_truth, to_python};
 use numpy::IntoPyArray;
 use paracosm::campaign::reasons::AnswerFlaw;
 use paracosm::campaign::{Answer, BlackBox};
@@ -44,6 +44,10 @@ fn answer_of(answer: &Bound<PyAny>) -> PyResult<Result<Answer, AnswerFlaw>> {
     if let Ok(trace) = answer.cast::<Trace>() {
         return Ok(Ok(Answer::Trace(trace.get().inner.clone())));
     }
+    if is_truth(answer) {
+        let message = format!("the function returned {answer}, expected a robustness: a number below 0 for a failure");
+        return Err(raised(message));
+    }
     if let Ok(robustness) = answer.extract::<f64>() {
         return Ok(Answer::of_robustness(vec![(ROBUSTNESS.to_owned(), robustness)]));
     }
@@ -64,9 +68,10 @@ fn answer_of(answer: &Bound<PyAny>) -> PyResult<Result<Answer, AnswerFlaw>> {
         return Ok(paracosm::campaign::trace_of(&samples).map(Answer::Trace).map_err(AnswerFlaw::from));
     }
     let worth = |name: String| {
-        let number = answer.get_item(&name)?.extract::<f64>();
-        let number = number
-            .map_err(|_| raised(format!("the function returned no number for `{name}`, expected its robustness")))?;
+        let value = answer.get_item(&name)?;
+        let number = if is_truth(&value) { None } else { value.extract::<f64>().ok() };
+        let missing = || raised(format!("the function returned no number for `{name}`, expected its robustness"));
+        let number = number.ok_or_else(missing)?;
         PyResult::Ok((name, number))
     };
     Ok(Answer::of_robustness(names.into_iter().map(worth).collect::<PyResult<_>>()?))

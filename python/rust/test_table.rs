@@ -87,7 +87,7 @@ pub fn tests_of(found: &Bound<PyAny>, space: Option<&Space>) -> PyResult<TestSet
     if let Ok(tests) = found.cast::<Tests>() {
         let set = &tests.get().set;
         return match space {
-            Some(space) if space.inner.parameters() != set.space.parameters() => Err(raised(
+            Some(space) if space.inner != set.space || space.demand != set.demand => Err(raised(
                 "these tests belong to another space: leave the argument `space` out, or give the space of the tests",
             )),
             _ => Ok(set.clone()),

@@ -8,21 +8,35 @@ use pyo3::types::{PyBool, PyList, PyString};
 /// Reads a number, a word, or a list of numbers and words. Numbers of numpy are numbers.
 ///
 /// # Errors
-/// `what` is anything else; the message names the place.
+/// The object is anything else; the message names the place.
 pub fn value_of(found: &Bound<PyAny>, place: &str) -> PyResult<Value> {
+    match found.try_iter() {
+        // A list in a list is no value, so nothing is read without end.
+        Ok(values) if !found.is_instance_of::<PyString>() => {
+            values.map(|value| scalar(&value?, place)).collect::<PyResult<Vec<_>>>().map(Value::from_iter)
+        }
+        _ => scalar(found, place),
+    }
+}
+
+/// Returns `true` for a truth of Python or of numpy. A truth is no number here, because it has no distance to a violation.
+pub fn is_truth(found: &Bound<PyAny>) -> bool {
+    let of_numpy = || found.get_type().name().is_ok_and(|name| name == "bool_" || name == "bool");
+    found.is_instance_of::<PyBool>() || of_numpy()
+}
+
+/// Reads a number or a word.
+fn scalar(found: &Bound<PyAny>, place: &str) -> PyResult<Value> {
     if let Ok(word) = found.cast::<PyString>() {
         return Ok(Value::from(word.to_str()?));
     }
-    if found.is_instance_of::<PyBool>() {
+    if is_truth(found) {
         return Err(raised(format!(
             "{place}: found {found}, expected a number or a word; write \"{found}\" for a word"
         )));
     }
     if let Ok(number) = found.extract::<f64>() {
         return Ok(Value::Number(number));
-    }
-    if let Ok(values) = found.try_iter() {
-        return values.map(|value| value_of(&value?, place)).collect::<PyResult<Vec<_>>>().map(Value::from_iter);
     }
     let kind = found.get_type().name()?;
     Err(raised(format!("{place}: found a value of the type {kind}, expected a number or a word")))

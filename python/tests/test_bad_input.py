@@ -8,6 +8,8 @@ import pytest
 
 SPACE = pc.Space({"speed": (0.5, 10), "lanes": [2, 4, 6]})
 NAN = float("nan")
+LOOP: list = []
+LOOP.append(LOOP)
 
 WRONG = [
     (lambda: pc.dispersion([1, 2]), "has the shape (2,), expected (n, d)"),
@@ -50,6 +52,13 @@ WRONG = [
     (lambda: pc.Space({"a": pc.Interval(0, 1, distribution="norml:0,1")}), "norml"),
     (lambda: pc.Space({"a": [1, 2]}, constraints=["b > 2"]), "no parameter is called `b`"),
     (lambda: pc.Space({"a": [1, 2]}, constraints=["a > 2"]), "no test keeps this constraint"),
+    (lambda: pc.Space({"a": LOOP}), "expected a number or a word"),
+    (lambda: pc.Study(fix={"friction": LOOP}), "expected a number or a word"),
+    (lambda: pc.coverage({"a": LOOP}, pc.Space({"a": [1, 2]})), "expected a number or a word"),
+    (lambda: pc.Space({"a": [np.True_, 2]}), "expected a number or a word"),
+    (lambda: pc.Generator(2, "halton").ask(2**62), "do not fit in memory"),
+    (lambda: pc.Generator(2, "bayes").tell([[0.5, 0.5]], [False]), "found a truth as a robustness"),
+    (lambda: pc.coverage(pc.sample(SPACE, 3), pc.Space({"speed": (0.5, 10), "lanes": [2, 4, 6]}, ["lanes > 2"])), "belong to another space"),
     (lambda: pc.Space.read("/no/such/file.toml"), "cannot read /no/such/file.toml"),
     (lambda: pc.covering_array(SPACE), "this space has continuous parameters"),
     (lambda: pc.covering_array(pc.Space({"a": [1, 2]}), k=2), "k is 2"),

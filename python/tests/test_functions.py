@@ -65,6 +65,8 @@ WRONG = [
     (lambda test: 1 / 0, None, "ZeroDivisionError: division by zero (test_functions.py, line "),
     (lambda test: None, None, "the function returned a value of the type NoneType, expected a robustness"),
     (lambda test: float("nan"), None, "the robustness of `robustness` is not a number"),
+    (lambda test: False, None, "the function returned False, expected a robustness"),
+    (lambda test: {"safe": np.True_}, None, "returned no number for `safe`"),
     (lambda test: {}, None, "`robustness` is empty"),
     (lambda test: {"gap": "wide"}, None, "returned no number for `gap`"),
     (lambda test: {1: 2.0}, None, "TypeError"),

@@ -42,6 +42,16 @@ def test_ctrl_c_ends_a_long_measure():
     assert "KeyboardInterrupt" in errors and running.returncode != 0
 
 
+def test_ctrl_c_ends_a_long_sample():
+    slow = "import paracosm as pc; print('begun', flush=True); pc.sample(6, 50000, method='greedy')"
+    running = subprocess.Popen([sys.executable, "-c", slow], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert running.stdout is not None and running.stdout.readline() == "begun\n"
+    time.sleep(1.0)
+    running.send_signal(signal.SIGINT)
+    _, errors = running.communicate(timeout=60)
+    assert "KeyboardInterrupt" in errors and running.returncode != 0
+
+
 def test_other_threads_run_while_a_measure_runs():
     ticks = []
     done = threading.Event()

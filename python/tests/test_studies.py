@@ -123,7 +123,7 @@ def test_a_question_that_has_no_answer_is_an_exception(report, call, words):
 
 def test_a_report_shows_itself_in_a_notebook_and_as_a_page(report, tmp_path):
     shown = report._repr_html_()
-    assert "<svg" in shown and "pedestrian-crossing" in shown
+    assert "data:image/svg+xml;base64," in shown and "<svg" not in shown and "pedestrian-crossing" in shown
     report.page(tmp_path / "report.html", max_mb=2)
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert page.lstrip().lower().startswith("<!doctype html>") and len(page) < 2e6
@@ -135,6 +135,11 @@ def test_a_study_is_a_value():
     assert study.choices == {"driver": "aeb", "budget": 20} and study.space.names == ["speed", "distance"]
     assert other.choices["budget"] == 1000 and other.space.names == ["speed", "distance", "friction"]
     assert study.replace(scenario="cut-in").scenario == "cut-in"
+    domains = {"friction": (0.3, 0.8)}
+    opened = pc.Study(open=domains)
+    domains["lanes"] = [2]
+    opened.choices["open"]["lanes"] = [4]
+    assert opened.choices == {"open": {"friction": (0.3, 0.8)}}
     assert "no-collision" in study.requirements
     with pytest.raises(AttributeError):
         study.scenario = "cut-in"
