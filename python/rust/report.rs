@@ -1,4 +1,4 @@
-//! `Report`: the results of a campaign, and `Replay`ing its tests.
+//! `Report`: the results of a campaign; and `Trial`: a test that can be run again.
 
 use crate::detached::detached;
 use crate::error::raised;
