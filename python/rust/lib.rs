@@ -3,6 +3,7 @@
 
 mod arrays;
 mod bracket;
+mod choices;
 mod covering;
 mod detached;
 mod error;

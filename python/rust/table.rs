@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub enum Column {
     /// Numbers; NaN where a number is missing.
     Numbers(Vec<f64>),
-    /// Whole numbers, none of which is missing.
+    /// Whole numbers. No number is missing.
     Counts(Vec<i64>),
     /// Words; `None` where a word is missing.
     Words(Vec<Option<String>>),

@@ -2,25 +2,24 @@
 
 use crate::table::{Column, Table};
 use crate::test_table::columns;
+use paracosm::Log;
 use paracosm::campaign::Metric;
+use paracosm::report::TrialTable;
 use paracosm::space::{Record, Values};
-use paracosm::{Log, Trial};
-use std::collections::HashSet;
 
 /// Returns a row for each trial.
 pub fn table(log: &Log) -> Table {
-    let trials = log.trials();
+    let (names, trials) = (TrialTable(log), log.trials());
     let tests: Vec<Values> = trials.iter().map(|trial| trial.test.clone()).collect();
     let mut all = vec![("index".to_owned(), Column::Counts(trials.iter().map(|trial| trial.index as i64).collect()))];
     all.extend(columns(log.study().space(), &tests));
     all.push(("verdict".into(), Column::Words(trials.iter().map(|trial| Some(trial.verdict.to_string())).collect())));
-    let stated = log.study().requirements().iter().map(|requirement| requirement.id.as_str());
-    for id in each_once(stated.chain(trials.iter().flat_map(Trial::requirements))) {
+    for id in names.requirements() {
         let robustness = trials.iter().map(|trial| trial.robustness(&id).unwrap_or(f64::NAN));
         all.push((format!("robustness.{id}"), Column::Numbers(robustness.collect())));
     }
     let metrics: Vec<Record<Metric>> = trials.iter().map(|trial| trial.metrics().into_iter().collect()).collect();
-    for name in each_once(metrics.iter().flat_map(|metrics| metrics.iter().map(|(name, _)| name))) {
+    for name in names.metrics() {
         let found: Vec<Option<&Metric>> = metrics.iter().map(|metrics| metrics.get(&name)).collect();
         all.push((format!("metric.{name}"), column(&found)));
     }
@@ -42,10 +41,4 @@ fn column(metrics: &[Option<&Metric>]) -> Column {
             metrics.iter().map(|metric| metric.map(ToString::to_string).filter(|w| !w.is_empty())).collect(),
         ),
     }
-}
-
-/// Returns the names without repetitions, in the order of their first occurrence.
-fn each_once<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
-    let mut seen = HashSet::new();
-    names.filter(|name| seen.insert(*name)).map(str::to_owned).collect()
 }

@@ -10,22 +10,34 @@ use std::hash::Hash;
 #[derive(Debug, Clone, Copy)]
 pub struct TrialTable<'l>(pub &'l Log);
 
+impl TrialTable<'_> {
+    /// Returns the ids of the requirements, each with a column of robustness, in the order of the columns.
+    pub fn requirements(&self) -> Vec<String> {
+        let (study, trials) = (self.0.study(), self.0.trials());
+        let stated = study.requirements().iter().map(|requirement| requirement.id.as_str());
+        each_once(stated.chain(trials.iter().flat_map(Trial::requirements))).into_iter().map(str::to_owned).collect()
+    }
+
+    /// Returns the names of the metrics, each with a column, in the order of the columns.
+    pub fn metrics(&self) -> Vec<String> {
+        // The metrics of all trials at once would take more memory than the trials.
+        each_once(self.0.trials().iter().flat_map(Trial::metrics).map(|(name, _)| name))
+    }
+}
+
 impl Artefact for TrialTable<'_> {
     fn files(&self) -> Vec<&'static str> {
         vec!["trials.csv"]
     }
 
     fn contents(&self, _: &str) -> Result<Vec<u8>, Error> {
-        Ok(csv(self.0))
+        Ok(csv(self))
     }
 }
 
-fn csv(log: &Log) -> Vec<u8> {
-    let (study, trials) = (log.study(), log.trials());
-    // The metrics of all trials at once would take more memory than the trials.
-    let metrics = each_once(trials.iter().flat_map(Trial::metrics).map(|(name, _)| name));
-    let stated = study.requirements().iter().map(|requirement| requirement.id.as_str());
-    let ids = each_once(stated.chain(trials.iter().flat_map(Trial::requirements)));
+fn csv(table: &TrialTable) -> Vec<u8> {
+    let (study, trials) = (table.0.study(), table.0.trials());
+    let (ids, metrics) = (table.requirements(), table.metrics());
     let mut csv = csv::Writer::from_writer(Vec::new());
     let parameters = study.space().coordinates().map(|coordinate| coordinate.name());
     let requirements = ids.iter().map(|id| format!("robustness.{id}"));

@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, final, overload
+from typing import Any, Literal, TypedDict, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 from .parameters import Choice, Interval
 
@@ -169,35 +170,42 @@ class Formula:
     def evaluate(self, trace: Any, *, dense: bool = False) -> Evaluation: ...
     def robustness(self, trace: Any, *, dense: bool = False) -> float: ...
 
+class _Choices(TypedDict, total=False):
+    spec: str | Sequence[str] | None
+    dense: bool | None
+    requirements: str | PathLike[str] | None
+    strategy: str | None
+    budget: int | None
+    seed: int | None
+    skip: int | None
+    k: int | None
+    epsilon: float | None
+    discrete: Literal["ipog", "random", "cross"] | None
+    delta: float | None
+    measure: Literal["dispersion", "k-wise-dispersion"] | None
+    batch: int | None
+    stop_at_first: bool | None
+
+class _ScenarioChoices(_Choices, total=False):
+    driver: str | None
+    driver_command: str | None
+    driver_settings: Mapping[str, float] | None
+    open: Mapping[str, _Domain | None] | Sequence[str] | None
+    fix: Mapping[str, float | str | Sequence[float] | Sequence[str]] | None
+    vehicle: str | None
+    vehicle_settings: Mapping[str, float] | None
+    references: Sequence[str] | None
+    timeout: float | None
+
+class _Replaced(_ScenarioChoices, total=False):
+    scenario: str
+
 @final
 class Study:
     def __new__(
         cls,
         scenario: str = "pedestrian-crossing",
-        *,
-        driver: str | None = ...,
-        driver_command: str | None = ...,
-        driver_settings: Mapping[str, float] | None = ...,
-        open: Mapping[str, _Domain | None] | Sequence[str] | None = ...,
-        fix: Mapping[str, float | str | Sequence[float] | Sequence[str]] | None = ...,
-        vehicle: str | None = ...,
-        vehicle_settings: Mapping[str, float] | None = ...,
-        spec: str | Sequence[str] | None = ...,
-        dense: bool | None = ...,
-        requirements: str | PathLike[str] | None = ...,
-        strategy: str | None = ...,
-        budget: int | None = ...,
-        seed: int | None = ...,
-        skip: int | None = ...,
-        k: int | None = ...,
-        epsilon: float | None = ...,
-        discrete: Literal["ipog", "random", "cross"] | None = ...,
-        delta: float | None = ...,
-        measure: Literal["dispersion", "k-wise-dispersion"] | None = ...,
-        batch: int | None = ...,
-        stop_at_first: bool | None = ...,
-        references: Sequence[str] | None = ...,
-        timeout: float | None = ...,
+        **choices: Unpack[_ScenarioChoices],
     ) -> Study: ...
     @classmethod
     def of_function(
@@ -206,49 +214,11 @@ class Study:
         space: Space | int,
         *,
         name: str | None = None,
-        spec: str | Sequence[str] | None = ...,
-        dense: bool | None = ...,
-        requirements: str | PathLike[str] | None = ...,
-        strategy: str | None = ...,
-        budget: int | None = ...,
-        seed: int | None = ...,
-        skip: int | None = ...,
-        k: int | None = ...,
-        epsilon: float | None = ...,
-        discrete: Literal["ipog", "random", "cross"] | None = ...,
-        delta: float | None = ...,
-        measure: Literal["dispersion", "k-wise-dispersion"] | None = ...,
-        batch: int | None = ...,
-        stop_at_first: bool | None = ...,
-        timeout: float | None = ...,
+        **choices: Unpack[_Choices],
     ) -> Study: ...
     def replace(
         self,
-        *,
-        scenario: str = ...,
-        driver: str | None = ...,
-        driver_command: str | None = ...,
-        driver_settings: Mapping[str, float] | None = ...,
-        open: Mapping[str, _Domain | None] | Sequence[str] | None = ...,
-        fix: Mapping[str, float | str | Sequence[float] | Sequence[str]] | None = ...,
-        vehicle: str | None = ...,
-        vehicle_settings: Mapping[str, float] | None = ...,
-        spec: str | Sequence[str] | None = ...,
-        dense: bool | None = ...,
-        requirements: str | PathLike[str] | None = ...,
-        strategy: str | None = ...,
-        budget: int | None = ...,
-        seed: int | None = ...,
-        skip: int | None = ...,
-        k: int | None = ...,
-        epsilon: float | None = ...,
-        discrete: Literal["ipog", "random", "cross"] | None = ...,
-        delta: float | None = ...,
-        measure: Literal["dispersion", "k-wise-dispersion"] | None = ...,
-        batch: int | None = ...,
-        stop_at_first: bool | None = ...,
-        references: Sequence[str] | None = ...,
-        timeout: float | None = ...,
+        **choices: Unpack[_Replaced],
     ) -> Study: ...
     @property
     def scenario(self) -> str: ...
