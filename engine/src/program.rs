@@ -118,6 +118,14 @@ pub enum ProgramError {
         /// The parameters that only the program or only the test has.
         names: Vec<String>,
     },
+    /// The program failed before its world was complete.
+    #[error("scenario `{program}` failed: {why}")]
+    Failed {
+        /// The name of the scenario.
+        program: String,
+        /// The reason that the program gave.
+        why: String,
+    },
     /// The program panicked when it built its world with nominal values.
     #[error("scenario `{program}` panicked with nominal values: {message}")]
     Panicked {
@@ -308,6 +316,9 @@ impl Program {
 
     fn built_in(&self, mut scenario: Scenario, test: Option<Test>) -> Result<Scenario, ProgramError> {
         self.build(&mut scenario);
+        if let Some(why) = scenario.failure.take() {
+            return Err(ProgramError::Failed { program: self.name().to_owned(), why });
+        }
         if let Some(car) = scenario.cars.first() {
             let recorded: Vec<_> = self.recorded.iter().map(|quantity| car.record(*quantity)).collect();
             scenario.signals.extend(recorded);

@@ -1,5 +1,6 @@
 //! Long work beside the interpreter: other threads of Python run meanwhile, and Ctrl-C ends the work.
 
+use crate::busy;
 use pyo3::{PyResult, Python};
 use std::panic;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,6 +13,9 @@ pub static STOP: AtomicBool = AtomicBool::new(false);
 
 /// The time between two looks at the signals of Python.
 const LOOK: Duration = Duration::from_millis(50);
+
+/// The time for which a function of Python may go on after Ctrl-C.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The stack of the thread that works: as large as that of a main thread.
 const STACK: usize = 8 << 20;
@@ -45,6 +49,7 @@ pub fn watched<T: Send>(
                 result
             })?;
             let mut raised = None;
+            let mut waited = Duration::ZERO;
             while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 // The first exception counts.
                 if raised.is_none()
@@ -55,6 +60,12 @@ pub fn watched<T: Send>(
                 // Other work may have taken the flag back meanwhile.
                 if raised.is_some() {
                     stop.store(true, Ordering::Relaxed);
+                    waited += LOOK;
+                }
+                // A function of Python that does not return by itself is interrupted.
+                if waited >= PATIENCE {
+                    waited = Duration::ZERO;
+                    let _ = Python::attach(busy::interrupt);
                 }
             }
             let result = worker.join().unwrap_or_else(|payload| panic::resume_unwind(payload));

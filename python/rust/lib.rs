@@ -3,6 +3,7 @@
 
 mod arrays;
 mod bracket;
+mod busy;
 mod choices;
 mod covering;
 mod detached;
@@ -22,6 +23,7 @@ mod table;
 mod test_table;
 mod trials;
 mod value;
+mod world;
 
 /// The compiled part of the package `paracosm`, which re-exports its names.
 #[pyo3::pymodule]
@@ -41,5 +43,11 @@ mod _core {
         study::Study,
         table::Table,
         test_table::Tests,
+        world::{
+            Actor, AutonomousVehicle, Car, Composite, Conditions, CrossIntersection, Effect, Environment, EnvironmentCars,
+            Fixture, Fleet, Forward, Line, Monitor, Mover, Parameter, Path, Pedestrian, Pose, Program, Road, RoadNetwork,
+            RoadSegment, Roadside, Roundabout, Scenario, Stream, Streets, TIntersection, Temporal, Walk, Walker, always,
+            eventually, grid_city, historically, never, once, until,
+        },
     };
 }

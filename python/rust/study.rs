@@ -9,9 +9,10 @@ use crate::space::{Space, cube};
 use crate::system::system_of;
 use paracosm::analysis::likelihood::Question;
 use paracosm::campaign::{StudyBuilder, Supervision};
-use paracosm::{Runner, Trial, catalogue};
+use crate::world::{Program, catalogue};
+use paracosm::{Runner, Trial};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple, PyType};
+use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,8 +21,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The description of a campaign: a scenario, a driver, the open parameters, the requirements, and the choice of tests.
 ///
 /// `Study("pedestrian-crossing", driver="aeb", open={"friction": (0.3, 0.8)}, strategy="halton", budget=500, seed=0)` is checked as a whole, and
-/// never changes. `study.replace(budget=1000)` is another study. The scenario is a name of the catalogue, or a file of OpenSCENARIO. The choices
-/// are the options of `paracosm-fuzz run`, with the same meaning and defaults.
+/// never changes. `study.replace(budget=1000)` is another study. The scenario is a name of the catalogue, a file of OpenSCENARIO, or a function
+/// of Python with `@paracosm.scenario`. The choices are the options of `paracosm-fuzz run`, with the same meaning and defaults.
 ///
 /// Raises `Error` if a choice does not exist or makes no sense.
 #[pyclass(frozen, module = "paracosm")]
@@ -31,9 +32,13 @@ pub struct Study {
     inner: paracosm::Study,
 }
 
+/// The scenario of a study that names none.
+const USUAL: &str = "pedestrian-crossing";
+
 /// The system under test: a driver in a scenario, or a function of Python.
 enum Subject {
     Scenario(String),
+    Program(Py<Program>),
     Function { name: String, function: Py<PyAny>, space: paracosm::space::Space, is_cube: bool },
 }
 
@@ -41,6 +46,7 @@ impl Subject {
     fn another(&self, py: Python) -> Self {
         match self {
             Self::Scenario(name) => Self::Scenario(name.clone()),
+            Self::Program(program) => Self::Program(program.clone_ref(py)),
             Self::Function { name, function, space, is_cube } => Self::Function {
                 name: name.clone(),
                 function: function.clone_ref(py),
@@ -50,10 +56,27 @@ impl Subject {
         }
     }
 
+    /// Reads a scenario: a program of Python, or a name of the catalogue or of a file.
+    fn of(scenario: &Bound<PyAny>) -> PyResult<Self> {
+        if let Ok(program) = scenario.cast::<Program>() {
+            return Ok(Self::Program(program.clone().unbind()));
+        }
+        if scenario.is_callable() {
+            return Err(raised("found a function, expected a scenario: write `@paracosm.scenario` above the function"));
+        }
+        match scenario.str() {
+            Ok(name) if scenario.is_instance_of::<PyString>() || scenario.hasattr("__fspath__")? => {
+                Ok(Self::Scenario(name.extract()?))
+            }
+            _ => Err(raised(format!("found {}, expected a name or a file of a scenario, or a function", scenario.repr()?))),
+        }
+    }
+
     /// Begins the study.
     fn study(&self, py: Python) -> PyResult<StudyBuilder> {
         Ok(match self.another(py) {
             Self::Scenario(name) => paracosm::Study::of(catalogue().find(&name).map_err(raised)?),
+            Self::Program(program) => paracosm::Study::of(program.get().inner.clone()),
             Self::Function { name, function, space, is_cube } => {
                 paracosm::Study::of_system(system_of(&name, function, space.clone(), is_cube), space)
             }
@@ -65,17 +88,20 @@ impl Study {
     /// Checks the choices, and builds the study.
     fn made(py: Python, subject: Subject, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
         let choices = checked(py, choices)?;
-        let inner = built(subject.study(py)?, &choices)?;
-        Ok(Self { subject, choices: choices.unbind(), inner })
+        let inner = subject.study(py).and_then(|study| built(study, &choices));
+        // A function that builds a world may have been interrupted.
+        py.check_signals()?;
+        Ok(Self { subject, choices: choices.unbind(), inner: inner? })
     }
 }
 
 #[pymethods]
 impl Study {
     #[new]
-    #[pyo3(signature = (scenario = "pedestrian-crossing", **choices))]
-    fn new(py: Python, scenario: &str, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
-        Self::made(py, Subject::Scenario(scenario.to_owned()), choices)
+    #[pyo3(signature = (scenario = None, **choices))]
+    fn new(py: Python, scenario: Option<&Bound<PyAny>>, choices: Option<&Bound<PyDict>>) -> PyResult<Self> {
+        let usual = || Ok(Subject::Scenario(USUAL.to_owned()));
+        Self::made(py, scenario.map_or_else(usual, Subject::of)?, choices)
     }
 
     /// Makes the study of a function of Python over a space. The function gets each test as a dictionary, or as an array if `space` is a number of
@@ -114,8 +140,8 @@ impl Study {
         let all = self.choices.bind(py).copy()?;
         let mut subject = self.subject.another(py);
         for (name, value) in choices.into_iter().flatten() {
-            match (name.extract::<String>()?.as_str(), &mut subject) {
-                ("scenario", Subject::Scenario(scenario)) => *scenario = value.extract()?,
+            match (name.extract::<String>()?.as_str(), &subject) {
+                ("scenario", Subject::Scenario(_) | Subject::Program(_)) => subject = Subject::of(&value)?,
                 _ => all.set_item(name, value)?,
             }
         }
@@ -127,6 +153,7 @@ impl Study {
     fn scenario(&self) -> &str {
         match &self.subject {
             Subject::Scenario(name) | Subject::Function { name, .. } => name,
+            Subject::Program(program) => program.get().inner.name(),
         }
     }
 
@@ -211,6 +238,7 @@ impl Study {
         let (this, choices) = (py.get_type::<Self>(), self.choices.bind(py).copy()?);
         let arguments = match &self.subject {
             Subject::Scenario(name) => vec![this.into_any(), name.into_pyobject(py)?.into_any()],
+            Subject::Program(program) => vec![this.into_any(), program.bind(py).clone().into_any()],
             Subject::Function { name, function, space, is_cube } => {
                 choices.set_item("name", name)?;
                 let space = match is_cube {

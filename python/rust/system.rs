@@ -1,7 +1,8 @@
 //! A function of Python as the system under test.
 
 use crate::arrays::column_of;
-use crate::error::raised;
+use crate::busy;
+use crate::error::{Error, raised};
 use crate::formula::{Trace, named};
 use crate::value::{is_truth, to_python};
 use numpy::IntoPyArray;
@@ -18,7 +19,8 @@ const ROBUSTNESS: &str = "robustness";
 pub fn system_of(name: &str, function: Py<PyAny>, space: Space, is_cube: bool) -> BlackBox {
     BlackBox::own(name, move |_, test| {
         Python::attach(|py| {
-            let asked = question(py, test, &space, is_cube).and_then(|question| function.bind(py).call1((question,)));
+            let asked = question(py, test, &space, is_cube)
+                .and_then(|question| busy::calling(py, || function.bind(py).call1((question,))));
             let answered = asked.and_then(|answer| answer_of(&answer));
             // What the function raises ends the test, and not the campaign.
             answered.unwrap_or_else(|error| Ok(Answer::NotDone { why: in_words(py, &error) }))
@@ -78,7 +80,7 @@ fn answer_of(answer: &Bound<PyAny>) -> PyResult<Result<Answer, AnswerFlaw>> {
 }
 
 /// Returns an exception in a line, with the place in the user's code where it was raised.
-fn in_words(py: Python, error: &PyErr) -> String {
+pub fn in_words(py: Python, error: &PyErr) -> String {
     let place = || -> PyResult<String> {
         let mut at = error.traceback(py).ok_or_else(|| raised("no place"))?.into_any();
         while let Some(next) = at.getattr_opt("tb_next")?.filter(|next| !next.is_none()) {
@@ -89,6 +91,10 @@ fn in_words(py: Python, error: &PyErr) -> String {
         let file = file.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
         Ok(format!(" ({file}, line {}, in {})", at.getattr("tb_lineno")?, code.getattr("co_name")?))
     };
-    let kind = error.get_type(py).name().map(|name| name.to_string()).unwrap_or_default();
-    format!("{kind}: {}{}", error.value(py), place().unwrap_or_default())
+    // The messages of the package speak for themselves.
+    let kind = match error.is_instance_of::<Error>(py) {
+        true => String::new(),
+        false => error.get_type(py).name().map(|name| format!("{name}: ")).unwrap_or_default(),
+    };
+    format!("{kind}{}{}", error.value(py), place().unwrap_or_default())
 }

@@ -5,6 +5,7 @@
 //! are collected and reported when the function has returned, so programs need no `?` on every line.
 
 mod constraint;
+mod declaring;
 mod draft;
 mod ego;
 mod environment;
@@ -30,11 +31,10 @@ use crate::road::RoadNetwork;
 use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Sketch, Slot, Source, Stream, dot};
 use crate::test::{Declared, Test};
 use crate::weather::WeatherPart;
-use paracosm_space::{Domain, Parameter, Shape, Value};
-use param::{Keys, Read};
-use std::cell::{Cell, RefCell};
+use paracosm_space::{Shape, Value};
+use param::Keys;
+use std::cell::{Cell, Ref, RefCell};
 use std::collections::HashMap;
-use std::ops::RangeInclusive;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -56,6 +56,8 @@ pub struct Scenario {
     uses: Rc<RefCell<Vec<reach::Use>>>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) flaws: Flaws,
+    /// The reason why the program failed, if it failed.
+    pub(crate) failure: Option<String>,
     /// The networks that were placed; `None` for a network that cannot be built.
     pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
     pub(crate) cars: Vec<EgoSetup>,
@@ -111,6 +113,14 @@ impl Place for Effect {
     }
 }
 
+/// A scenario without a test and without objects. An interpreter that needs a scenario of its own takes the scenario of a program by
+/// [`std::mem::take`], and gives it back before the program returns.
+impl Default for Scenario {
+    fn default() -> Self {
+        Self::new(None)
+    }
+}
+
 impl Scenario {
     pub(crate) fn new(test: Option<&Test>) -> Self {
         let given = |(name, value): (&str, &Value)| {
@@ -125,6 +135,7 @@ impl Scenario {
             uses: Rc::default(),
             constraints: Vec::new(),
             flaws: Rc::default(),
+            failure: None,
             networks: Vec::new(),
             cars: Vec::new(),
             objects: Vec::new(),
@@ -145,64 +156,6 @@ impl Scenario {
             equations: Rc::default(),
             graph: Graph::default(),
         }
-    }
-
-    /// Declares an open parameter with values in an interval.
-    pub fn interval(&mut self, name: &str, range: RangeInclusive<f64>) -> Param<f64> {
-        let (lo, hi) = range.into_inner();
-        self.declare(name, Domain::Interval { lo, hi }, None, Read::number())
-    }
-
-    /// Declares a closed parameter, which stays at `nominal` until a study opens it within the interval `range`.
-    pub fn nominal(&mut self, name: &str, range: RangeInclusive<f64>, nominal: f64) -> Param<f64> {
-        let (lo, hi) = range.into_inner();
-        self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()), Read::number())
-    }
-
-    /// Declares an open parameter that takes one of the given values, of which there is at least one.
-    pub fn choice<T: Into<Value> + Clone + 'static, const N: usize>(&mut self, name: &str, levels: [T; N]) -> Param<T> {
-        const { assert!(N > 0, "a choice needs at least one value") }
-        self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))
-    }
-
-    /// Declares a closed parameter, which stays at `nominal` until a study opens it to all values in `levels`.
-    pub fn nominal_choice<T: Into<Value> + Clone + 'static, const N: usize>(
-        &mut self,
-        name: &str,
-        levels: [T; N],
-        nominal: T,
-    ) -> Param<T> {
-        const { assert!(N > 0, "a choice needs at least one value") }
-        let domain = Domain::Choice(levels.clone().map(Into::into).into());
-        self.declare(name, domain, Some(nominal.into()), Read::level(levels))
-    }
-
-    /// Declares a parameter that was described as data, for example in a file.
-    pub fn parameter(&mut self, declared: Declared) -> Param<Value> {
-        self.described(declared, Read::value())
-    }
-
-    /// Declares a closed parameter that takes any text, such as the path of a file. It stays at `nominal` until a study sets
-    /// it, or opens it to several texts.
-    pub fn text(&mut self, name: &str, nominal: &str) -> Param<String> {
-        let text = self.declare(name, Domain::Choice(vec![nominal.into()]), Some(nominal.into()), Read::text());
-        text.taking_texts()
-    }
-
-    fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
-        let open = nominal.is_none();
-        let mut parameter = Parameter::new(name, domain);
-        parameter.default = nominal;
-        self.described(Declared { open, ..Declared::open(parameter) }, read)
-    }
-
-    fn described<T: Clone>(&mut self, declared: Declared, read: Read<T>) -> Param<T> {
-        // A name that the test does not know is reported once the program has returned, together with all the others.
-        let name = &declared.parameter.name;
-        let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
-        self.parameters.borrow_mut().push(declared);
-        self.uses.borrow_mut().push(reach::Use::default());
-        Param::new(self, given.unwrap_or_default(), read)
     }
 
     /// Returns the shape of a signal with one value for each tick, and thus one coordinate for each tick. Set the
@@ -322,6 +275,17 @@ impl Scenario {
     /// that the intervals of the parameters cannot express.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(WorldFlaw::Refused { why: why.to_owned() });
+    }
+
+    /// Says that the program failed, for example because an interpreter raised an exception. The world cannot be built then, and the test
+    /// ends in an error.
+    pub fn fail(&mut self, why: &str) {
+        self.failure.get_or_insert_with(|| why.to_owned());
+    }
+
+    /// Returns the mistakes that have been found so far. Other mistakes are found once the program has returned.
+    pub fn flaws(&self) -> Ref<'_, Vec<WorldFlaw>> {
+        self.flaws.borrow()
     }
 
     /// Sets the duration of a run without a contact, in simulated seconds; the default is 10.

@@ -1,0 +1,322 @@
+//! The others in a world: pedestrians, vehicles that move as the scenario says, things that stand still, and the roadside.
+
+use super::building::Building;
+use super::ego::class_of;
+use super::place::{Path, Pose};
+use super::stream::Stream;
+use super::wire::{Operand, each};
+use crate::error::raised;
+use paracosm::engine::object::{Body, VehicleKind};
+use paracosm::engine::{self, Place};
+use paracosm::space::{did_you_mean, nearest};
+use pyo3::prelude::*;
+
+/// A person on foot, who is not placed yet and stands at a pose.
+#[pyclass(frozen, module = "paracosm")]
+pub struct Pedestrian {
+    inner: engine::Pedestrian,
+}
+
+#[pymethods]
+impl Pedestrian {
+    #[new]
+    fn new(start: &Pose) -> Self {
+        Self { inner: engine::Pedestrian::at(start.inner) }
+    }
+
+    /// Makes a child who stands at a pose.
+    #[staticmethod]
+    fn child(start: &Pose) -> Self {
+        Self { inner: engine::Pedestrian::child(start.inner) }
+    }
+
+    /// Returns the pedestrian with a name for traces and requirements.
+    fn named(&self, name: &str) -> Self {
+        Self { inner: self.inner.clone().named(name) }
+    }
+
+    /// Returns the pedestrian with the acceleration in m/s² with which it becomes faster and slower. Without it, a new speed holds at once.
+    fn accelerating(&self, acceleration: f64) -> Self {
+        Self { inner: self.inner.clone().accelerating(acceleration) }
+    }
+}
+
+impl Pedestrian {
+    /// Places the pedestrian in a scenario.
+    ///
+    /// # Errors
+    /// The scenario has noted a mistake.
+    pub fn place(&self, building: &Building) -> PyResult<Walker> {
+        let inner = building.with(|scenario| self.inner.clone().place(scenario))?;
+        Ok(Walker { building: building.clone(), inner })
+    }
+}
+
+/// A pedestrian in the world.
+#[pyclass(frozen, unsendable, module = "paracosm")]
+pub struct Walker {
+    building: Building,
+    inner: engine::Walker,
+}
+
+#[pymethods]
+impl Walker {
+    /// Lets the pedestrian walk straight to `target` with a speed in m/s, and stop there. The pedestrian stands while the speed is absent.
+    fn walk(&self, target: &Pose, speed: &Bound<PyAny>) -> PyResult<Walk> {
+        let speed = Operand::numbers(speed, "speed")?;
+        let inner = self.building.with(|_| self.inner.walk(target.inner, speed))?;
+        Ok(Walk { building: self.building.clone(), inner: std::cell::RefCell::new(Some(inner)) })
+    }
+
+    /// Returns the position of the pedestrian.
+    fn position(&self) -> Stream {
+        Stream::of(&self.building, self.inner.position())
+    }
+
+    /// Returns the distance that the pedestrian still has to walk, in metres.
+    fn remaining(&self) -> Stream {
+        Stream::of(&self.building, self.inner.remaining())
+    }
+
+    /// Returns a stream that is true while the pedestrian stands at the target.
+    fn arrived(&self) -> Stream {
+        Stream::of(&self.building, self.inner.arrived())
+    }
+}
+
+/// The walk of a pedestrian, which can begin and end by events.
+#[pyclass(frozen, unsendable, module = "paracosm")]
+pub struct Walk {
+    building: Building,
+    inner: std::cell::RefCell<Option<engine::Walk>>,
+}
+
+impl Walk {
+    fn changed(&self, change: impl FnOnce(engine::Walk) -> engine::Walk) -> PyResult<()> {
+        self.building.with(|_| {
+            let walk = self.inner.take();
+            *self.inner.borrow_mut() = walk.map(change);
+        })
+    }
+}
+
+#[pymethods]
+impl Walk {
+    /// Lets the walk begin at the first tick at which `event` occurs.
+    fn skip_until<'py>(slf: Bound<'py, Self>, event: &Stream) -> PyResult<Bound<'py, Self>> {
+        let event = event.wire()?;
+        slf.try_borrow()?.changed(|walk| each!(&event, event => walk.skip_until(event)))?;
+        Ok(slf)
+    }
+
+    /// Lets the walk end at the first tick at which `event` occurs.
+    fn take_until<'py>(slf: Bound<'py, Self>, event: &Stream) -> PyResult<Bound<'py, Self>> {
+        let event = event.wire()?;
+        slf.try_borrow()?.changed(|walk| each!(&event, event => walk.take_until(event)))?;
+        Ok(slf)
+    }
+}
+
+/// Something that moves along a path, and does not react to others. `body` is a kind ("car", "van", "truck", "bus", "motorcycle", "bicycle",
+/// "adult", "child"), or a class with length, width and height in metres. It stands still until it gets a speed.
+#[pyclass(frozen, unsendable, module = "paracosm")]
+pub struct Mover {
+    inner: engine::Mover,
+}
+
+#[pymethods]
+impl Mover {
+    #[new]
+    fn new(name: &str, body: &Bound<PyAny>, path: &Path) -> PyResult<Self> {
+        Ok(Self { inner: engine::Mover::new(name, body_of(body)?, path.inner.clone()) })
+    }
+
+    /// Makes a passenger car called "other".
+    #[staticmethod]
+    fn car(path: &Path) -> Self {
+        Self { inner: engine::Mover::car(path.inner.clone()) }
+    }
+
+    /// Makes a lorry called "truck".
+    #[staticmethod]
+    fn truck(path: &Path) -> Self {
+        Self { inner: engine::Mover::truck(path.inner.clone()) }
+    }
+
+    /// Makes a bicycle called "bicycle".
+    #[staticmethod]
+    fn bicycle(path: &Path) -> Self {
+        Self { inner: engine::Mover::bicycle(path.inner.clone()) }
+    }
+
+    /// Returns the object with another name for traces and requirements.
+    fn named(&self, name: &str) -> Self {
+        Self { inner: self.inner.clone().named(name) }
+    }
+
+    /// Returns the object with the start of its middle, in metres along the path.
+    fn starting(&self, at: f64) -> Self {
+        Self { inner: self.inner.clone().starting(at) }
+    }
+
+    /// Returns the object with a speed along the path in m/s: a number or a stream from 0 on.
+    fn speed(&self, speed: &Bound<PyAny>) -> PyResult<Self> {
+        Ok(Self { inner: self.inner.clone().speed(Operand::numbers(speed, "speed")?) })
+    }
+
+    /// Returns the object with a distance to the left of the path in metres: a number or a stream, for example for a change of lanes.
+    fn offset(&self, offset: &Bound<PyAny>) -> PyResult<Self> {
+        Ok(Self { inner: self.inner.clone().offset(Operand::numbers(offset, "offset")?) })
+    }
+}
+
+impl Mover {
+    /// Places the object in a scenario.
+    ///
+    /// # Errors
+    /// The scenario has noted a mistake.
+    pub fn place(&self, building: &Building) -> PyResult<Actor> {
+        let inner = building.with(|scenario| self.inner.clone().place(scenario))?;
+        Ok(Actor { building: building.clone(), inner })
+    }
+}
+
+/// Something in the world that moves along a path.
+#[pyclass(frozen, unsendable, module = "paracosm")]
+pub struct Actor {
+    building: Building,
+    inner: engine::Actor,
+}
+
+#[pymethods]
+impl Actor {
+    /// Gives the object another speed in m/s.
+    fn drive(&self, speed: &Bound<PyAny>) -> PyResult<()> {
+        let speed = Operand::numbers(speed, "speed")?;
+        self.building.with(|_| self.inner.drive(speed))
+    }
+
+    /// Gives the object another distance to the left of the path in metres.
+    fn shift(&self, offset: &Bound<PyAny>) -> PyResult<()> {
+        let offset = Operand::numbers(offset, "offset")?;
+        self.building.with(|_| self.inner.shift(offset))
+    }
+
+    /// Returns the position of the object's middle.
+    fn position(&self) -> Stream {
+        Stream::of(&self.building, self.inner.position())
+    }
+
+    /// Returns the speed of the object in m/s.
+    fn speed(&self) -> Stream {
+        Stream::of(&self.building, self.inner.speed())
+    }
+
+    /// Returns the distance that the object has travelled along the path, in metres.
+    fn travelled(&self) -> Stream {
+        Stream::of(&self.building, self.inner.travelled())
+    }
+
+    /// Returns the distance from the object to the end of its path, in metres.
+    fn remaining(&self) -> Stream {
+        Stream::of(&self.building, self.inner.remaining())
+    }
+
+    /// Returns a stream that is true while the object stands at the end of its path.
+    fn arrived(&self) -> Stream {
+        Stream::of(&self.building, self.inner.arrived())
+    }
+}
+
+/// Something that stands still at a pose. `body` is as that of a `Mover`.
+#[pyclass(frozen, module = "paracosm")]
+pub struct Fixture {
+    inner: engine::Fixture,
+}
+
+#[pymethods]
+impl Fixture {
+    #[new]
+    fn new(name: &str, body: &Bound<PyAny>, at: &Pose) -> PyResult<Self> {
+        Ok(Self { inner: engine::Fixture::new(name, body_of(body)?, at.inner) })
+    }
+
+    /// Makes a house of two storeys, 10 m by 8 m.
+    #[staticmethod]
+    fn house(at: &Pose) -> Self {
+        Self { inner: engine::Fixture::house(at.inner) }
+    }
+
+    /// Makes a tree. Only its trunk is in the way.
+    #[staticmethod]
+    fn tree(at: &Pose) -> Self {
+        Self { inner: engine::Fixture::tree(at.inner) }
+    }
+
+    /// Makes a traffic sign on a post.
+    #[staticmethod]
+    fn sign(at: &Pose) -> Self {
+        Self { inner: engine::Fixture::sign(at.inner) }
+    }
+
+    /// Makes a parked car without a driver.
+    #[staticmethod]
+    fn parked_car(at: &Pose) -> Self {
+        Self { inner: engine::Fixture::parked_car(at.inner) }
+    }
+}
+
+impl Fixture {
+    /// Places the object in a scenario.
+    ///
+    /// # Errors
+    /// The scenario has noted a mistake.
+    pub fn place(&self, building: &Building) -> PyResult<()> {
+        building.with(|scenario| self.inner.clone().place(scenario))
+    }
+}
+
+/// Scenery that fills a share of the places beside the roads, from 0 to 1. Place it after everything else.
+#[pyclass(frozen, module = "paracosm")]
+pub struct Roadside {
+    fullness: f64,
+}
+
+#[pymethods]
+impl Roadside {
+    #[new]
+    fn new(fullness: f64) -> Self {
+        Self { fullness }
+    }
+}
+
+impl Roadside {
+    /// Places the scenery in a scenario.
+    ///
+    /// # Errors
+    /// The scenario has noted a mistake.
+    pub fn place(&self, building: &Building) -> PyResult<()> {
+        building.with(|scenario| engine::Roadside::new(self.fullness).place(scenario))
+    }
+}
+
+/// Reads a body: the name of a kind, or a class with length, width and height.
+fn body_of(found: &Bound<PyAny>) -> PyResult<Body> {
+    if let Ok((class, length, width, height)) = found.extract::<(String, f64, f64, f64)>() {
+        return Ok(Body::block(class_of(&class)?, length, width, height));
+    }
+    let name: String = found.extract().map_err(|_| {
+        raised("a body is a kind, such as \"car\", or a tuple of a class, a length, a width and a height in metres")
+    })?;
+    match name.as_str() {
+        "adult" => return Ok(Body::adult()),
+        "child" => return Ok(Body::child()),
+        _ => {}
+    }
+    let kind = VehicleKind::ALL.iter().find(|kind| kind.name == name);
+    kind.map(|kind| Body::of(kind)).ok_or_else(|| {
+        let names: Vec<&str> = VehicleKind::ALL.iter().map(|kind| kind.name).chain(["adult", "child"]).collect();
+        let meant = did_you_mean(&nearest(&name, names.iter().copied()));
+        raised(format!("no kind of body is called `{name}`{meant}; the kinds are {}", names.join(", ")))
+    })
+}

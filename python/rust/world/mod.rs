@@ -1,0 +1,31 @@
+//! Worlds as programs of Python: the same objects and the same graph of streams as in Rust. A function of Python builds the world of each test
+//! once, and the run needs Python no more.
+
+mod actors;
+mod building;
+mod called;
+mod ego;
+mod environment;
+mod network;
+mod parameter;
+mod place;
+mod program;
+mod road;
+mod scenario;
+mod stream;
+mod temporal;
+mod traffic;
+mod wire;
+
+pub use actors::{Actor, Fixture, Mover, Pedestrian, Roadside, Walk, Walker};
+pub use ego::{AutonomousVehicle, Car};
+pub use environment::{Conditions, Environment};
+pub use network::{Composite, CrossIntersection, RoadNetwork, Roundabout, Streets, TIntersection, grid_city};
+pub use parameter::Parameter;
+pub use place::{Line, Path, Pose};
+pub use program::{Program, catalogue};
+pub use road::{Road, RoadSegment};
+pub use scenario::Scenario;
+pub use stream::{Effect, Forward, Stream};
+pub use temporal::{Monitor, Temporal, always, eventually, historically, never, once, until};
+pub use traffic::{EnvironmentCars, Fleet};

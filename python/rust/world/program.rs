@@ -1,0 +1,130 @@
+//! `Program`: a scenario that a function of Python builds.
+
+use super::building::Building;
+use super::scenario::Scenario;
+use crate::busy;
+use crate::error::raised;
+use crate::json::to_dict;
+use crate::system::in_words;
+use paracosm::Catalogue;
+use paracosm::engine;
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The scenarios of this process by their names. The latest of a name counts, because a cell of a notebook runs again.
+static PROGRAMS: Mutex<BTreeMap<String, engine::Program>> = Mutex::new(BTreeMap::new());
+
+/// Returns the catalogue of the library with the scenarios of this process.
+pub fn catalogue() -> Catalogue {
+    let programs = PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner);
+    programs.values().cloned().fold(paracosm::catalogue(), Catalogue::with)
+}
+
+/// A scenario that a function of Python builds. `@paracosm.scenario` makes it.
+#[pyclass(frozen, module = "paracosm")]
+pub struct Program {
+    pub inner: engine::Program,
+    function: Arc<Py<PyAny>>,
+    hash: Option<String>,
+}
+
+#[pymethods]
+impl Program {
+    #[new]
+    #[pyo3(signature = (function, name, about, hash = None))]
+    fn new(function: Py<PyAny>, name: String, about: String, hash: Option<String>) -> Self {
+        let function = Arc::new(function);
+        let own = Arc::clone(&function);
+        let mut inner = engine::Program::of(name, about, move |scenario| build(&own, scenario));
+        if let Some(hash) = hash.clone() {
+            inner = inner.of_files([], move |_| Some(hash.clone()));
+        }
+        let mut programs = PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner);
+        programs.insert(inner.name().to_owned(), inner.clone());
+        Self { inner, function, hash }
+    }
+
+    /// The name: the file and the function, or the function alone if it stands in no file.
+    #[getter]
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+
+    /// The description in one line: the first line of the documentation of the function.
+    #[getter]
+    fn about(&self) -> &str {
+        self.inner.about()
+    }
+
+    /// The function.
+    #[getter]
+    fn function(&self, py: Python) -> Py<PyAny> {
+        self.function.clone_ref(py)
+    }
+
+    /// The hash of the file; `None` if the function stands in no file.
+    #[getter]
+    fn hash(&self) -> Option<&str> {
+        self.hash.as_deref()
+    }
+
+    /// Builds the world in the scenario of another function, which goes on from there.
+    fn __call__(&self, py: Python, scenario: &Bound<PyAny>) -> PyResult<Py<PyAny>> {
+        self.function.call1(py, (scenario,))
+    }
+
+    /// Returns the parameters and the requirements that the scenario declares.
+    ///
+    /// Raises `Error` if the world cannot be built with nominal values.
+    fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let declaration = self.inner.declare().map_err(raised)?;
+        let parameters: Vec<_> = declaration.parameters.iter().map(|declared| &declared.parameter).collect();
+        let requirements: Vec<_> = declaration.requirements.iter().map(|one| (&one.id, &one.text, &one.unit)).collect();
+        to_dict(py, &serde_json::json!({ "parameters": parameters, "requirements": requirements }))
+    }
+
+    /// Returns the graph of the streams with nominal values, in the language DOT of Graphviz.
+    ///
+    /// Raises `Error` if the world cannot be built with nominal values.
+    fn dot(&self) -> PyResult<String> {
+        self.inner.dot().map_err(raised)
+    }
+
+    /// Says how to find the scenario again from a pickle: by its module and the name of its function.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>, Bound<'py, PyAny>))> {
+        let (py, function) = (slf.py(), slf.get().function.bind(slf.py()));
+        let find = py.import("paracosm._scenarios")?.getattr("_found")?;
+        Ok((find, (function.getattr("__module__")?, function.getattr("__qualname__")?)))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Program({}: {})", self.inner.name(), self.inner.about())
+    }
+}
+
+/// Calls the function with a scenario. What it raises is the failure of the scenario.
+fn build(function: &Py<PyAny>, scenario: &mut engine::Scenario) {
+    let failure = Python::attach(|py| {
+        let built = Building::lent(scenario, |building| {
+            let handle = Bound::new(py, Scenario::of(building))?;
+            let returned = busy::calling(py, || function.bind(py).call1((handle,)))?;
+            if returned.is_none() {
+                return Ok(());
+            }
+            let found = returned.get_type().name()?;
+            Err(raised(format!("the function of the scenario returned a value of the type {found}, expected nothing: it builds in the scenario")))
+        });
+        let error = built.err()?;
+        let why = in_words(py, &error);
+        if error.is_instance_of::<PyKeyboardInterrupt>(py) && busy::is_main_thread(py).unwrap_or(false) {
+            // The caller gets the interrupt as soon as it looks for signals.
+            let _ = py.import("_thread").and_then(|thread| thread.call_method0("interrupt_main"));
+        }
+        Some(why)
+    });
+    if let Some(why) = failure {
+        scenario.fail(&why);
+    }
+}

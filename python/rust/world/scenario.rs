@@ -1,0 +1,260 @@
+//! `Scenario`: what a function of Python builds a world in.
+
+use super::actors::{Fixture, Mover, Pedestrian, Roadside};
+use super::building::Building;
+use super::called::Kind;
+use super::ego::AutonomousVehicle;
+use super::environment::Environment;
+use super::network::placed;
+use super::parameter::{Parameter, Said};
+use super::road::RoadSegment;
+use super::stream::{Effect, Forward};
+use super::temporal::{Monitor, statement};
+use super::traffic::EnvironmentCars;
+use super::wire::Operand;
+use crate::error::raised;
+use crate::value::value_of;
+use paracosm::engine::{Declared, RequirementDraft};
+use paracosm::space::constraint::Expression;
+use paracosm::space::{Domain, Value};
+use pyo3::prelude::*;
+
+/// A world under construction, which the function of a scenario gets. It declares parameters, places objects, and states requirements.
+#[pyclass(frozen, unsendable, module = "paracosm")]
+pub struct Scenario {
+    building: Building,
+}
+
+impl Scenario {
+    /// Makes the scenario that a function of Python gets.
+    pub fn of(building: &Building) -> Self {
+        Self { building: building.clone() }
+    }
+
+    fn stated(&self, draft: RequirementDraft, said: (Option<String>, Option<String>, Option<f64>)) {
+        let (text, unit, scale) = said;
+        let draft = text.iter().fold(draft, |draft, text| draft.text(text));
+        let draft = unit.iter().fold(draft, |draft, unit| draft.unit(unit));
+        let _ = scale.into_iter().fold(draft, RequirementDraft::scale);
+    }
+}
+
+/// Reads a value of a parameter if there is one.
+fn given(found: Option<&Bound<PyAny>>, name: &str) -> PyResult<Option<Value>> {
+    found.map(|found| value_of(found, &format!("parameter `{name}`"))).transpose()
+}
+
+#[pymethods]
+impl Scenario {
+    /// Declares an open parameter with the numbers from `low` to `high`. Tests vary it.
+    ///
+    /// `default` is its nominal value, `plausible` the range that occurs in the world, and `signal` the shape of a parameter that varies while a
+    /// test runs, such as "piecewise-constant(4)". The marks `incidental` and `atmospheric` are as those of the library in Rust.
+    #[pyo3(signature = (name, low, high, *, unit = None, default = None, plausible = None, signal = None, incidental = false, atmospheric = false))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn interval(
+        &self,
+        py: Python,
+        name: &str,
+        low: f64,
+        high: f64,
+        unit: Option<String>,
+        default: Option<&Bound<PyAny>>,
+        plausible: Option<[f64; 2]>,
+        signal: Option<String>,
+        incidental: bool,
+        atmospheric: bool,
+    ) -> PyResult<Py<Parameter>> {
+        let declared = Declared::open(paracosm::space::Parameter::new(name, Domain::Interval { lo: low, hi: high }));
+        let default = given(default, name)?;
+        let said = Said { unit, default, opens: None, plausible, signal, incidental, atmospheric };
+        Parameter::declared(py, &self.building, declared, said)
+    }
+
+    /// Declares a closed parameter with the numbers from `low` to `high`. It stays at `nominal` until a study opens it; then tests vary it in
+    /// `opens`, or in the whole interval.
+    #[pyo3(signature = (name, low, high, nominal, *, unit = None, opens = None, plausible = None, signal = None, incidental = false, atmospheric = false))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn nominal(
+        &self,
+        py: Python,
+        name: &str,
+        low: f64,
+        high: f64,
+        nominal: f64,
+        unit: Option<String>,
+        opens: Option<[f64; 2]>,
+        plausible: Option<[f64; 2]>,
+        signal: Option<String>,
+        incidental: bool,
+        atmospheric: bool,
+    ) -> PyResult<Py<Parameter>> {
+        let parameter = paracosm::space::Parameter::new(name, Domain::Interval { lo: low, hi: high });
+        let declared = Declared { open: false, ..Declared::open(parameter) };
+        let default = Some(Value::Number(nominal));
+        let said = Said { unit, default, opens, plausible, signal, incidental, atmospheric };
+        Parameter::declared(py, &self.building, declared, said)
+    }
+
+    /// Declares an open parameter that takes one of some values: numbers or words.
+    #[pyo3(signature = (name, values, *, unit = None, default = None, signal = None, incidental = false, atmospheric = false))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn choice(
+        &self,
+        py: Python,
+        name: &str,
+        values: Vec<Bound<PyAny>>,
+        unit: Option<String>,
+        default: Option<&Bound<PyAny>>,
+        signal: Option<String>,
+        incidental: bool,
+        atmospheric: bool,
+    ) -> PyResult<Py<Parameter>> {
+        let declared = Declared::open(paracosm::space::Parameter::new(name, levels(name, &values)?));
+        let default = given(default, name)?;
+        let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
+        Parameter::declared(py, &self.building, declared, said)
+    }
+
+    /// Declares a closed parameter that takes one of some values, and stays at `nominal` until a study opens it.
+    #[pyo3(signature = (name, values, nominal, *, unit = None, signal = None, incidental = false, atmospheric = false))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn nominal_choice(
+        &self,
+        py: Python,
+        name: &str,
+        values: Vec<Bound<PyAny>>,
+        nominal: &Bound<PyAny>,
+        unit: Option<String>,
+        signal: Option<String>,
+        incidental: bool,
+        atmospheric: bool,
+    ) -> PyResult<Py<Parameter>> {
+        let parameter = paracosm::space::Parameter::new(name, levels(name, &values)?);
+        let declared = Declared { open: false, ..Declared::open(parameter) };
+        let default = given(Some(nominal), name)?;
+        let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
+        Parameter::declared(py, &self.building, declared, said)
+    }
+
+    /// Places an object in the world, and returns its handle.
+    fn place<'py>(&self, py: Python<'py>, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let building = &self.building;
+        if let Ok(road) = object.cast::<RoadSegment>() {
+            return Ok(Bound::new(py, road.try_borrow()?.place(building)?)?.into_any());
+        }
+        if let Ok(car) = object.cast::<AutonomousVehicle>() {
+            return Ok(Bound::new(py, car.try_borrow()?.place(building)?)?.into_any());
+        }
+        if let Ok(pedestrian) = object.cast::<Pedestrian>() {
+            return Ok(Bound::new(py, pedestrian.get().place(building)?)?.into_any());
+        }
+        if let Ok(mover) = object.cast::<Mover>() {
+            return Ok(Bound::new(py, mover.try_borrow()?.place(building)?)?.into_any());
+        }
+        if let Ok(cars) = object.cast::<EnvironmentCars>() {
+            return Ok(Bound::new(py, cars.try_borrow()?.place(building)?)?.into_any());
+        }
+        if let Ok(environment) = object.cast::<Environment>() {
+            return Ok(Bound::new(py, environment.try_borrow()?.place(building)?)?.into_any());
+        }
+        if let Ok(fixture) = object.cast::<Fixture>() {
+            fixture.get().place(building)?;
+            return Ok(py.None().into_bound(py));
+        }
+        if let Ok(roadside) = object.cast::<Roadside>() {
+            roadside.get().place(building)?;
+            return Ok(py.None().into_bound(py));
+        }
+        if let Ok(effect) = object.cast::<Effect>() {
+            effect.try_borrow()?.place(building)?;
+            return Ok(py.None().into_bound(py));
+        }
+        match placed(object, building)? {
+            Some(streets) => Ok(Bound::new(py, streets)?.into_any()),
+            None => {
+                let kind = object.get_type().name()?;
+                Err(raised(format!("place: found a value of the type {kind}, expected an object such as a RoadSegment or a Pedestrian")))
+            }
+        }
+    }
+
+    /// States a requirement on every run. `asked` is a statement, such as `never(car.collides())`. `text` is a sentence for people, `unit` the unit
+    /// of the robustness, and `scale` the robustness that counts as large.
+    #[pyo3(signature = (id, asked, *, text = None, unit = None, scale = None))]
+    fn require(
+        &self,
+        id: &str,
+        asked: &Bound<PyAny>,
+        text: Option<String>,
+        unit: Option<String>,
+        scale: Option<f64>,
+    ) -> PyResult<()> {
+        let asked = statement(asked, "require")?;
+        let draft = self.building.with(|scenario| scenario.require(id, asked))?;
+        self.stated(draft, (text, unit, scale));
+        Ok(())
+    }
+
+    /// States a usual requirement, with other words, another unit or another scale if there are any.
+    #[pyo3(signature = (monitor, *, text = None, unit = None, scale = None))]
+    fn monitor(
+        &self,
+        monitor: &Monitor,
+        text: Option<String>,
+        unit: Option<String>,
+        scale: Option<f64>,
+    ) -> PyResult<()> {
+        let draft = self.building.with(|scenario| scenario.monitor(monitor.inner.clone()))?;
+        self.stated(draft, (text, unit, scale));
+        Ok(())
+    }
+
+    /// Sets the event that the test is about. If it never occurs and nothing is violated, the verdict is "inconclusive".
+    fn premise(&self, event: &Bound<PyAny>) -> PyResult<()> {
+        let event = Operand::of(event, "premise")?.wire.truths("premise")?;
+        self.building.with(|scenario| scenario.premise(&event))
+    }
+
+    /// Ends every run at the first tick at which `event` occurs.
+    fn end(&self, event: &Bound<PyAny>) -> PyResult<()> {
+        let event = Operand::of(event, "end")?.wire.truths("end")?;
+        self.building.with(|scenario| scenario.end(&event))
+    }
+
+    /// States a constraint between parameters, such as "gap >= 0.5 * speed". No test breaks it.
+    fn constrain(&self, constraint: &str) -> PyResult<()> {
+        let expression: Expression = constraint.parse().map_err(raised)?;
+        self.building.with(|scenario| scenario.constrain(expression))
+    }
+
+    /// Makes the test invalid, because its world is impossible. Return from the function afterwards.
+    fn refuse(&self, why: &str) -> PyResult<()> {
+        self.building.refuse(why)
+    }
+
+    /// Sets the duration of a run in simulated seconds; without it, 10.
+    fn duration(&self, seconds: f64) -> PyResult<()> {
+        self.building.with(|scenario| scenario.duration(seconds))
+    }
+
+    /// Sets the duration of a tick in seconds; without it, 0.01.
+    fn tick(&self, seconds: f64) -> PyResult<()> {
+        self.building.with(|scenario| scenario.tick(seconds))
+    }
+
+    /// Announces a stream that is used before it is defined. `type` is the type of its values: `float`, `bool` or `tuple`.
+    #[pyo3(signature = (name, r#type = None))]
+    fn forward(&self, py: Python, name: &str, r#type: Option<&Bound<PyAny>>) -> PyResult<Py<Forward>> {
+        Forward::new(py, &self.building, name, Kind::of(r#type)?)
+    }
+}
+
+/// Makes the domain of a choice.
+fn levels(name: &str, values: &[Bound<PyAny>]) -> PyResult<Domain> {
+    if values.is_empty() {
+        return Err(raised(format!("parameter `{name}` has no values, expected at least one")));
+    }
+    let values = values.iter().map(|value| value_of(value, &format!("parameter `{name}`")));
+    Ok(Domain::Choice(values.collect::<PyResult<_>>()?))
+}

@@ -1,0 +1,445 @@
+//! `Stream`: values that change from tick to tick. Operators make nodes of the graph, so Python is not asked while a test runs.
+
+use super::building::Building;
+use super::called::{Called, Datum, Kind};
+use super::place::Line;
+use super::wire::{Operand, Sign, Wire, both, each};
+use crate::error::raised;
+use nalgebra::Vector2;
+use paracosm::engine::{self, Param};
+use pyo3::basic::CompareOp;
+use pyo3::prelude::*;
+use pyo3::types::PyNone;
+
+/// Where a stream comes from. A parameter is a stream from the moment on at which it is used as one.
+#[derive(Clone)]
+pub enum Origin {
+    Wire(Wire),
+    Number(Param<f64>),
+    /// A parameter of words is no stream.
+    Word(String),
+}
+
+/// A value at each tick: numbers, truths, vectors, or events.
+///
+/// Operators make other streams: `+ - * /`, comparisons, and `& | ~` for "and", "or" and "not". They are nodes of the graph that a run
+/// evaluates, so nothing of Python runs in a test. Only `map`, `filter`, `scan` and `for_each` with a function of Python call it at every tick.
+#[pyclass(frozen, unsendable, subclass, module = "paracosm")]
+#[derive(Clone)]
+pub struct Stream {
+    /// The scenario that the stream belongs to; `None` if it belongs to none.
+    pub building: Option<Building>,
+    pub origin: Origin,
+}
+
+impl Stream {
+    /// Makes a stream of a scenario.
+    pub fn of(building: &Building, wire: impl Into<Wire>) -> Self {
+        Self { building: Some(building.clone()), origin: Origin::Wire(wire.into()) }
+    }
+
+    /// Returns the stream of the library.
+    ///
+    /// # Errors
+    /// The scenario of the stream is complete, or it is a parameter that cannot be a stream.
+    pub fn wire(&self) -> PyResult<Wire> {
+        self.building.as_ref().map_or(Ok(()), Building::check)?;
+        match &self.origin {
+            Origin::Wire(wire) => Ok(wire.clone()),
+            Origin::Number(parameter) => {
+                let made = || Wire::Number((**parameter).clone());
+                self.building.as_ref().map_or_else(|| Ok(made()), |building| building.with(|_| made()))
+            }
+            Origin::Word(name) => Err(raised(format!(
+                "the parameter `{name}` has words, which are no stream; `value()` returns the word of this test"
+            ))),
+        }
+    }
+
+    fn made(&self, wire: impl Into<Wire>) -> Self {
+        Self { building: self.building.clone(), origin: Origin::Wire(wire.into()) }
+    }
+
+    /// Makes a stream of this stream and another operand.
+    fn joined(&self, other: Operand, join: impl FnOnce(Wire, Wire) -> PyResult<Wire>) -> PyResult<Self> {
+        let wire = join(self.wire()?, other.wire)?;
+        Ok(Self { building: self.building.clone().or(other.building), origin: Origin::Wire(wire) })
+    }
+
+    /// Makes the stream of an operator, with this stream on the left or on the right.
+    fn operated(&self, other: &Bound<PyAny>, sign: Sign, is_swapped: bool) -> PyResult<Self> {
+        let other = Operand::of(other, sign.word())?;
+        self.joined(other, |own, other| if is_swapped { sign.of(other, own) } else { sign.of(own, other) })
+    }
+}
+
+#[pymethods]
+impl Stream {
+    /// Numpy leaves operators with streams to the streams.
+    #[classattr]
+    #[pyo3(name = "__array_ufunc__")]
+    fn array_ufunc(py: Python) -> Py<PyNone> {
+        PyNone::get(py).to_owned().unbind()
+    }
+
+    /// Makes the stream that has one value at every tick: a number, a truth, or a pair of coordinates.
+    #[staticmethod]
+    fn constant(value: &Bound<PyAny>) -> PyResult<Self> {
+        let Operand { building, wire } = Operand::of(value, "constant")?;
+        Ok(Self { building, origin: Origin::Wire(wire) })
+    }
+
+    /// Makes the stream of the time since the beginning of the run, in seconds.
+    #[staticmethod]
+    fn time() -> Self {
+        Self { building: None, origin: Origin::Wire(engine::Stream::time().into()) }
+    }
+
+    /// Makes the stream with an event at every tick.
+    #[staticmethod]
+    fn tick() -> Self {
+        Self { building: None, origin: Origin::Wire(engine::Stream::tick().into()) }
+    }
+
+    /// Makes a stream of vectors from the streams of their coordinates.
+    #[staticmethod]
+    fn vector(x: &Bound<PyAny>, y: &Bound<PyAny>) -> PyResult<Self> {
+        let (x, y) = (Operand::of(x, "x")?, Operand::of(y, "y")?);
+        let building = x.building.or(y.building);
+        let wire = engine::Stream::vector(x.wire.numbers("x")?, y.wire.numbers("y")?).into();
+        Ok(Self { building, origin: Origin::Wire(wire) })
+    }
+
+    fn __add__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Add, false)
+    }
+
+    fn __radd__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Add, true)
+    }
+
+    fn __sub__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Sub, false)
+    }
+
+    fn __rsub__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Sub, true)
+    }
+
+    fn __mul__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Mul, false)
+    }
+
+    fn __rmul__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Mul, true)
+    }
+
+    fn __truediv__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Div, false)
+    }
+
+    fn __rtruediv__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Div, true)
+    }
+
+    fn __and__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::And, false)
+    }
+
+    fn __rand__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::And, true)
+    }
+
+    fn __or__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Or, false)
+    }
+
+    fn __ror__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.operated(other, Sign::Or, true)
+    }
+
+    fn __invert__(&self) -> PyResult<Self> {
+        Ok(self.made(!self.wire()?.truths("`~`")?))
+    }
+
+    fn __neg__(&self) -> PyResult<Self> {
+        Ok(match self.wire()? {
+            Wire::Vector(stream) => self.made(-stream),
+            other => self.made(-other.numbers("`-`")?),
+        })
+    }
+
+    fn __abs__(&self) -> PyResult<Self> {
+        Ok(self.made(self.wire()?.numbers("abs")?.abs()))
+    }
+
+    fn __richcmp__(&self, other: &Bound<PyAny>, comparison: CompareOp) -> PyResult<Self> {
+        let word = match comparison {
+            CompareOp::Lt => "`<`",
+            CompareOp::Le => "`<=`",
+            CompareOp::Gt => "`>`",
+            CompareOp::Ge => "`>=`",
+            CompareOp::Eq | CompareOp::Ne => {
+                return Err(raised(
+                    "streams have no `==` and `!=`: write `a.equals(b)` for a stream of truths, and `parameter.value() == 2` for a value that \
+                     decides how the world is built",
+                ));
+            }
+        };
+        self.joined(Operand::of(other, word)?, |own, other| {
+            let (own, other) = (own.numbers(word)?, other.numbers(word)?);
+            Ok(Wire::Truth(match comparison {
+                CompareOp::Lt => own.below(other),
+                CompareOp::Le => own.at_most(other),
+                CompareOp::Gt => own.above(other),
+                _ => own.at_least(other),
+            }))
+        })
+    }
+
+    fn __bool__(&self) -> PyResult<bool> {
+        Err(raised(
+            "a stream is neither true nor false while the world is built: write `&`, `|` and `~` for `and`, `or` and `not`, \
+             `(a < b) & (b < c)` for `a < b < c`, and `parameter.value()` for a value that decides how the world is built",
+        ))
+    }
+
+    /// Returns the stream that is true at the ticks at which both streams have the same value.
+    fn equals(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        let other = Operand::of(other, "equals")?;
+        self.joined(other, |own, other| match (own, other) {
+            (Wire::Number(own), Wire::Number(other)) => Ok(own.equals(other).into()),
+            (Wire::Truth(own), Wire::Truth(other)) => Ok(own.equals(other).into()),
+            (Wire::Vector(own), Wire::Vector(other)) => Ok(own.equals(other).into()),
+            (own, other) => Err(raised(format!("equals does not work between {} and {}", own.words(), other.words()))),
+        })
+    }
+
+    /// Returns the smaller value of this stream and another.
+    fn min(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        let other = Operand::of(other, "min")?;
+        self.joined(other, |own, other| Ok(own.numbers("min")?.min(other.numbers("min")?).into()))
+    }
+
+    /// Returns the larger value of this stream and another.
+    fn max(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        let other = Operand::of(other, "max")?;
+        self.joined(other, |own, other| Ok(own.numbers("max")?.max(other.numbers("max")?).into()))
+    }
+
+    /// Returns the square root of the stream's number at each tick; NaN below 0.
+    fn sqrt(&self) -> PyResult<Self> {
+        Ok(self.made(self.wire()?.numbers("sqrt")?.sqrt()))
+    }
+
+    /// Returns the sum of all values so far.
+    fn sum(&self) -> PyResult<Self> {
+        Ok(match self.wire()? {
+            Wire::Vector(stream) => self.made(stream.sum()),
+            other => self.made(other.numbers("sum")?.sum()),
+        })
+    }
+
+    /// Returns the length of the stream's vector at each tick.
+    fn norm(&self) -> PyResult<Self> {
+        Ok(self.made(self.wire()?.vectors("norm")?.norm()))
+    }
+
+    /// Returns the scalar product of this stream's vectors and another's.
+    fn dot(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        let other = Operand::of(other, "dot")?;
+        self.joined(other, |own, other| Ok(own.vectors("dot")?.dot(other.vectors("dot")?).into()))
+    }
+
+    /// Returns the first coordinate of the stream's vector at each tick.
+    fn x(&self) -> PyResult<Self> {
+        Ok(self.made(self.wire()?.vectors("x")?.x()))
+    }
+
+    /// Returns the second coordinate of the stream's vector at each tick.
+    fn y(&self) -> PyResult<Self> {
+        Ok(self.made(self.wire()?.vectors("y")?.y()))
+    }
+
+    /// Returns the distance in metres from the stream's position to a line; negative past the line.
+    fn distance_to(&self, line: &Line) -> PyResult<Self> {
+        Ok(self.made(self.wire()?.vectors("distance_to")?.distance_to(&line.inner)))
+    }
+
+    /// Returns the same stream with a name, which the graph and the traces use.
+    fn named(&self, name: &str) -> PyResult<Self> {
+        Ok(each!(self.wire()?, stream => self.made(stream.named(name))))
+    }
+
+    /// Returns the stream at the ticks at which `event` occurs.
+    fn when(&self, event: &Self) -> PyResult<Self> {
+        let event = event.wire()?;
+        Ok(each!(self.wire()?, stream => each!(&event, event => self.made(stream.when(event)))))
+    }
+
+    /// Returns the stream from the first tick on at which `event` occurs.
+    fn skip_until(&self, event: &Self) -> PyResult<Self> {
+        let event = event.wire()?;
+        Ok(each!(self.wire()?, stream => each!(&event, event => self.made(stream.skip_until(event)))))
+    }
+
+    /// Returns the stream before the first tick at which `event` occurs.
+    fn take_until(&self, event: &Self) -> PyResult<Self> {
+        let event = event.wire()?;
+        Ok(each!(self.wire()?, stream => each!(&event, event => self.made(stream.take_until(event)))))
+    }
+
+    /// Returns the first `count` values of the stream.
+    fn take(&self, count: usize) -> PyResult<Self> {
+        Ok(each!(self.wire()?, stream => self.made(stream.take(count))))
+    }
+
+    /// Returns the value at the tick before; there is none at the first tick.
+    fn pre(&self) -> PyResult<Self> {
+        Ok(each!(self.wire()?, stream => self.made(stream.pre())))
+    }
+
+    /// Returns this stream until it is over, and then `following`.
+    fn concat(&self, following: &Bound<PyAny>) -> PyResult<Self> {
+        let following = Operand::of(following, "concat")?;
+        self.joined(following, |own, next| both!("concat", own, next, one, other => one.concat(&other)))
+    }
+
+    /// Returns `value` at the first tick, and this stream from then on.
+    fn initially(&self, value: &Bound<PyAny>) -> PyResult<Self> {
+        let value = Operand::of(value, "initially")?;
+        self.joined(value, |own, value| both!("initially", own, value, one, other => one.initially(other)))
+    }
+
+    /// Returns the value of this stream, and the value of `other` at the ticks at which only `other` has one.
+    fn merge(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        let other = Operand::of(other, "merge")?;
+        self.joined(other, |own, other| both!("merge", own, other, one, two => one.merge(&two)))
+    }
+
+    /// Returns the latest value at every tick, or `initial` before the first value.
+    fn hold(&self, initial: &Bound<PyAny>) -> PyResult<Self> {
+        Ok(match self.wire()? {
+            Wire::Number(stream) => self.made(stream.hold(f64::read(initial)?)),
+            Wire::Truth(stream) => self.made(stream.hold(bool::read(initial)?)),
+            Wire::Vector(stream) => self.made(stream.hold(Vector2::read(initial)?)),
+            Wire::Event(_) => return Err(raised("hold: found a stream of events, which has no values to hold")),
+        })
+    }
+
+    /// Applies a function of Python to each value. It is called at every tick, and takes some microseconds. `returns` is the type of its
+    /// results: `float`, `bool`, or `tuple` for a pair of coordinates.
+    #[pyo3(signature = (function, returns = None))]
+    fn map(&self, function: Py<PyAny>, returns: Option<&Bound<PyAny>>) -> PyResult<Self> {
+        let (called, kind) = (Called::new(function), Kind::of(returns)?);
+        Ok(each!(self.wire()?, stream => self.made(match kind {
+            Kind::Number => Wire::Number(stream.map(move |value| called.answer(value))),
+            Kind::Truth => Wire::Truth(stream.map(move |value| called.answer(value))),
+            Kind::Vector => Wire::Vector(stream.map(move |value| called.answer(value))),
+        })))
+    }
+
+    /// Returns the stream at the ticks at which a function of Python returns true for the value. It is called at every tick.
+    fn filter(&self, function: Py<PyAny>) -> PyResult<Self> {
+        let called = Called::new(function);
+        Ok(each!(self.wire()?, stream => self.made(stream.filter(move |value| called.answer(value)))))
+    }
+
+    /// Returns the fold of the values so far: `function(result before, value)`, with `initial` at first. The function of Python is called at every
+    /// tick at which the stream has a value.
+    fn scan(&self, initial: &Bound<PyAny>, function: Py<PyAny>) -> PyResult<Self> {
+        let called = Called::new(function);
+        let folded: Wire = match Operand::of(initial, "initial")?.wire {
+            Wire::Number(_) => {
+                let initial = f64::read(initial)?;
+                each!(self.wire()?, stream => stream.scan(initial, move |sum, value| called.folded(sum, value)).into())
+            }
+            Wire::Truth(_) => {
+                let initial = bool::read(initial)?;
+                each!(self.wire()?, stream => stream.scan(initial, move |sum, value| called.folded(sum, value)).into())
+            }
+            Wire::Vector(_) | Wire::Event(_) => {
+                let initial = Vector2::read(initial)?;
+                each!(self.wire()?, stream => stream.scan(initial, move |sum, value| called.folded(sum, value)).into())
+            }
+        };
+        Ok(self.made(folded))
+    }
+
+    /// Returns an effect that calls a function of Python with each value. Place the effect in the scenario: `s.place(stream.for_each(print))`.
+    fn for_each(&self, function: Py<PyAny>) -> PyResult<Effect> {
+        let called = Called::new(function);
+        self.wire()?;
+        Ok(Effect { stream: self.clone(), called })
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        Ok(each!(self.wire()?, stream => format!("Stream({stream:?})")))
+    }
+}
+
+/// A call of a function of Python at every tick at which a stream has a value.
+#[pyclass(frozen, unsendable, module = "paracosm")]
+pub struct Effect {
+    stream: Stream,
+    called: Called,
+}
+
+impl Effect {
+    /// Places the effect in a scenario.
+    ///
+    /// # Errors
+    /// The stream belongs to a scenario that is complete.
+    pub fn place(&self, building: &Building) -> PyResult<()> {
+        let called = self.called.clone();
+        each!(self.stream.wire()?, stream => building.with(|s| s.place(stream.for_each(move |value| called.told(value)))))
+    }
+}
+
+/// A stream that is used before it is defined, for feedback: `s.forward("count")`. Define it by `define`.
+#[pyclass(frozen, unsendable, extends = Stream, module = "paracosm")]
+pub struct Forward {
+    ahead: Ahead,
+}
+
+/// The announced stream of the library.
+enum Ahead {
+    Number(engine::Forward<f64>),
+    Truth(engine::Forward<bool>),
+    Vector(engine::Forward<Vector2<f64>>),
+}
+
+impl Forward {
+    /// Announces a stream in a scenario.
+    ///
+    /// # Errors
+    /// The scenario is complete.
+    pub fn new(py: Python, building: &Building, name: &str, kind: Kind) -> PyResult<Py<Self>> {
+        let ahead = building.with(|scenario| match kind {
+            Kind::Number => Ahead::Number(scenario.forward(name)),
+            Kind::Truth => Ahead::Truth(scenario.forward(name)),
+            Kind::Vector => Ahead::Vector(scenario.forward(name)),
+        })?;
+        let wire: Wire = match &ahead {
+            Ahead::Number(forward) => (**forward).clone().into(),
+            Ahead::Truth(forward) => (**forward).clone().into(),
+            Ahead::Vector(forward) => (**forward).clone().into(),
+        };
+        let base = PyClassInitializer::from(Stream::of(building, wire));
+        Py::new(py, base.add_subclass(Self { ahead }))
+    }
+}
+
+#[pymethods]
+impl Forward {
+    /// Says what the stream is. It may depend on itself by way of `pre`.
+    fn define(&self, definition: &Bound<PyAny>) -> PyResult<()> {
+        let wire = Operand::of(definition, "define")?.wire;
+        match &self.ahead {
+            Ahead::Number(forward) => forward.define(wire.numbers("define")?),
+            Ahead::Truth(forward) => forward.define(wire.truths("define")?),
+            Ahead::Vector(forward) => forward.define(wire.vectors("define")?),
+        }
+        Ok(())
+    }
+}
