@@ -28,7 +28,7 @@ pub use page::{Beside, OtherAudit};
 pub use paracosm_campaign::{
     Campaign, Catalogue, Error, Finish, Folder, Log, Observer, Sampling, Study, StudyBuilder, Trial,
 };
-use paracosm_campaign::{ConcreteValue, Reader, Reason};
+use paracosm_campaign::{ConcreteValue, Holds, Reader, Reason};
 pub use runner::{NothingToLocate, Report, Runner, run_into};
 
 pub use paracosm_analysis as analysis;
@@ -50,10 +50,11 @@ use std::path::PathBuf;
 
 /// Returns the catalogue of all scenarios that come with the software, which also reads files of OpenSCENARIO.
 pub fn catalogue() -> Catalogue {
-    Catalogue::of(scenarios::ALL).with(standards::map_traffic()).reading(Reader {
+    Catalogue::of(scenarios::ALL).with(standards::map_traffic()).reading(PYTHON).reading(Reader {
         ending: "xosc",
         about: "scenarios and distributions of parameters of ASAM OpenSCENARIO XML",
-        read: |file| {
+        holds: Holds::Description,
+        read: |file, _| {
             let scenario = standards::openscenario::Xosc::read(file);
             scenario.map(standards::openscenario::Xosc::program).map_err(|error| UnreadableScenario(error).into())
         },
@@ -68,6 +69,24 @@ pub fn catalogue() -> Catalogue {
         }),
     })
 }
+
+/// The reader of scenarios in Python, which only says what to do: the Python package has another one in its place.
+const PYTHON: Reader = Reader {
+    ending: "py",
+    about: "scenarios of Python, which need the Python package",
+    holds: Holds::Programs,
+    read: |file, _| Err(NeedsPython { file: file.to_owned() }.into()),
+    tests: None,
+};
+
+/// The error that a scenario of Python was named in a program without Python.
+#[derive(Debug, thiserror::Error)]
+#[error("{} has scenarios of Python, which this program cannot read; the same program from the Python package can: pip install ./python", file.display())]
+pub struct NeedsPython {
+    file: PathBuf,
+}
+
+impl Reason for NeedsPython {}
 
 /// The error that a file of a scenario cannot be read.
 #[derive(Debug, thiserror::Error)]

@@ -3,7 +3,7 @@
 //! A campaign knows no scenario by itself. It is given a catalogue: a list of programs, and readers that make programs
 //! from files.
 
-use crate::{Error, Reason};
+use crate::{Error, Reason, Trust};
 use paracosm_engine::Program;
 use paracosm_space::{Value, did_you_mean, nearest};
 use std::ffi::OsStr;
@@ -27,6 +27,8 @@ pub struct Catalogue {
     readers: Vec<Reader>,
     /// The folder of the campaign whose scenario is looked for.
     near: Option<PathBuf>,
+    /// `true` if files that a campaign names may be run.
+    is_trusted: bool,
 }
 
 /// A reader that makes the programs of scenarios from files.
@@ -36,11 +38,22 @@ pub struct Reader {
     pub ending: &'static str,
     /// A short description of the kind of files that the reader reads.
     pub about: &'static str,
-    /// The function that reads a file and returns the program of the scenario in the file.
-    pub read: fn(&Path) -> Result<Program, Error>,
+    /// What the files hold.
+    pub holds: Holds,
+    /// The function that reads a file and returns the program of a scenario in the file: of the scenario with this name, or of the only one.
+    pub read: fn(&Path, Option<&str>) -> Result<Program, Error>,
     /// The function that reads tests of the scenario in the first file from other files: each is the same scenario with the values of
     /// one test. `None` if there are no such files.
     pub tests: Option<TestsOf>,
+}
+
+/// What the files of scenarios hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holds {
+    /// The description of one scenario.
+    Description,
+    /// Programs, which run when they are read. A file may have several scenarios, of which `FILE:NAME` is one.
+    Programs,
 }
 
 /// The value of a parameter that the file of a concrete scenario has.
@@ -90,6 +103,15 @@ pub struct NoScenarioFile {
     pub near: PathBuf,
 }
 
+/// The error that a campaign names a file that is a program, which nobody trusts.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error("the scenario `{name}` stands in a file that is a program, and a file of a stranger may do anything: `--trust` (in Python `trust=True`) runs the file")]
+pub struct UntrustedScenario {
+    /// The name of the scenario.
+    pub name: String,
+}
+
+impl Reason for UntrustedScenario {}
 impl Reason for UnknownScenario {}
 impl Reason for AmbiguousScenario {}
 impl Reason for NoScenarioFile {}
@@ -107,10 +129,16 @@ impl Catalogue {
         self
     }
 
-    /// Adds a reader of scenario files to the catalogue.
+    /// Adds a reader of scenario files to the catalogue, in the place of another reader of files with the same ending.
     pub fn reading(mut self, reader: Reader) -> Self {
+        self.readers.retain(|other| other.ending != reader.ending);
         self.readers.push(reader);
         self
+    }
+
+    /// Returns the catalogue with the trust of the user in the files that campaigns name. Without trust in all, no such file is run.
+    pub fn trusting(&self, trust: &Trust) -> Self {
+        Self { is_trusted: trust.is_all(), ..self.clone() }
     }
 
     /// Returns a catalogue for the scenario of the campaign in a folder. The campaign names a file by its path from the folder in which
@@ -145,13 +173,23 @@ impl Catalogue {
 
     /// Returns `true` if a scenario has the name, or if a reader accepts files with the ending of the name.
     pub fn knows(&self, name: &str) -> bool {
-        self.programs.iter().any(|program| program.name() == name) || self.reader_of(name).is_some()
+        self.programs.iter().any(|program| program.name() == name) || self.located(name).is_some()
     }
 
     /// Returns the reader of the files with the ending of a name. Capital and small letters of the ending are the same.
     pub fn reader_of(&self, name: &str) -> Option<&Reader> {
         let ending = Path::new(name).extension().and_then(OsStr::to_str)?;
         self.readers.iter().find(|reader| reader.ending.eq_ignore_ascii_case(ending))
+    }
+
+    /// Returns the reader of the file that a name begins with, the file, and the name of one of its scenarios.
+    fn located<'n>(&self, name: &'n str) -> Option<(&Reader, &'n str, Option<&'n str>)> {
+        if let Some(reader) = self.reader_of(name) {
+            return Some((reader, name, None));
+        }
+        let (file, part) = name.rsplit_once(':')?;
+        let reader = self.reader_of(file).filter(|reader| reader.holds == Holds::Programs)?;
+        Some((reader, file, Some(part)))
     }
 
     /// Returns the program of the scenario with the given name, or the program in the file with the given path.
@@ -169,8 +207,11 @@ impl Catalogue {
             }
             (None, _) => {}
         }
-        if let Some(reader) = self.reader_of(name) {
-            return (reader.read)(&self.file(name)?);
+        if let Some((reader, file, part)) = self.located(name) {
+            if reader.holds == Holds::Programs && self.near.is_some() && !self.is_trusted {
+                return Err(UntrustedScenario { name: name.to_owned() }.into());
+            }
+            return (reader.read)(&self.file(file)?, part);
         }
         let nearest = nearest(name, self.programs.iter().map(Program::name)).map(str::to_owned);
         Err(UnknownScenario { name: name.to_owned(), nearest }.into())
@@ -194,11 +235,11 @@ mod tests {
 
     #[test]
     fn a_reader_makes_programs_of_the_files_with_its_ending_and_of_no_others() {
-        let read = |path: &Path| {
+        let read = |path: &Path, _: Option<&str>| {
             let name = path.file_stem().and_then(OsStr::to_str).unwrap_or_default().to_owned();
             Ok(Program::of(name, "a world of a file", |_| ()))
         };
-        let reader = Reader { ending: "world", about: "worlds of a test", read, tests: None };
+        let reader = Reader { ending: "world", about: "worlds of a test", holds: Holds::Description, read, tests: None };
         let catalogue = Catalogue::default().reading(reader);
         for file in ["folder/town.world", "folder/town.WORLD"] {
             assert_eq!(catalogue.find(file).expect("it is read").name(), "town");
@@ -207,5 +248,28 @@ mod tests {
         let error = catalogue.find("town.xodr").expect_err("nothing reads it");
         assert!(matches!(error.reason(), Some(UnknownScenario { name, .. }) if name == "town.xodr"), "{error}");
         assert_eq!(catalogue.readers().len(), 1);
+    }
+
+    #[test]
+    fn a_file_of_programs_that_a_campaign_names_runs_only_with_trust() {
+        let read = |path: &Path, part: Option<&str>| {
+            let name = format!("{}:{}", path.display(), part.unwrap_or("only"));
+            Ok(Program::of(name, "a program", |_| ()))
+        };
+        let reader = Reader { ending: "prog", about: "programs of a test", holds: Holds::Programs, read, tests: None };
+        let catalogue = Catalogue::default().reading(reader);
+        let find = |catalogue: &Catalogue, name| catalogue.find(name).map(|program| program.name().to_owned());
+        assert_eq!(find(&catalogue, "a.prog").expect("the user names it"), "a.prog:only");
+        assert_eq!(find(&catalogue, "a.prog:second").expect("the user names it"), "a.prog:second");
+        assert!(catalogue.knows("a.prog:second") && !catalogue.knows("a.xosc:second"));
+
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("a.prog"), "").expect("a file");
+        let near = catalogue.near(folder.path());
+        let error = near.find("a.prog:second").expect_err("nobody trusts it");
+        assert!(matches!(error.reason(), Some(UntrustedScenario { name }) if name == "a.prog:second"), "{error}");
+        let trusted = find(&near.trusting(&Trust::all()), "a.prog:second").expect("it is trusted");
+        assert!(trusted.ends_with("a.prog:second"), "{trusted}");
+        assert!(near.trusting(&Trust::NOTHING.command("drive")).find("a.prog").is_err());
     }
 }

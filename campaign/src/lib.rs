@@ -72,7 +72,7 @@ mod worker;
 pub use artefact::{Artefact, JsonArtefact};
 pub use black_box::{Answer, BlackBox};
 pub use campaign::{Campaign, Finish};
-pub use catalogue::{Catalogue, ConcreteValue, Reader, TestsOf};
+pub use catalogue::{Catalogue, ConcreteValue, Holds, Reader, TestsOf};
 pub use doubts::Doubts;
 pub use error::{BadFile, Error, Failure, Reason};
 pub use expected::Expected;
@@ -105,7 +105,7 @@ pub mod reasons {
     #[cfg(feature = "camera")]
     pub use crate::cameras::CameraFileFlaw;
     pub use crate::campaign::{ForeignTrial, OtherResult};
-    pub use crate::catalogue::{AmbiguousScenario, NoScenarioFile, UnknownScenario};
+    pub use crate::catalogue::{AmbiguousScenario, NoScenarioFile, UnknownScenario, UntrustedScenario};
     pub use crate::concrete::{NoConcrete, NoFileOfScenario};
     pub use crate::conversation::NotStarted;
     pub use crate::darkroom::Blind;

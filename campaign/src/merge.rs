@@ -21,6 +21,7 @@ struct Part<'a> {
 /// A folder holds no shard, or one that has not ended; shards are missing, given twice, or of different campaigns; the user does not trust a
 /// command of the campaign; or the new folder cannot be written.
 pub fn merge(out: &Path, folders: &[PathBuf], catalogue: &Catalogue, trust: &Trust) -> Result<Log, Error> {
+    let catalogue = &catalogue.trusting(trust);
     let mut parts = BTreeMap::<usize, Part>::new();
     let mut first: Option<(&Path, Shard, Option<String>)> = None;
     let mut judged = None;

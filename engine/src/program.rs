@@ -34,6 +34,8 @@ pub struct Program {
     about: Cow<'static, str>,
     build: Build,
     files: Option<Files>,
+    /// `true` if the program was read by running a file.
+    runs_a_file: bool,
     /// The quantities that traces have in addition to those that the program asks for.
     recorded: Vec<Quantity>,
 }
@@ -180,6 +182,7 @@ impl Program {
             about: Cow::Borrowed(about),
             build: Build::Function(build),
             files: None,
+            runs_a_file: false,
             recorded: Vec::new(),
         }
     }
@@ -191,7 +194,14 @@ impl Program {
         build: impl Fn(&mut Scenario) + Send + Sync + 'static,
     ) -> Self {
         let (name, about) = (Cow::Owned(name.into()), Cow::Owned(about.into()));
-        Self { name, about, build: Build::Shared(Arc::new(build)), files: None, recorded: Vec::new() }
+        Self {
+            name,
+            about,
+            build: Build::Shared(Arc::new(build)),
+            files: None,
+            runs_a_file: false,
+            recorded: Vec::new(),
+        }
     }
 
     /// Says which files the worlds read, so that a campaign is not continued after a file has changed. `hash` returns the hash of the
@@ -202,6 +212,17 @@ impl Program {
         hash: impl Fn(&Values) -> Option<String> + Send + Sync + 'static,
     ) -> Self {
         Self { files: Some(Files { chosen_by: chosen_by.into_iter().collect(), hash: Arc::new(hash) }), ..self }
+    }
+
+    /// Says that the program stands in a file that runs when it is read, such as a file of Python. A campaign of a stranger may name any
+    /// such file, so the user has to trust the campaign.
+    pub fn of_running_a_file(self) -> Self {
+        Self { runs_a_file: true, ..self }
+    }
+
+    /// Returns `true` if the program stands in a file that runs when it is read.
+    pub fn runs_a_file(&self) -> bool {
+        self.runs_a_file
     }
 
     /// Returns the hash of the files that the world of a test reads; `None` if it reads none.

@@ -45,7 +45,7 @@ mod _core {
         test_table::Tests,
         world::{
             Actor, AutonomousVehicle, Car, Composite, Conditions, CrossIntersection, Effect, Environment, EnvironmentCars,
-            Fixture, Fleet, Forward, Line, Monitor, Mover, Parameter, Path, Pedestrian, Pose, Program, Road, RoadNetwork,
+            Fixture, Fleet, Line, Monitor, Mover, Path, Pedestrian, Pose, Program, Road, RoadNetwork,
             RoadSegment, Roadside, Roundabout, Scenario, Stream, Streets, TIntersection, Temporal, Walk, Walker, always,
             eventually, grid_city, historically, never, once, until,
         },

@@ -1,6 +1,7 @@
 //! The two programs `paracosm-fuzz` and `paracosm-cover`, which the package puts on the path.
 
-use paracosm::{catalogue, cli};
+use crate::world::catalogue;
+use paracosm::cli;
 use pyo3::prelude::*;
 use std::ffi::OsString;
 

@@ -59,7 +59,7 @@ impl Report {
 pub fn load(py: Python, folder: PathBuf, trust: bool) -> PyResult<Report> {
     let trust = if trust { Trust::all() } else { Trust::NOTHING };
     let read = py.detach(|| {
-        let log = Log::read(&folder, &catalogue())?.trusting(&trust);
+        let log = Log::read(&folder, &catalogue().trusting(&trust))?.trusting(&trust);
         paracosm::Report::read(log, &folder)
     });
     Ok(Report::new(read.map_err(raised)?, folder))

@@ -82,14 +82,20 @@ fn answer_of(answer: &Bound<PyAny>) -> PyResult<Result<Answer, AnswerFlaw>> {
 /// Returns an exception in a line, with the place in the user's code where it was raised.
 pub fn in_words(py: Python, error: &PyErr) -> String {
     let place = || -> PyResult<String> {
-        let mut at = error.traceback(py).ok_or_else(|| raised("no place"))?.into_any();
-        while let Some(next) = at.getattr_opt("tb_next")?.filter(|next| !next.is_none()) {
-            at = next;
+        let mut at = error.traceback(py).map(|at| at.into_any());
+        let mut place = None;
+        while let Some(here) = at {
+            let code = here.getattr("tb_frame")?.getattr("f_code")?;
+            let file: String = code.getattr("co_filename")?.extract()?;
+            // The user knows nothing of the package and of the imports of Python.
+            if !file.starts_with('<') && !file.contains("paracosm/_") {
+                place = Some((file, here.getattr("tb_lineno")?, code.getattr("co_name")?));
+            }
+            at = here.getattr_opt("tb_next")?.filter(|next| !next.is_none());
         }
-        let code = at.getattr("tb_frame")?.getattr("f_code")?;
-        let file: String = code.getattr("co_filename")?.extract()?;
-        let file = file.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
-        Ok(format!(" ({file}, line {}, in {})", at.getattr("tb_lineno")?, code.getattr("co_name")?))
+        let Some((file, line, function)) = place else { return Ok(String::new()) };
+        let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
+        Ok(format!(" ({file}, line {line}, in {function})"))
     };
     // The messages of the package speak for themselves.
     let kind = match error.is_instance_of::<Error>(py) {

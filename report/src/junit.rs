@@ -206,10 +206,11 @@ pub fn shell_word(word: &str) -> String {
 }
 
 /// Returns the options that repeat the commands of a study, each after a space, or the option that trusts the address of
-/// its driver. The text is empty if the study has neither. Without the options, the programs do not run the commands that
-/// a folder or a file names, and send nothing to the address.
+/// its driver or the file of its scenario. The text is empty if the study has none of them. Without the options, the programs do not run
+/// the commands and the files that a folder or a file names, and send nothing to the address.
 pub fn command_option(study: &Study) -> String {
-    if study.address().is_some() {
+    let runs_a_file = study.subject().scenario().is_ok_and(|simulation| simulation.runs_a_file());
+    if study.address().is_some() || runs_a_file {
         return " --trust".to_owned();
     }
     study.commands().iter().map(|named| format!(" {} {}", named.option, shell_word(named.command))).collect()

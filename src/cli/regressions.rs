@@ -28,8 +28,9 @@ pub(super) fn replay(
 ) -> Result<Status, Failure> {
     junit.map_or(Ok(()), |path| is_report(path, files))?;
     let mut regressions = Vec::new();
+    let catalogue = catalogue.trusting(trust);
     for file in files {
-        let mut regression = Regression::read(file, catalogue)?.trusting(trust);
+        let mut regression = Regression::read(file, &catalogue)?.trusting(trust);
         regression.expect = expect.unwrap_or(regression.expect);
         regressions.push((file, regression));
     }

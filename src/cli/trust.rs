@@ -63,7 +63,7 @@ pub(super) fn read_log(
     trust: &Trust,
     verbosity: Verbosity,
 ) -> Result<Log, paracosm_campaign::Error> {
-    let log = read_results(dir, catalogue, verbosity)?.trusting(trust);
+    let log = read_results(dir, &catalogue.trusting(trust), verbosity)?.trusting(trust);
     let here = std::env::current_dir().and_then(|here| here.canonicalize()).ok();
     if let Some(folder) = log.run_in().filter(|folder| Some(*folder) != here.as_deref() && !trust.is_all()) {
         let folder = folder.display();

@@ -5,7 +5,7 @@ use crate::report::viewer::{Doorway, Viewer};
 use crate::{Beside, Report};
 use clap::Args;
 use paracosm_campaign::cameras::read_cameras;
-use paracosm_campaign::{Catalogue, Error, Log, Subject, end_all_processes};
+use paracosm_campaign::{Catalogue, Error, Subject, end_all_processes};
 #[cfg(unix)]
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
@@ -62,7 +62,7 @@ impl Options {
         // What is noted about the folder is noted once.
         let read = || self.trust.read(&self.dir, catalogue, Verbosity::SILENT).map(|(log, _)| log);
         let page = || -> Result<String, Error> {
-            Report::read(Log::read(&self.dir, catalogue)?, &self.dir)?
+            Report::read(read()?, &self.dir)?
                 .page(&self.dir, program::name(), Beside::default())?
                 .served()
         };

@@ -1,6 +1,7 @@
 //! The subject of a study: a scenario with a driver, or an external system.
 
 use super::{Appearances, DriverChoice, PerceiverChoice, StatedRequirement};
+use crate::catalogue::UntrustedScenario;
 use crate::{BlackBox, Catalogue, Error, Reason};
 use paracosm_engine::vehicle::VehicleSetup;
 use paracosm_engine::{Declaration, Declared, Program};
@@ -168,6 +169,15 @@ impl Simulation {
             Source::Here(program) => Ok(program),
             Source::Missing(error) => missing(Some(Arc::clone(error))),
             Source::Unknown => missing(None),
+        }
+    }
+
+    /// Returns `true` if the scenario stands in a file that runs when it is read, so that the user has to trust it.
+    pub fn runs_a_file(&self) -> bool {
+        match &self.program {
+            Source::Here(program) => program.runs_a_file(),
+            Source::Missing(error) => error.reason::<UntrustedScenario>().is_some(),
+            Source::Unknown => false,
         }
     }
 

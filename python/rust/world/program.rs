@@ -6,21 +6,53 @@ use crate::busy;
 use crate::error::raised;
 use crate::json::to_dict;
 use crate::system::in_words;
-use paracosm::Catalogue;
-use paracosm::engine;
+use paracosm::campaign::{Holds, Reader, Reason};
+use paracosm::{Catalogue, engine};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The scenarios of this process by their names. The latest of a name counts, because a cell of a notebook runs again.
 static PROGRAMS: Mutex<BTreeMap<String, engine::Program>> = Mutex::new(BTreeMap::new());
 
-/// Returns the catalogue of the library with the scenarios of this process.
+/// Returns the catalogue of the library with the scenarios of this process, which also reads files of Python.
 pub fn catalogue() -> Catalogue {
     let programs = PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner);
-    programs.values().cloned().fold(paracosm::catalogue(), Catalogue::with)
+    programs.values().cloned().fold(paracosm::catalogue(), Catalogue::with).reading(Reader {
+        ending: "py",
+        about: "scenarios of Python",
+        holds: Holds::Programs,
+        read: |file, part| read(file, part).map_err(|why| BrokenFile(why).into()),
+        tests: None,
+    })
 }
+
+/// Runs a file of Python, and returns one of its scenarios.
+fn read(file: &Path, part: Option<&str>) -> Result<engine::Program, String> {
+    Python::attach(|py| {
+        let found = || -> PyResult<engine::Program> {
+            let found = py.import("paracosm._scenarios")?.call_method1("_read", (file, part))?;
+            Ok(found.cast::<Program>()?.get().inner.clone())
+        };
+        found().map_err(|error| in_words(py, &error))
+    })
+}
+
+/// The error that a file of Python has no scenario that can be used.
+#[derive(Debug)]
+struct BrokenFile(String);
+
+impl fmt::Display for BrokenFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BrokenFile {}
+impl Reason for BrokenFile {}
 
 /// A scenario that a function of Python builds. `@paracosm.scenario` makes it.
 #[pyclass(frozen, module = "paracosm")]
@@ -39,7 +71,7 @@ impl Program {
         let own = Arc::clone(&function);
         let mut inner = engine::Program::of(name, about, move |scenario| build(&own, scenario));
         if let Some(hash) = hash.clone() {
-            inner = inner.of_files([], move |_| Some(hash.clone()));
+            inner = inner.of_files([], move |_| Some(hash.clone())).of_running_a_file();
         }
         let mut programs = PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner);
         programs.insert(inner.name().to_owned(), inner.clone());

@@ -5,10 +5,11 @@ use super::building::Building;
 use super::called::Kind;
 use super::ego::AutonomousVehicle;
 use super::environment::Environment;
+use super::forward::announced;
 use super::network::placed;
-use super::parameter::{Parameter, Said};
+use super::parameter::{Said, declared};
 use super::road::RoadSegment;
-use super::stream::{Effect, Forward};
+use super::stream::{Effect, Stream};
 use super::temporal::{Monitor, statement};
 use super::traffic::EnvironmentCars;
 use super::wire::Operand;
@@ -54,7 +55,6 @@ impl Scenario {
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn interval(
         &self,
-        py: Python,
         name: &str,
         low: f64,
         high: f64,
@@ -64,11 +64,11 @@ impl Scenario {
         signal: Option<String>,
         incidental: bool,
         atmospheric: bool,
-    ) -> PyResult<Py<Parameter>> {
-        let declared = Declared::open(paracosm::space::Parameter::new(name, Domain::Interval { lo: low, hi: high }));
+    ) -> PyResult<Stream> {
+        let parameter = Declared::open(paracosm::space::Parameter::new(name, Domain::Interval { lo: low, hi: high }));
         let default = given(default, name)?;
         let said = Said { unit, default, opens: None, plausible, signal, incidental, atmospheric };
-        Parameter::declared(py, &self.building, declared, said)
+        declared(&self.building, parameter, said)
     }
 
     /// Declares a closed parameter with the numbers from `low` to `high`. It stays at `nominal` until a study opens it; then tests vary it in
@@ -77,7 +77,6 @@ impl Scenario {
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn nominal(
         &self,
-        py: Python,
         name: &str,
         low: f64,
         high: f64,
@@ -88,12 +87,12 @@ impl Scenario {
         signal: Option<String>,
         incidental: bool,
         atmospheric: bool,
-    ) -> PyResult<Py<Parameter>> {
+    ) -> PyResult<Stream> {
         let parameter = paracosm::space::Parameter::new(name, Domain::Interval { lo: low, hi: high });
-        let declared = Declared { open: false, ..Declared::open(parameter) };
+        let parameter = Declared { open: false, ..Declared::open(parameter) };
         let default = Some(Value::Number(nominal));
         let said = Said { unit, default, opens, plausible, signal, incidental, atmospheric };
-        Parameter::declared(py, &self.building, declared, said)
+        declared(&self.building, parameter, said)
     }
 
     /// Declares an open parameter that takes one of some values: numbers or words.
@@ -101,7 +100,6 @@ impl Scenario {
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn choice(
         &self,
-        py: Python,
         name: &str,
         values: Vec<Bound<PyAny>>,
         unit: Option<String>,
@@ -109,11 +107,11 @@ impl Scenario {
         signal: Option<String>,
         incidental: bool,
         atmospheric: bool,
-    ) -> PyResult<Py<Parameter>> {
-        let declared = Declared::open(paracosm::space::Parameter::new(name, levels(name, &values)?));
+    ) -> PyResult<Stream> {
+        let parameter = Declared::open(paracosm::space::Parameter::new(name, levels(name, &values)?));
         let default = given(default, name)?;
         let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
-        Parameter::declared(py, &self.building, declared, said)
+        declared(&self.building, parameter, said)
     }
 
     /// Declares a closed parameter that takes one of some values, and stays at `nominal` until a study opens it.
@@ -121,7 +119,6 @@ impl Scenario {
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn nominal_choice(
         &self,
-        py: Python,
         name: &str,
         values: Vec<Bound<PyAny>>,
         nominal: &Bound<PyAny>,
@@ -129,12 +126,12 @@ impl Scenario {
         signal: Option<String>,
         incidental: bool,
         atmospheric: bool,
-    ) -> PyResult<Py<Parameter>> {
+    ) -> PyResult<Stream> {
         let parameter = paracosm::space::Parameter::new(name, levels(name, &values)?);
-        let declared = Declared { open: false, ..Declared::open(parameter) };
+        let parameter = Declared { open: false, ..Declared::open(parameter) };
         let default = given(Some(nominal), name)?;
         let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
-        Parameter::declared(py, &self.building, declared, said)
+        declared(&self.building, parameter, said)
     }
 
     /// Places an object in the world, and returns its handle.
@@ -245,8 +242,8 @@ impl Scenario {
 
     /// Announces a stream that is used before it is defined. `type` is the type of its values: `float`, `bool` or `tuple`.
     #[pyo3(signature = (name, r#type = None))]
-    fn forward(&self, py: Python, name: &str, r#type: Option<&Bound<PyAny>>) -> PyResult<Py<Forward>> {
-        Forward::new(py, &self.building, name, Kind::of(r#type)?)
+    fn forward(&self, name: &str, r#type: Option<&Bound<PyAny>>) -> PyResult<Stream> {
+        announced(&self.building, name, Kind::of(r#type)?)
     }
 }
 

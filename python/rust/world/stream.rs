@@ -2,29 +2,30 @@
 
 use super::building::Building;
 use super::called::{Called, Datum, Kind};
+use super::forward::Forward;
+use super::parameter::Parameter;
 use super::place::Line;
 use super::wire::{Operand, Sign, Wire, both, each};
 use crate::error::raised;
 use nalgebra::Vector2;
-use paracosm::engine::{self, Param};
+use paracosm::engine;
 use pyo3::basic::CompareOp;
 use pyo3::prelude::*;
 use pyo3::types::PyNone;
 
-/// Where a stream comes from. A parameter is a stream from the moment on at which it is used as one.
+/// Where a stream comes from.
 #[derive(Clone)]
 pub enum Origin {
     Wire(Wire),
-    Number(Param<f64>),
-    /// A parameter of words is no stream.
-    Word(String),
+    Parameter(Parameter),
+    Forward(Forward),
 }
 
 /// A value at each tick: numbers, truths, vectors, or events.
 ///
 /// Operators make other streams: `+ - * /`, comparisons, and `& | ~` for "and", "or" and "not". They are nodes of the graph that a run
 /// evaluates, so nothing of Python runs in a test. Only `map`, `filter`, `scan` and `for_each` with a function of Python call it at every tick.
-#[pyclass(frozen, unsendable, subclass, module = "paracosm")]
+#[pyclass(frozen, unsendable, module = "paracosm")]
 #[derive(Clone)]
 pub struct Stream {
     /// The scenario that the stream belongs to; `None` if it belongs to none.
@@ -46,11 +47,13 @@ impl Stream {
         self.building.as_ref().map_or(Ok(()), Building::check)?;
         match &self.origin {
             Origin::Wire(wire) => Ok(wire.clone()),
-            Origin::Number(parameter) => {
-                let made = || Wire::Number((**parameter).clone());
-                self.building.as_ref().map_or_else(|| Ok(made()), |building| building.with(|_| made()))
+            Origin::Forward(forward) => Ok(forward.wire()),
+            Origin::Parameter(Parameter::Number { parameter, .. }) => {
+                // The parameter becomes a stream here, and the scenario may note a mistake.
+                let wire = || Wire::Number((**parameter).clone());
+                self.building.as_ref().map_or_else(|| Ok(wire()), |building| building.with(|_| wire()))
             }
-            Origin::Word(name) => Err(raised(format!(
+            Origin::Parameter(Parameter::Word { name, .. }) => Err(raised(format!(
                 "the parameter `{name}` has words, which are no stream; `value()` returns the word of this test"
             ))),
         }
@@ -373,6 +376,26 @@ impl Stream {
         Ok(Effect { stream: self.clone(), called })
     }
 
+    /// Returns the value that the test gives a parameter: a number, or a word of a choice. It can decide how the world is built.
+    ///
+    /// Raises `Error` if the stream is no parameter, or if the parameter varies while the test runs.
+    fn value<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match (&self.origin, &self.building) {
+            (Origin::Parameter(parameter), Some(building)) => parameter.value(py, building),
+            _ => Err(raised("value: a stream has no value before the run; only a parameter has one, such as that of `s.interval(..)`")),
+        }
+    }
+
+    /// Says what a stream is that `s.forward(..)` has announced. It may depend on itself by way of `pre`.
+    ///
+    /// Raises `Error` if the stream was not announced, or if the definition has values of another type.
+    fn define(&self, definition: &Bound<PyAny>) -> PyResult<()> {
+        match &self.origin {
+            Origin::Forward(forward) => forward.define(Operand::of(definition, "define")?.wire),
+            _ => Err(raised("define: the stream has a definition already; only a stream of `s.forward(..)` needs one")),
+        }
+    }
+
     fn __repr__(&self) -> PyResult<String> {
         Ok(each!(self.wire()?, stream => format!("Stream({stream:?})")))
     }
@@ -393,53 +416,5 @@ impl Effect {
     pub fn place(&self, building: &Building) -> PyResult<()> {
         let called = self.called.clone();
         each!(self.stream.wire()?, stream => building.with(|s| s.place(stream.for_each(move |value| called.told(value)))))
-    }
-}
-
-/// A stream that is used before it is defined, for feedback: `s.forward("count")`. Define it by `define`.
-#[pyclass(frozen, unsendable, extends = Stream, module = "paracosm")]
-pub struct Forward {
-    ahead: Ahead,
-}
-
-/// The announced stream of the library.
-enum Ahead {
-    Number(engine::Forward<f64>),
-    Truth(engine::Forward<bool>),
-    Vector(engine::Forward<Vector2<f64>>),
-}
-
-impl Forward {
-    /// Announces a stream in a scenario.
-    ///
-    /// # Errors
-    /// The scenario is complete.
-    pub fn new(py: Python, building: &Building, name: &str, kind: Kind) -> PyResult<Py<Self>> {
-        let ahead = building.with(|scenario| match kind {
-            Kind::Number => Ahead::Number(scenario.forward(name)),
-            Kind::Truth => Ahead::Truth(scenario.forward(name)),
-            Kind::Vector => Ahead::Vector(scenario.forward(name)),
-        })?;
-        let wire: Wire = match &ahead {
-            Ahead::Number(forward) => (**forward).clone().into(),
-            Ahead::Truth(forward) => (**forward).clone().into(),
-            Ahead::Vector(forward) => (**forward).clone().into(),
-        };
-        let base = PyClassInitializer::from(Stream::of(building, wire));
-        Py::new(py, base.add_subclass(Self { ahead }))
-    }
-}
-
-#[pymethods]
-impl Forward {
-    /// Says what the stream is. It may depend on itself by way of `pre`.
-    fn define(&self, definition: &Bound<PyAny>) -> PyResult<()> {
-        let wire = Operand::of(definition, "define")?.wire;
-        match &self.ahead {
-            Ahead::Number(forward) => forward.define(wire.numbers("define")?),
-            Ahead::Truth(forward) => forward.define(wire.truths("define")?),
-            Ahead::Vector(forward) => forward.define(wire.vectors("define")?),
-        }
-        Ok(())
     }
 }

@@ -1,11 +1,13 @@
 """`scenario`: makes a scenario of a function."""
 
+import difflib
 import hashlib
 import inspect
 import os
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import overload
 
@@ -73,3 +75,52 @@ def _found(module: str, name: str) -> Program:
     if not isinstance(found, Program):
         raise Error(f"the module {module} has no scenario `{name}`: define it at the level of the module")
     return found
+
+
+# The files that were run to find their scenarios, with their hashes at that time.
+_READ: dict[tuple[Path, str], dict[str, Program]] = {}
+
+
+def _read(path: str, part: str | None) -> Program:
+    """Returns the scenario of a file, for the programs: runs the file unless it was run before."""
+    file = Path(path).resolve()
+    if not file.is_file():
+        raise Error(f"found no file {path}")
+    key = (file, _hash(file))
+    if key not in _READ:
+        _READ[key] = _programs_of(file)
+    programs = _READ[key]
+    if not programs:
+        raise Error(f"{path} has no scenario: write `@paracosm.scenario` above a function of the file")
+    if part is None and len(programs) == 1:
+        return next(iter(programs.values()))
+    names = ", ".join(programs)
+    if part is None:
+        raise Error(f"{path} has {len(programs)} scenarios: {names}; write {path}:{next(iter(programs))}")
+    wanted = part.replace("_", "-")
+    if wanted not in programs:
+        near = difflib.get_close_matches(wanted, programs, n=1)
+        meant = f"; did you mean `{near[0]}`?" if near else ""
+        raise Error(f"{path} has no scenario `{part}`{meant} (the file has {names})")
+    return programs[wanted]
+
+
+def _programs_of(file: Path) -> dict[str, Program]:
+    """Runs a file as a module, and returns the scenarios that it defines."""
+    name = f"paracosm_scenarios_{_hash(file)}"
+    spec = spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise Error(f"Python cannot load {file}")
+    module = module_from_spec(spec)
+    # As in a script, the file can import its neighbours.
+    folder = os.fspath(file.parent)
+    if folder not in sys.path:
+        sys.path.insert(0, folder)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    programs = [found for found in vars(module).values() if isinstance(found, Program) and _file(found.function) == file]
+    return {program.name.rpartition(":")[2]: program for program in programs}

@@ -1,0 +1,55 @@
+//! Streams that are used before they are defined, by the type of their values.
+
+use super::building::Building;
+use super::called::Kind;
+use super::stream::{Origin, Stream};
+use super::wire::Wire;
+use nalgebra::Vector2;
+use paracosm::engine;
+use pyo3::prelude::*;
+use std::rc::Rc;
+
+/// A stream that is announced.
+#[derive(Clone)]
+pub enum Forward {
+    Number(Rc<engine::Forward<f64>>),
+    Truth(Rc<engine::Forward<bool>>),
+    Vector(Rc<engine::Forward<Vector2<f64>>>),
+}
+
+/// Announces a stream in a scenario.
+///
+/// # Errors
+/// The scenario is complete.
+pub fn announced(building: &Building, name: &str, kind: Kind) -> PyResult<Stream> {
+    let forward = building.with(|scenario| match kind {
+        Kind::Number => Forward::Number(Rc::new(scenario.forward(name))),
+        Kind::Truth => Forward::Truth(Rc::new(scenario.forward(name))),
+        Kind::Vector => Forward::Vector(Rc::new(scenario.forward(name))),
+    })?;
+    Ok(Stream { building: Some(building.clone()), origin: Origin::Forward(forward) })
+}
+
+impl Forward {
+    /// Returns the stream.
+    pub fn wire(&self) -> Wire {
+        match self {
+            Self::Number(forward) => (***forward).clone().into(),
+            Self::Truth(forward) => (***forward).clone().into(),
+            Self::Vector(forward) => (***forward).clone().into(),
+        }
+    }
+
+    /// Says what the stream is.
+    ///
+    /// # Errors
+    /// The definition has values of another type.
+    pub fn define(&self, definition: Wire) -> PyResult<()> {
+        match self {
+            Self::Number(forward) => forward.define(definition.numbers("define")?),
+            Self::Truth(forward) => forward.define(definition.truths("define")?),
+            Self::Vector(forward) => forward.define(definition.vectors("define")?),
+        }
+        Ok(())
+    }
+}
