@@ -176,8 +176,8 @@ impl Car {
     }
 
     /// Returns the clearance of the car to the nearest body of a class, such as "pedestrian".
-    fn clearance_to(&self, class: &str) -> PyResult<Stream> {
-        Ok(Stream::of(&self.building, self.inner.clearance_to(class_of(class)?)))
+    fn clearance_to(&self, kind: &str) -> PyResult<Stream> {
+        Ok(Stream::of(&self.building, self.inner.clearance_to(class_of(kind)?)))
     }
 }
 

@@ -100,8 +100,8 @@ def _read(path: str, part: str | None) -> Program:
     wanted = part.replace("_", "-")
     if wanted not in programs:
         near = difflib.get_close_matches(wanted, programs, n=1)
-        meant = f"; did you mean `{near[0]}`?" if near else ""
-        raise Error(f"{path} has no scenario `{part}`{meant} (the file has {names})")
+        meant = f" (did you mean `{near[0]}`?)" if near else ""
+        raise Error(f"{path} has no scenario `{part}`{meant}; the file has {names}")
     return programs[wanted]
 
 

@@ -1,0 +1,465 @@
+"""Scenarios in Python: the same worlds as in Rust, and what happens to functions that go wrong."""
+
+import importlib.util
+import json
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import paracosm as pc
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "python"
+
+CROSSING = """
+    import paracosm as pc
+
+    @pc.scenario
+    def crossing(s):
+        '''A pedestrian crosses.'''
+        speed = s.interval("speed", 0.5, 10.0, unit="m/s")
+        gap = s.interval("distance", 5.0, 60.0, unit="m")
+        road = s.place(pc.RoadSegment(800).lanes(2))
+        car = s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(16.7))
+        walker = s.place(pc.Pedestrian(road.on_sidewalk("left", 100.0)))
+        near = car.gap_along(road.crossing(100.0)) < gap
+        walker.walk(road.on_sidewalk("right", 100.0), speed).skip_until(near).take_until(walker.arrived())
+        s.require("no-collision", pc.never(car.collides()))
+"""
+
+
+def examples() -> Any:
+    spec = importlib.util.spec_from_file_location("example_scenarios", EXAMPLES / "scenarios.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["example_scenarios"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def street(s: pc.Scenario) -> tuple[pc.Road, pc.Car]:
+    road = s.place(pc.RoadSegment(300.0))
+    return road, s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(10.0))
+
+
+def declared(function: Callable[[pc.Scenario], Any]) -> pc.Study:
+    return pc.Study(pc.scenario(function), budget=4)
+
+
+OPENED = ["friction", "rain", "lanes", "zebra", "side", "acceleration", "approach_speed", "roadside"]
+
+
+@pytest.mark.parametrize(
+    ("name", "budget", "opened"),
+    [
+        ("pedestrian_crossing", 200, OPENED),
+        ("cut_in", 120, ["acceleration", "side", "vehicle", "fog"]),
+        ("follow_leader", 30, ["gap", "friction"]),
+        ("t_loop", 3, []),
+        ("grid_traffic", 3, ["cars"]),
+    ],
+)
+def test_a_scenario_in_python_has_the_traces_of_the_scenario_in_rust(tmp_path, name, budget, opened):
+    choices = {"budget": budget, "open": opened, "seed": 1}
+    ours = pc.Study(getattr(examples(), name), **choices).run(tmp_path / "python").trials.to_pandas()
+    theirs = pc.Study(name.replace("_", "-"), **choices).run(tmp_path / "rust").trials.to_pandas()
+    # The messages of invalid tests name the scenario.
+    assert ours.drop(columns="error").equals(theirs.drop(columns="error"))
+    assert (ours["error"].isna() == theirs["error"].isna()).all()
+    assert ours["trace_hash"].notna().sum() >= budget // 2
+
+
+def test_a_study_of_a_scenario_in_python_differs_by_the_name_and_the_file_alone(tmp_path):
+    def entries(scenario: str | pc.Program) -> dict[str, Any]:
+        folder = tmp_path / str(isinstance(scenario, str))
+        pc.Study(scenario, budget=2).run(folder)
+        return json.loads((folder / "campaign.json").read_text())
+
+    ours, theirs = entries(examples().cut_in), entries("cut-in")
+    assert ours.pop("scenario").endswith("scenarios.py:cut-in") and len(ours.pop("scenario_files")) == 32
+    assert theirs.pop("scenario") == "cut-in"
+    assert ours == theirs
+
+
+def test_the_operators_make_the_nodes_of_the_graph():
+    seen = {}
+
+    @pc.scenario
+    def world(s):
+        road, car = street(s)
+        count = s.forward("count")
+        before = count.pre().initially(0.0)
+        count.define(before + 1.0)
+        fast = (car.speed() > 5.0) & ~(car.position().x() < 20.0) | (3.0 < abs(-car.heading()))
+        seen["fast"] = repr(fast)
+        s.require("x", pc.eventually(fast.when(count >= 3.0).hold(False), within=(0, 5)).implies(pc.once(fast)))
+
+    dot = world.dot()
+    assert "count" in dot and "pre" in dot
+    assert seen["fast"] == "Stream((((car.speed > 5) and not((x(car.position) < 20))) or (abs(-car.heading) > 3)))"
+
+
+def values_of(function: Callable[[pc.Car], pc.Stream], tmp_path: Path) -> np.ndarray:
+    """Returns the samples of a stream of numbers over a run."""
+
+    def world(s):
+        s.interval("v", 0.0, 1.0)
+        s.duration(1.0)
+        _, car = street(s)
+        s.require("x", pc.always(function(car).named("asked") > -1e9))
+
+    report = pc.Study(pc.scenario(world), budget=1).run(tmp_path / "run")
+    assert report.verdicts["pass"] == 1, report.trials.to_pandas()["error"]
+    return np.asarray(report[0].replay()["asked"])
+
+
+@pytest.mark.parametrize(
+    ("stream", "expected"),
+    [
+        (lambda car: pc.Stream.time() * 2.0 + 1.0, lambda t: 2.0 * t + 1.0),
+        (lambda car: 1.0 - pc.Stream.time() / 4.0, lambda t: 1.0 - t / 4.0),
+        (lambda car: pc.Stream.time().max(0.5).min(0.7), lambda t: np.clip(t, 0.5, 0.7)),
+        (lambda car: pc.Stream.vector(3.0, pc.Stream.time()).norm(), lambda t: np.hypot(3.0, t)),
+        (lambda car: (pc.Stream.vector(1.0, 2.0) * pc.Stream.time()).dot((3.0, 4.0)), lambda t: 11.0 * t),
+        (lambda car: pc.Stream.time().pre().initially(-1.0), lambda t: np.concatenate([[-1.0], t[:-1]])),
+        (lambda car: pc.Stream.time().map(lambda x: x**2), lambda t: t**2),
+        (lambda car: pc.Stream.time().scan(0.0, lambda total, x: total + x), np.cumsum),
+        (lambda car: pc.Stream.time().map(lambda x: (x, 2 * x), returns=tuple).y(), lambda t: 2 * t),
+        (lambda car: pc.Stream.time().filter(lambda x: x > 0.505).hold(0.0), lambda t: np.where(t > 0.505, t, 0.0)),
+        (lambda car: pc.Stream.time().take(2).concat(7.0), lambda t: np.where(np.arange(len(t)) < 2, t, 7.0)),
+        (lambda car: np.float64(2.0) * pc.Stream.time(), lambda t: 2.0 * t),
+    ],
+)
+def test_a_stream_has_the_values_of_numpy(stream, expected, tmp_path):
+    found = values_of(stream, tmp_path)
+    times = np.arange(len(found)) * 0.01
+    np.testing.assert_allclose(found, expected(times), rtol=1e-9, atol=1e-9)
+
+
+def test_for_each_calls_a_function_of_python(tmp_path):
+    told = []
+
+    @pc.scenario
+    def world(s):
+        s.interval("v", 0.0, 1.0)
+        s.duration(0.1)
+        street(s)
+        s.place(pc.Stream.time().for_each(told.append))
+
+    pc.Study(world, budget=1).run(tmp_path / "run", executor=1)
+    assert told[:3] == [0.0, 0.01, 0.02]
+
+
+def raises(s):
+    street(s)
+    raise ValueError("no such street")
+
+
+def returns(s):
+    street(s)
+    return 5
+
+
+def no_lane(s):
+    s.place(pc.RoadSegment(300.0)).on_lane(7, 10.0)
+
+
+def branches(s):
+    if street(s)[1].speed() < 3.0:
+        pass
+
+
+def chains(s):
+    1 < street(s)[1].speed() < 3
+
+
+def compares(s):
+    street(s)[1].speed() == 3.0
+
+
+def compares_a_parameter(s):
+    if s.choice("lanes", [2, 4]) == 2:
+        street(s)
+
+
+def adds_a_word(s):
+    street(s)[1].speed() + "km/h"
+
+
+def mixes_types(s):
+    (street(s)[1].speed() < 3.0) + 1.0
+
+
+def drives_by_a_stream(s):
+    speed, road = s.interval("v", 1.0, 2.0), s.place(pc.RoadSegment(300.0))
+    s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(speed))
+
+
+def streams_words(s):
+    s.choice("v", ["a", "b"]) + 1.0
+
+
+def asks_a_stream(s):
+    street(s)[1].speed().value()
+
+
+def places_a_number(s):
+    s.place(5)
+
+
+def misspells(s):
+    road, _ = street(s)
+    s.place(pc.Mover("other", "trck", road.path(1)))
+
+
+def chooses_nothing(s):
+    s.choice("v", [])
+
+
+def takes_a_truth(s):
+    s.choice("v", [True, False])
+
+
+def looks_left(s):
+    s.place(pc.RoadSegment(300.0)).on_sidewalk("lefty", 10.0)
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (raises, "ValueError: no such street"),
+        (returns, "returned a value of the type int, expected nothing"),
+        (no_lane, "has no lane 7"),
+        (branches, "`&`, `|` and `~`"),
+        (chains, "(a < b) & (b < c)"),
+        (compares, "`a.equals(b)`"),
+        (compares_a_parameter, "`parameter.value() == 2`"),
+        (adds_a_word, "`+`: found a value of the type str, expected a stream or a number"),
+        (mixes_types, "`+` does not work between a stream of truths and a stream of numbers"),
+        (drives_by_a_stream, "`parameter.value()`"),
+        (streams_words, "the parameter `v` has words"),
+        (asks_a_stream, "only a parameter has one"),
+        (places_a_number, "found a value of the type int, expected an object"),
+        (misspells, "no kind of body is called `trck` (did you mean `truck`?)"),
+        (chooses_nothing, "parameter `v` has no values"),
+        (takes_a_truth, "expected a number or a word"),
+        (looks_left, 'found the side "lefty", expected "left" or "right"'),
+    ],
+)
+def test_a_mistake_is_an_error_with_its_line(function, message):
+    with pytest.raises(pc.Error) as error:
+        declared(function)
+    assert message in str(error.value)
+    if function is not returns:
+        first = function.__code__.co_firstlineno
+        line = int(str(error.value).rsplit("test_scenarios.py, line ", 1)[1].split(",")[0])
+        assert first < line <= first + 3
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda s: None, "the number of ego vehicles is 0"),
+        (lambda s: (s.interval("v", 0.0, 1.0), s.interval("v", 0.0, 1.0), street(s)), "declared twice"),
+        (lambda s: (s.interval("v", 2.0, 1.0), street(s)), "interval [2, 1]"),
+        (lambda s: (s.interval("v", 0.0, float("nan")), street(s)), "interval [0, NaN]"),
+    ],
+)
+def test_what_only_the_whole_world_shows_is_an_error_too(function, message):
+    def world(s):
+        function(s)
+
+    with pytest.raises(pc.Error, match=message.replace("[", r"\[")):
+        declared(world)
+
+
+def test_nothing_of_a_test_can_be_kept_for_the_next(tmp_path):
+    kept: dict[str, pc.Stream] = {}
+
+    def world(s):
+        s.interval("v", 0.0, 1.0)
+        _, car = street(s)
+        s.require("x", pc.never(kept.setdefault("speed", car.speed()) > 100.0))
+
+    with pytest.raises(pc.Error, match="belongs to the world of a test that is complete"):
+        declared(world)
+    with pytest.raises(pc.Error, match="keep none"):
+        kept["speed"] + 1.0
+
+
+def errors_of(function: Callable[[pc.Scenario], None], folder: Path) -> tuple[dict[str, int], list[str]]:
+    report = pc.Study(pc.scenario(function), budget=6).run(folder)
+    return report.verdicts, [error for error in report.trials.to_pandas()["error"] if isinstance(error, str)]
+
+
+def test_what_goes_wrong_in_a_test_ends_that_test_alone(tmp_path):
+    def too_quick(s):
+        speed = s.interval("v", 1.0, 2.0)
+        street(s)
+        if speed.value() > 1.5:
+            raise ValueError("too quick")
+
+    verdicts, errors = errors_of(too_quick, tmp_path / "run")
+    assert verdicts["error"] == len(errors) == 2 and verdicts["pass"] == 4
+    assert all("ValueError: too quick (test_scenarios.py, line " in error for error in errors)
+
+
+def test_a_refused_test_is_invalid(tmp_path):
+    def refuses(s):
+        speed = s.interval("v", 1.0, 2.0)
+        street(s)
+        if speed.value() > 1.5:
+            s.refuse("too quick")
+
+    verdicts, errors = errors_of(refuses, tmp_path / "run")
+    assert verdicts["invalid"] == 2 and verdicts["error"] == 0 and all("too quick" in error for error in errors)
+
+
+def test_a_function_that_asks_for_other_parameters_each_time_gives_errors(tmp_path):
+    asked = iter(range(1000))
+
+    def changes(s):
+        s.interval(f"v{next(asked)}", 1.0, 2.0)
+        street(s)
+
+    verdicts, errors = errors_of(changes, tmp_path / "run")
+    assert verdicts["error"] == 6 and all("asked for other parameters than the test has" in error for error in errors)
+
+
+@pytest.mark.parametrize(
+    ("function", "message"), [(lambda x: 1 / 0, "ZeroDivisionError"), (lambda x: "no", "found 'no', expected a number")]
+)
+def test_a_function_of_a_stream_that_goes_wrong_ends_its_test(function, message, tmp_path):
+    def world(s):
+        s.interval("v", 1.0, 2.0)
+        s.require("x", pc.never(street(s)[1].speed().map(function) > 3.0))
+
+    verdicts, errors = errors_of(world, tmp_path / "run")
+    assert verdicts["error"] == 6
+    assert all(message in error and "in the function of a stream at test_scenarios.py, line" in error for error in errors)
+
+
+def test_a_function_without_the_decorator_is_an_error_that_says_so():
+    with pytest.raises(pc.Error, match="write `@paracosm.scenario` above the function"):
+        pc.Study(raises)  # type: ignore[arg-type]
+    with pytest.raises(pc.Error, match="expected a name or a file of a scenario"):
+        pc.Study(5)  # type: ignore[arg-type]
+
+
+def test_a_scenario_can_extend_another(tmp_path):
+    @pc.scenario
+    def base(s):
+        s.interval("v", 1.0, 2.0)
+        street(s)
+
+    @pc.scenario(name="longer", about="the same street for longer")
+    def extended(s):
+        base(s)
+        s.duration(12.0)
+
+    assert extended.name.endswith(":longer") and extended.about == "the same street for longer"
+    assert pc.Study(extended, budget=2).space.names == ["v"]
+
+
+def test_a_study_of_a_scenario_at_the_level_of_a_module_can_be_pickled():
+    study = pc.Study(examples().cut_in, budget=7)
+    again = pickle.loads(pickle.dumps(study))
+    assert repr(again) == repr(study) and again.scenario == study.scenario
+
+
+def test_ctrl_c_ends_a_function_that_never_returns(tmp_path):
+    script = textwrap.dedent("""
+        import paracosm as pc
+        @pc.scenario
+        def loops(s):
+            speed = s.interval("v", 1.0, 2.0)
+            road = s.place(pc.RoadSegment(300.0))
+            s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(10.0))
+            if 1.7 < speed.value() < 1.8:
+                print("looping", flush=True)
+                while True: pass
+        pc.Study(loops, budget=20).run("out", executor=2)
+    """)
+    (tmp_path / "loops.py").write_text(script)
+    running = subprocess.Popen([sys.executable, "loops.py"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert running.stdout is not None and running.stdout.readline() == "looping\n"
+    running.send_signal(signal.SIGINT)
+    begun = time.monotonic()
+    _, errors = running.communicate(timeout=60)
+    assert time.monotonic() - begun < 30 and "KeyboardInterrupt" in errors
+    # The test that was interrupted did not end, so it is not in the log.
+    report = pc.load(tmp_path / "out")
+    assert report.verdicts["error"] == 0
+
+
+def test_the_program_takes_a_scenario_in_a_file(fuzz, tmp_path):
+    (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING))
+    ran = fuzz("crossing.py", "--driver", "aeb", "--budget", "30", "--fail-on-violation")
+    assert ran.returncode == 1, ran.stderr
+    study = json.loads((tmp_path / "paracosm-out" / "campaign.json").read_text())
+    assert study["scenario"] == "crossing.py:crossing"
+    listed = fuzz("describe", "crossing.py:crossing")
+    assert "A pedestrian crosses" in listed.stdout and "speed" in listed.stdout
+    assert fuzz("describe", "crossing.py", "--dot").stdout.startswith("digraph")
+    # The commands that are printed can be typed as they are.
+    replay = next(line for line in ran.stdout.splitlines() if line.split()[:1] == ["replay"]).split()
+    assert replay[-1] == "--trust"
+    assert "as logged" in fuzz(*replay[2:]).stdout
+    assert "30 of 30 tests" in fuzz("repeat", "paracosm-out", "--out", "again", "--trust").stdout
+
+
+def test_the_file_that_a_folder_names_runs_only_with_trust(fuzz, tmp_path):
+    (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING) + "\nprint('it ran')\n")
+    assert "it ran" in fuzz("crossing.py", "--budget", "5").stdout
+    for command in (("replay", "paracosm-out", "1"), ("map", "paracosm-out"), ("report", "paracosm-out", "--out", "r.html")):
+        done = fuzz(*command)
+        assert "it ran" not in done.stdout, command
+    refused = fuzz("replay", "paracosm-out", "1")
+    assert refused.returncode == 2 and "--trust" in refused.stderr
+    assert "it ran" in fuzz("replay", "paracosm-out", "1", "--trust").stdout
+
+
+def test_a_file_that_has_changed_is_noticed(fuzz, tmp_path):
+    (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING))
+    fuzz("crossing.py", "--budget", "5")
+    (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING).replace('"left", 100.0', '"left", 101.0'))
+    resumed = fuzz("crossing.py", "--budget", "5", "--resume")
+    assert resumed.returncode == 2 and "scenario_files" in resumed.stderr
+    replayed = fuzz("replay", "paracosm-out", "1", "--trust")
+    assert replayed.returncode == 2 and "trace hash: " in replayed.stderr and ", logged " in replayed.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "message"),
+    [
+        ("x = 1", "worlds.py", "worlds.py has no scenario: write `@paracosm.scenario`"),
+        ("x = (", "worlds.py", "SyntaxError: '(' was never closed (worlds.py, line 1)"),
+        ("1 / 0", "worlds.py", "ZeroDivisionError: division by zero (worlds.py, line 1, in <module>)"),
+        (CROSSING, "worlds.py:crosing", "worlds.py has no scenario `crosing` (did you mean `crossing`?)"),
+        (CROSSING + CROSSING.replace("crossing(", "second("), "worlds.py", "worlds.py has 2 scenarios: crossing, second"),
+        (CROSSING, "world.py", "found no file world.py"),
+    ],
+)
+def test_a_file_without_the_scenario_is_an_error_that_says_what_it_has(fuzz, tmp_path, text, name, message):
+    (tmp_path / "worlds.py").write_text(textwrap.dedent(text))
+    done = fuzz(name, "--budget", "5")
+    assert done.returncode == 2 and message in done.stderr, done.stderr
+
+
+def test_a_fresh_process_reads_a_campaign_and_runs_its_tests_only_with_trust(tmp_path):
+    (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING))
+    script = "import paracosm as pc; from crossing import crossing; pc.Study(crossing, budget=5).run('out')"
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    report = pc.load(tmp_path / "out")
+    assert len(report) == 5
+    with pytest.raises(pc.Error, match="trust=True"):
+        report[0].replay()
+    assert len(pc.load(tmp_path / "out", trust=True)[0].replay()) > 0
