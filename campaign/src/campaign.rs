@@ -5,7 +5,7 @@
 //! a test panics, its trial has the verdict `error`, and the campaign goes on.
 
 use crate::darkroom::Darkroom;
-use crate::executor::{Desk, from_desk, in_order, pool};
+use crate::executor::{Desk, from_desk, in_order, pool_of};
 use crate::expected::Expected;
 use crate::observer::{FirstFailure, Observer};
 use crate::scales::Learned;
@@ -360,7 +360,7 @@ impl<'a> Campaign<'a> {
         mut watch: impl FnMut(&Trial) -> Result<ControlFlow<()>, Error>,
     ) -> Result<ControlFlow<()>, Error> {
         let hire = || Hired { campaign: self, worker: Some(self.worker().expect("one like it was made before")) };
-        let pool = pool(self.jobs.get().min(tests.len()).max(1))?;
+        let pool = pool_of(self.jobs.get().min(tests.len()).max(1), &self.supervision.threads)?;
         let mut shown = 0;
         let mut show = |trial| {
             let went_on = watch(&expected.check(trial))?;

@@ -6,6 +6,7 @@
 //! the results before that index.
 
 use crate::Failure;
+use crate::threads::Threads;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -24,7 +25,19 @@ const MOST_PAUSE: Duration = Duration::from_millis(5);
 /// # Errors
 /// The system cannot start the threads.
 pub fn pool(workers: usize) -> Result<ThreadPool, Failure> {
+    pool_of(workers, &Threads::default())
+}
+
+/// Makes a thread pool like [`pool`], of threads that work as the program wants.
+///
+/// # Errors
+/// The system cannot start the threads.
+pub fn pool_of(workers: usize, threads: &Threads) -> Result<ThreadPool, Failure> {
     let builder = ThreadPoolBuilder::new().num_threads(workers).thread_name(|i| format!("{WORKER}-{i}"));
+    let builder = builder.spawn_handler(|thread| {
+        let (threads, name) = (threads.clone(), thread.name().unwrap_or(WORKER).to_owned());
+        std::thread::Builder::new().name(name).spawn(move || threads.work(|| thread.run())).map(drop)
+    });
     builder.build().map_err(|source| Failure::Threads { threads: workers, source })
 }
 

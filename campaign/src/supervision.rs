@@ -2,6 +2,7 @@
 //! does not show, and for programs that it starts their folder and the place for their output.
 
 use crate::doubts::Doubts;
+use crate::threads::Threads;
 use std::collections::HashMap;
 use std::fmt;
 use std::fs::File;
@@ -25,6 +26,8 @@ pub struct Supervision {
     pub output: Output,
     /// The folder in which programs start; `None` for the folder of this process.
     pub folder: Option<PathBuf>,
+    /// What happens around the work of each thread that runs tests.
+    pub threads: Threads,
     /// The doubts about the programs of the campaign, which its log does not show.
     pub doubts: Doubts,
 }

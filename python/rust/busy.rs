@@ -2,6 +2,7 @@
 //! returns. Python itself only tells its main thread.
 
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -10,7 +11,7 @@ static BUSY: Mutex<BTreeMap<u64, usize>> = Mutex::new(BTreeMap::new());
 
 /// Calls a function of Python in this thread.
 pub fn calling<T>(py: Python, call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
-    let thread: u64 = py.import("threading")?.call_method0("get_ident")?.extract()?;
+    let thread = own_thread(py)?;
     let count = |by: isize| {
         let mut busy = BUSY.lock().unwrap_or_else(PoisonError::into_inner);
         let calls = busy.entry(thread).or_default();
@@ -25,13 +26,20 @@ pub fn calling<T>(py: Python, call: impl FnOnce() -> PyResult<T>) -> PyResult<T>
     called
 }
 
+/// Returns the name that Python gives this thread.
+fn own_thread(py: Python) -> PyResult<u64> {
+    static ASK: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let ask = ASK.get_or_try_init(py, || Ok::<_, PyErr>(py.import("threading")?.getattr("get_ident")?.unbind()))?;
+    ask.bind(py).call0()?.extract()
+}
+
 /// Raises `KeyboardInterrupt` in all busy threads but this one.
 ///
 /// # Errors
 /// This Python cannot do so.
 pub fn interrupt(py: Python) -> PyResult<()> {
     let threads: Vec<u64> = BUSY.lock().unwrap_or_else(PoisonError::into_inner).keys().copied().collect();
-    let own: u64 = py.import("threading")?.call_method0("get_ident")?.extract()?;
+    let own = own_thread(py)?;
     let ctypes = py.import("ctypes")?;
     let raise = ctypes.getattr("pythonapi")?.getattr("PyThreadState_SetAsyncExc")?;
     let exception = ctypes.call_method1("py_object", (py.get_type::<pyo3::exceptions::PyKeyboardInterrupt>(),))?;

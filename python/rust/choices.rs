@@ -1,5 +1,6 @@
 //! The choices of a study, by the names of their keywords.
 
+use crate::driver::{given_to, of_python};
 use crate::error::raised;
 use crate::space::parameter;
 use crate::value::value_of;
@@ -65,7 +66,9 @@ pub fn checked<'py>(py: Python<'py>, choices: Option<&Bound<'py, PyDict>>) -> Py
 /// # Errors
 /// A choice cannot be copied.
 pub fn deep_copy<'py>(choices: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
-    Ok(choices.py().import("copy")?.call_method1("deepcopy", (choices,))?.cast_into::<PyDict>()?)
+    let copied = choices.py().import("copy")?.call_method1("deepcopy", (choices,));
+    let copied = copied.map_err(|error| raised(format!("the choices of the study cannot be copied: {error}")))?;
+    Ok(copied.cast_into::<PyDict>()?)
 }
 
 /// Makes the choices for a study, and builds the study.
@@ -74,17 +77,23 @@ pub fn deep_copy<'py>(choices: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDic
 /// A choice makes no sense.
 pub fn built(mut study: StudyBuilder, choices: &Bound<PyDict>) -> PyResult<paracosm::Study> {
     let choices = Choices(choices);
-    if let Some(driver) = choices.get::<String>("driver")? {
-        study = study.driver(&driver);
+    let own = choices.get::<Bound<PyAny>>("driver")?.map(|driver| of_python(&driver)).transpose()?.flatten();
+    match own {
+        Some(own) => study = given_to(study, own, choices.entries("driver_settings")?)?,
+        None => {
+            if let Some(driver) = choices.get::<String>("driver")? {
+                study = study.driver(&driver);
+            }
+            for (name, value) in choices.entries::<f64>("driver_settings")? {
+                study = study.set_driver(&name, value);
+            }
+        }
     }
     if let Some(command) = choices.get::<String>("driver_command")? {
         study = study.driver_command(&command);
     }
     if let Some(seconds) = choices.get("timeout")? {
         study = study.driver_timeout(seconds);
-    }
-    for (name, value) in choices.entries::<f64>("driver_settings")? {
-        study = study.set_driver(&name, value);
     }
     if let Some(model) = choices.get::<String>("vehicle")? {
         study = study.vehicle(VehicleModel::find(&model).map_err(raised)?);

@@ -1,6 +1,7 @@
 //! Long work beside the interpreter: other threads of Python run meanwhile, and Ctrl-C ends the work.
 
 use crate::busy;
+use paracosm::campaign::Threads;
 use pyo3::{PyResult, Python};
 use std::panic;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -72,4 +73,10 @@ pub fn watched<T: Send>(
             raised.map_or(Ok(result), Err)
         })
     })
+}
+
+/// Lets each thread that runs tests know the interpreter from its beginning. Otherwise every question to a driver of Python, and every world of
+/// a test, would make the thread known anew.
+pub fn attached() -> Threads {
+    Threads::around(|work| Python::attach(|py| py.detach(|| work())))
 }

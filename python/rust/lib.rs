@@ -7,6 +7,7 @@ mod busy;
 mod choices;
 mod covering;
 mod detached;
+mod driver;
 mod error;
 mod formula;
 mod generator;
@@ -16,6 +17,7 @@ mod measures;
 mod plan;
 mod programs;
 mod report;
+mod sensors;
 mod space;
 mod study;
 mod system;
@@ -44,10 +46,10 @@ mod _core {
         table::Table,
         test_table::Tests,
         world::{
-            Actor, AutonomousVehicle, Car, Composite, Conditions, CrossIntersection, Effect, Environment, EnvironmentCars,
-            Fixture, Fleet, Line, Monitor, Mover, Path, Pedestrian, Pose, Program, Road, RoadNetwork,
-            RoadSegment, Roadside, Roundabout, Scenario, Stream, Streets, TIntersection, Temporal, Walk, Walker, always,
-            eventually, grid_city, historically, never, once, until,
+            Actor, AutonomousVehicle, Car, Composite, Conditions, CrossIntersection, Effect, Environment,
+            EnvironmentCars, Fixture, Fleet, Line, Monitor, Mover, Path, Pedestrian, Pose, Program, Road, RoadNetwork,
+            RoadSegment, Roadside, Roundabout, Scenario, Stream, Streets, TIntersection, Temporal, Walk, Walker,
+            always, eventually, grid_city, historically, never, once, until,
         },
     };
 }

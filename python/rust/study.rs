@@ -1,15 +1,15 @@
 //! `Study`: the description of a campaign, which is checked once and never changes; and running it.
 
 use crate::choices::{built, checked, deep_copy};
-use crate::detached::watched;
+use crate::detached::{attached, watched};
 use crate::error::raised;
 use crate::inquiries::likelihood;
 use crate::report::Report;
 use crate::space::{Space, cube};
 use crate::system::system_of;
+use crate::world::{Program, catalogue};
 use paracosm::analysis::likelihood::Question;
 use paracosm::campaign::{StudyBuilder, Supervision};
-use crate::world::{Program, catalogue};
 use paracosm::{Runner, Trial};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple, PyType};
@@ -68,7 +68,10 @@ impl Subject {
             Ok(name) if scenario.is_instance_of::<PyString>() || scenario.hasattr("__fspath__")? => {
                 Ok(Self::Scenario(name.extract()?))
             }
-            _ => Err(raised(format!("found {}, expected a name or a file of a scenario, or a function", scenario.repr()?))),
+            _ => Err(raised(format!(
+                "found {}, expected a name or a file of a scenario, or a function",
+                scenario.repr()?
+            ))),
         }
     }
 
@@ -192,7 +195,7 @@ impl Study {
         junit: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Report> {
-        let supervision = Supervision::default();
+        let supervision = Supervision { threads: attached(), ..Supervision::default() };
         let stop = Arc::clone(&supervision.stop);
         let runner = Runner::new(&self.inner).until(supervision);
         let runner = executor.into_iter().fold(runner, Runner::jobs);

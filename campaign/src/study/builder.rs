@@ -136,7 +136,8 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets a function of this program that makes the driver under test. Only this program can replay its tests, with
+    /// Sets a function of this program that makes the driver under test. The study notes the driver's settings, which the function has to know;
+    /// only `latency` has an effect by itself. Only this program can replay its tests, with
     /// [`Study::driven_by_own`](super::Study::driven_by_own).
     pub fn own_driver(mut self, name: &str, make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static) -> Self {
         self.driver = Some(Wish::own(name, make));

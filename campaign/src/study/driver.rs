@@ -263,7 +263,8 @@ impl DriverChoice {
                 return Err(DriverFlaw::Taken { name: name.clone() }.into());
             }
             Wish::Own(name, own) => {
-                Self { name: name.clone(), settings: Record::default(), source: Source::Own(own.clone()) }
+                let settings = Self::checked(changes.iter().cloned().collect())?;
+                Self { name: name.clone(), settings, source: Source::Own(own.clone()) }
             }
             Wish::Command(command) => Self::external(command, By::Command, changes.iter().cloned().collect(), timeout)?,
             Wish::Name(name) if Address::is_meant(name) => {
@@ -298,12 +299,18 @@ impl DriverChoice {
         Ok(Self { name: name.to_owned(), settings, source })
     }
 
-    fn external(name: &str, by: By, settings: Record<f64>, timeout: Option<f64>) -> Result<Self, DriverFlaw> {
+    /// Checks the settings of a driver that does not say which settings it has.
+    fn checked(settings: Record<f64>) -> Result<Record<f64>, DriverFlaw> {
         within(&settings, &LATENCY)?;
         within(&settings, &SEED)?;
         if let Some((name, value)) = settings.iter().find(|(_, value)| !value.is_finite()) {
             return Err(DriverFlaw::NotFinite { setting: name.to_owned(), value: *value });
         }
+        Ok(settings)
+    }
+
+    fn external(name: &str, by: By, settings: Record<f64>, timeout: Option<f64>) -> Result<Self, DriverFlaw> {
+        let settings = Self::checked(settings)?;
         let timeout = checked_timeout(timeout)?;
         let passed_on = settings.iter().filter(|(name, _)| ![LATENCY.name, SEED.name].contains(name));
         let terms = Terms {
@@ -383,7 +390,7 @@ impl DriverChoice {
     /// Returns the latency that the settings add to the driver, in seconds from a question until the answer takes
     /// effect. The delays that the driver itself models are not included.
     pub fn latency(&self) -> f64 {
-        let modelled = matches!(self.source, Source::External(_) | Source::Network(_));
+        let modelled = !matches!(self.source, Source::Engine);
         self.settings.get(LATENCY.name).copied().filter(|_| modelled).unwrap_or(0.0)
     }
 

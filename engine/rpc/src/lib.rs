@@ -27,6 +27,8 @@
 mod absent;
 mod address;
 mod open_error;
+#[cfg(feature = "connect")]
+mod partner;
 #[cfg(feature = "serve")]
 mod serve;
 #[cfg(feature = "connect")]
@@ -40,11 +42,22 @@ pub use absent::Session;
 
 pub use address::{Address, AddressError};
 pub use open_error::OpenError;
+#[cfg(feature = "connect")]
+pub use partner::{Answers, Partner};
 #[cfg(feature = "serve")]
 pub use serve::{SessionOptions, serve};
 #[cfg(feature = "connect")]
 pub use session::Session;
 pub use terms::Terms;
+
+/// The messages of the protocol that a [`Partner`] in this process deals with.
+#[cfg(feature = "connect")]
+pub mod message {
+    pub use crate::wire::{
+        Camera, Delivery, Fix, Gnss, Image, Imu, Inaccuracy, Inertia, Lidar, Mount, Other, Reset, Scan, Step, Vehicle, Way,
+        Welcome, other::Outline,
+    };
+}
 
 /// True if sessions can begin, because the feature `connect` was built.
 pub const CONNECTS: bool = cfg!(feature = "connect");

@@ -30,7 +30,9 @@ impl Kind {
             "float" | "int" => Ok(Self::Number),
             "bool" => Ok(Self::Truth),
             "tuple" => Ok(Self::Vector),
-            _ => Err(raised(format!("found {}, expected the type of the values: float, bool, or tuple", found.repr()?))),
+            _ => {
+                Err(raised(format!("found {}, expected the type of the values: float, bool, or tuple", found.repr()?)))
+            }
         }
     }
 }
@@ -58,7 +60,11 @@ impl Datum for f64 {
     }
 
     fn read(found: &Bound<PyAny>) -> PyResult<Self> {
-        if is_truth(found) { Err(wrong(found, "a number")) } else { found.extract().map_err(|_| wrong(found, "a number")) }
+        if is_truth(found) {
+            Err(wrong(found, "a number"))
+        } else {
+            found.extract().map_err(|_| wrong(found, "a number"))
+        }
     }
 }
 

@@ -70,7 +70,9 @@ fn part(found: &Bound<PyAny>) -> PyResult<road::Composite> {
         return Ok(ring.get().inner.clone().into());
     }
     let kind = found.get_type().name()?;
-    Err(raised(format!("found a value of the type {kind}, expected a RoadSegment, an intersection, a Roundabout or a Composite")))
+    Err(raised(format!(
+        "found a value of the type {kind}, expected a RoadSegment, an intersection, a Roundabout or a Composite"
+    )))
 }
 
 /// Makes the class of a part of a network.

@@ -125,7 +125,9 @@ impl Program {
     }
 
     /// Says how to find the scenario again from a pickle: by its module and the name of its function.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>, Bound<'py, PyAny>))> {
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>, Bound<'py, PyAny>))> {
         let (py, function) = (slf.py(), slf.get().function.bind(slf.py()));
         let find = py.import("paracosm._scenarios")?.getattr("_found")?;
         Ok((find, (function.getattr("__module__")?, function.getattr("__qualname__")?)))
@@ -146,7 +148,9 @@ fn build(function: &Py<PyAny>, scenario: &mut engine::Scenario) {
                 return Ok(());
             }
             let found = returned.get_type().name()?;
-            Err(raised(format!("the function of the scenario returned a value of the type {found}, expected nothing: it builds in the scenario")))
+            Err(raised(format!(
+                "the function of the scenario returned a value of the type {found}, expected nothing: it builds in the scenario"
+            )))
         });
         let error = built.err()?;
         let why = in_words(py, &error);

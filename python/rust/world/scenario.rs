@@ -171,7 +171,9 @@ impl Scenario {
             Some(streets) => Ok(Bound::new(py, streets)?.into_any()),
             None => {
                 let kind = object.get_type().name()?;
-                Err(raised(format!("place: found a value of the type {kind}, expected an object such as a RoadSegment or a Pedestrian")))
+                Err(raised(format!(
+                    "place: found a value of the type {kind}, expected an object such as a RoadSegment or a Pedestrian"
+                )))
             }
         }
     }

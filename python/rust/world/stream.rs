@@ -382,7 +382,9 @@ impl Stream {
     fn value<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         match (&self.origin, &self.building) {
             (Origin::Parameter(parameter), Some(building)) => parameter.value(py, building),
-            _ => Err(raised("value: a stream has no value before the run; only a parameter has one, such as that of `s.interval(..)`")),
+            _ => Err(raised(
+                "value: a stream has no value before the run; only a parameter has one, such as that of `s.interval(..)`",
+            )),
         }
     }
 

@@ -57,7 +57,9 @@ impl Temporal {
     }
 
     fn __bool__(&self) -> PyResult<bool> {
-        Err(raised("a statement about a run is neither true nor false before the run: write `&`, `|` and `~` for `and`, `or` and `not`"))
+        Err(raised(
+            "a statement about a run is neither true nor false before the run: write `&`, `|` and `~` for `and`, `or` and `not`",
+        ))
     }
 
     /// Returns the statement that `other` holds if this statement holds.

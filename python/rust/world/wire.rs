@@ -34,10 +34,18 @@ pub(super) use each;
 macro_rules! both {
     ($word:literal, $left:expr, $right:expr, $one:ident, $other:ident => $made:expr) => {
         match ($left, $right) {
-            ($crate::world::wire::Wire::Number($one), $crate::world::wire::Wire::Number($other)) => Ok($crate::world::wire::Wire::Number($made)),
-            ($crate::world::wire::Wire::Truth($one), $crate::world::wire::Wire::Truth($other)) => Ok($crate::world::wire::Wire::Truth($made)),
-            ($crate::world::wire::Wire::Vector($one), $crate::world::wire::Wire::Vector($other)) => Ok($crate::world::wire::Wire::Vector($made)),
-            ($crate::world::wire::Wire::Event($one), $crate::world::wire::Wire::Event($other)) => Ok($crate::world::wire::Wire::Event($made)),
+            ($crate::world::wire::Wire::Number($one), $crate::world::wire::Wire::Number($other)) => {
+                Ok($crate::world::wire::Wire::Number($made))
+            }
+            ($crate::world::wire::Wire::Truth($one), $crate::world::wire::Wire::Truth($other)) => {
+                Ok($crate::world::wire::Wire::Truth($made))
+            }
+            ($crate::world::wire::Wire::Vector($one), $crate::world::wire::Wire::Vector($other)) => {
+                Ok($crate::world::wire::Wire::Vector($made))
+            }
+            ($crate::world::wire::Wire::Event($one), $crate::world::wire::Wire::Event($other)) => {
+                Ok($crate::world::wire::Wire::Event($made))
+            }
             (left, right) => Err(raised(format!(
                 "{}: found {} and {}, expected streams of the same type",
                 $word,

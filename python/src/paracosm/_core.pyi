@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
 
+from .driver import Driver
+from .observation import Control, Observation
 from .parameters import Choice, Interval
 
 # What stands for a stream: a stream, a number, a truth, or a pair of numbers.
@@ -232,7 +234,7 @@ class _Choices(TypedDict, total=False):
     stop_at_first: bool | None
 
 class _ScenarioChoices(_Choices, total=False):
-    driver: str | None
+    driver: str | Driver | type[Driver] | Callable[[Observation], Control] | None
     driver_command: str | None
     driver_settings: Mapping[str, float] | None
     open: Mapping[str, _Domain | None] | Sequence[str] | None
