@@ -105,7 +105,9 @@ pub struct NoScenarioFile {
 
 /// The error that a campaign names a file that is a program, which nobody trusts.
 #[derive(Debug, Error, PartialEq, Eq)]
-#[error("the scenario `{name}` stands in a file that is a program, and a file of a stranger may do anything: `--trust` (in Python `trust=True`) runs the file")]
+#[error(
+    "the scenario `{name}` stands in a file that is a program, and a file of a stranger may do anything: `--trust` (in Python `trust=True`) runs the file"
+)]
 pub struct UntrustedScenario {
     /// The name of the scenario.
     pub name: String,
@@ -239,7 +241,8 @@ mod tests {
             let name = path.file_stem().and_then(OsStr::to_str).unwrap_or_default().to_owned();
             Ok(Program::of(name, "a world of a file", |_| ()))
         };
-        let reader = Reader { ending: "world", about: "worlds of a test", holds: Holds::Description, read, tests: None };
+        let reader =
+            Reader { ending: "world", about: "worlds of a test", holds: Holds::Description, read, tests: None };
         let catalogue = Catalogue::default().reading(reader);
         for file in ["folder/town.world", "folder/town.WORLD"] {
             assert_eq!(catalogue.find(file).expect("it is read").name(), "town");

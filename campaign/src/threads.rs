@@ -32,3 +32,38 @@ impl fmt::Debug for Threads {
         f.debug_tuple("Threads").field(&self.0.is_some()).finish()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::executor::{in_order, pool_of};
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn each_thread_works_within_what_the_program_does_around_it() {
+        let (begun, ended) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
+        let (begins, ends) = (begun.clone(), ended.clone());
+        let threads = Threads::around(move |work| {
+            begins.fetch_add(1, Ordering::SeqCst);
+            work();
+            ends.fetch_add(1, Ordering::SeqCst);
+        });
+        let mut results = Vec::new();
+        let sink = |result| {
+            results.push(result);
+            Ok::<_, ()>(())
+        };
+        let pool = pool_of(3, &threads).unwrap();
+        in_order(&pool, 0..100, || (), |(), i| Some(i), sink).unwrap();
+        assert_eq!(results, (0..100).collect::<Vec<_>>());
+        assert_eq!(begun.load(Ordering::SeqCst), 3);
+        drop(pool);
+        // The threads of a pool end after the pool is gone.
+        let begin = Instant::now();
+        while ended.load(Ordering::SeqCst) < 3 && begin.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert_eq!(ended.load(Ordering::SeqCst), 3);
+    }
+}

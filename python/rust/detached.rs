@@ -78,5 +78,5 @@ pub fn watched<T: Send>(
 /// Lets each thread that runs tests know the interpreter from its beginning. Otherwise every question to a driver of Python, and every world of
 /// a test, would make the thread known anew.
 pub fn attached() -> Threads {
-    Threads::around(|work| Python::attach(|py| py.detach(|| work())))
+    Threads::around(|work| Python::attach(|py| py.detach(work)))
 }

@@ -82,7 +82,7 @@ fn answer_of(answer: &Bound<PyAny>) -> PyResult<Result<Answer, AnswerFlaw>> {
 /// Returns an exception in a line, with the place in the user's code where it was raised.
 pub fn in_words(py: Python, error: &PyErr) -> String {
     let place = || -> PyResult<String> {
-        let mut at = error.traceback(py).map(|at| at.into_any());
+        let mut at = error.traceback(py).map(Bound::into_any);
         let mut place = None;
         while let Some(here) = at {
             let code = here.getattr("tb_frame")?.getattr("f_code")?;

@@ -107,6 +107,20 @@ def test_the_operators_make_the_nodes_of_the_graph():
     assert seen["fast"] == "Stream((((car.speed > 5) and not((x(car.position) < 20))) or (abs(-car.heading) > 3)))"
 
 
+def test_streams_and_statements_mix_on_both_sides():
+    @pc.scenario
+    def world(s):
+        slow = street(s)[1].speed() < 5.0
+        s.require("a", slow | pc.eventually(~slow))
+        s.require("b", pc.eventually(~slow) | slow)
+        s.require("c", ~slow & pc.never(slow, within=(0, 1)))
+        s.require("d", pc.until(~slow, slow, within=(0, 9)).implies(pc.historically(~slow)))
+
+    formulas = [requirement["text"] for requirement in world.describe()["requirements"]]
+    assert formulas[0] == "(car.speed < 5) or eventually not (car.speed < 5)"
+    assert formulas[1] == "eventually not (car.speed < 5) or (car.speed < 5)"
+
+
 def values_of(function: Callable[[pc.Car], pc.Stream], tmp_path: Path) -> np.ndarray:
     """Returns the samples of a stream of numbers over a run."""
 

@@ -209,7 +209,7 @@ pub fn shell_word(word: &str) -> String {
 /// its driver or the file of its scenario. The text is empty if the study has none of them. Without the options, the programs do not run
 /// the commands and the files that a folder or a file names, and send nothing to the address.
 pub fn command_option(study: &Study) -> String {
-    let runs_a_file = study.subject().scenario().is_ok_and(|simulation| simulation.runs_a_file());
+    let runs_a_file = study.subject().scenario().is_ok_and(paracosm_campaign::study::Simulation::runs_a_file);
     if study.address().is_some() || runs_a_file {
         return " --trust".to_owned();
     }

@@ -62,9 +62,7 @@ impl Options {
         // What is noted about the folder is noted once.
         let read = || self.trust.read(&self.dir, catalogue, Verbosity::SILENT).map(|(log, _)| log);
         let page = || -> Result<String, Error> {
-            Report::read(read()?, &self.dir)?
-                .page(&self.dir, program::name(), Beside::default())?
-                .served()
+            Report::read(read()?, &self.dir)?.page(&self.dir, program::name(), Beside::default())?.served()
         };
         let cameras = self.cameras.as_deref().map(read_cameras).transpose()?;
         let viewer = Viewer {

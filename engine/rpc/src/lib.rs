@@ -54,8 +54,8 @@ pub use terms::Terms;
 #[cfg(feature = "connect")]
 pub mod message {
     pub use crate::wire::{
-        Camera, Delivery, Fix, Gnss, Image, Imu, Inaccuracy, Inertia, Lidar, Mount, Other, Reset, Scan, Step, Vehicle, Way,
-        Welcome, other::Outline,
+        Camera, Delivery, Fix, Gnss, Image, Imu, Inaccuracy, Inertia, Lidar, Mount, Other, Reset, Scan, Step, Vehicle,
+        Way, Welcome, other::Outline,
     };
 }
 

@@ -70,3 +70,55 @@ impl Scenario {
         Param::new(self, given.unwrap_or_default(), read)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{AutonomousVehicle, Declared, Program, ProgramError, RoadSegment, Scenario, Test, never};
+    use paracosm_space::{Domain, Parameter, Shape, Space, Value, Values};
+
+    fn street(s: &mut Scenario) {
+        let road = s.place(RoadSegment::new(300.0));
+        s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+    }
+
+    #[test]
+    fn a_parameter_of_numbers_that_is_described_as_data_can_vary() {
+        let program = Program::of("described", "a parameter as data", |s| {
+            let domain = Domain::Interval { lo: 0.0, hi: 1.0 };
+            let speed = s.number(Declared::open(Parameter::new("speed", domain)));
+            street(s);
+            s.require("slow", never(speed.above(2.0)));
+        });
+        let mut parameter = program.declare().unwrap().parameters.remove(0).parameter;
+        parameter.signal = Some(Shape::PiecewiseConstant { pieces: 2 });
+        let (space, values) = (Space::new(vec![parameter]).unwrap(), [Value::Number(0.1), Value::Number(0.2)]);
+        let test = Values::from_iter([("speed".to_owned(), Value::from_iter(values))]);
+        assert_eq!(program.check(Test::new(&test, &space)), Ok(()));
+    }
+
+    #[test]
+    fn a_program_that_fails_says_why_and_nothing_else() {
+        let program = Program::of("fails", "a program that fails", |s| {
+            s.fail("the interpreter is gone");
+            s.fail("and more");
+        });
+        let error = program.declare().unwrap_err();
+        assert!(matches!(&error, ProgramError::Failed { why, .. } if why == "the interpreter is gone"), "{error}");
+        assert_eq!(error.to_string(), "scenario `fails` failed: the interpreter is gone");
+    }
+
+    #[test]
+    fn an_interpreter_can_take_the_scenario_and_gives_it_back() {
+        let program = Program::of("lent", "a scenario that somebody else builds", |s| {
+            let mut taken = std::mem::take(s);
+            taken.interval("speed", 0.0..=1.0);
+            street(&mut taken);
+            assert!(taken.flaws().is_empty());
+            taken.place(RoadSegment::new(300.0)).on_lane(7, 10.0);
+            assert_eq!(taken.flaws().len(), 1);
+            *s = taken;
+        });
+        let error = program.declare().unwrap_err().to_string();
+        assert!(error.contains("has no lane 7"), "{error}");
+    }
+}

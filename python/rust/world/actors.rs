@@ -314,7 +314,7 @@ fn body_of(found: &Bound<PyAny>) -> PyResult<Body> {
         _ => {}
     }
     let kind = VehicleKind::ALL.iter().find(|kind| kind.name == name);
-    kind.map(|kind| Body::of(kind)).ok_or_else(|| {
+    kind.map(Body::of).ok_or_else(|| {
         let names: Vec<&str> = VehicleKind::ALL.iter().map(|kind| kind.name).chain(["adult", "child"]).collect();
         let meant = did_you_mean(&nearest(&name, names.iter().copied()));
         raised(format!("no kind of body is called `{name}`{meant}; the kinds are {}", names.join(", ")))

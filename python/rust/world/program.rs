@@ -113,7 +113,9 @@ impl Program {
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let declaration = self.inner.declare().map_err(raised)?;
         let parameters: Vec<_> = declaration.parameters.iter().map(|declared| &declared.parameter).collect();
-        let requirements: Vec<_> = declaration.requirements.iter().map(|one| (&one.id, &one.text, &one.unit)).collect();
+        let requirements = declaration.requirements.iter();
+        let requirements: Vec<_> =
+            requirements.map(|one| serde_json::json!({ "id": one.id, "text": one.text, "unit": one.unit })).collect();
         to_dict(py, &serde_json::json!({ "parameters": parameters, "requirements": requirements }))
     }
 
@@ -125,10 +127,8 @@ impl Program {
     }
 
     /// Says how to find the scenario again from a pickle: by its module and the name of its function.
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>, Bound<'py, PyAny>))> {
-        let (py, function) = (slf.py(), slf.get().function.bind(slf.py()));
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Place<'py>)> {
+        let function = self.function.bind(py);
         let find = py.import("paracosm._scenarios")?.getattr("_found")?;
         Ok((find, (function.getattr("__module__")?, function.getattr("__qualname__")?)))
     }
@@ -137,6 +137,9 @@ impl Program {
         format!("Program({}: {})", self.inner.name(), self.inner.about())
     }
 }
+
+/// The module of a function, and its name in the module.
+type Place<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 /// Calls the function with a scenario. What it raises is the failure of the scenario.
 fn build(function: &Py<PyAny>, scenario: &mut engine::Scenario) {

@@ -5,6 +5,7 @@ use super::called::{Called, Datum, Kind};
 use super::forward::Forward;
 use super::parameter::Parameter;
 use super::place::Line;
+use super::temporal::Temporal;
 use super::wire::{Operand, Sign, Wire, both, each};
 use crate::error::raised;
 use nalgebra::Vector2;
@@ -67,6 +68,15 @@ impl Stream {
     fn joined(&self, other: Operand, join: impl FnOnce(Wire, Wire) -> PyResult<Wire>) -> PyResult<Self> {
         let wire = join(self.wire()?, other.wire)?;
         Ok(Self { building: self.building.clone().or(other.building), origin: Origin::Wire(wire) })
+    }
+
+    /// Makes the stream of `&` or `|`. A statement on the right makes a statement, which is its own affair.
+    fn stated<'py>(&self, other: &Bound<'py, PyAny>, sign: Sign) -> PyResult<Bound<'py, PyAny>> {
+        let py = other.py();
+        match other.is_instance_of::<Temporal>() {
+            true => Ok(py.NotImplemented().into_bound(py)),
+            false => Ok(Bound::new(py, self.operated(other, sign, false)?)?.into_any()),
+        }
     }
 
     /// Makes the stream of an operator, with this stream on the left or on the right.
@@ -145,16 +155,16 @@ impl Stream {
         self.operated(other, Sign::Div, true)
     }
 
-    fn __and__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        self.operated(other, Sign::And, false)
+    fn __and__<'py>(&self, other: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.stated(other, Sign::And)
     }
 
     fn __rand__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
         self.operated(other, Sign::And, true)
     }
 
-    fn __or__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        self.operated(other, Sign::Or, false)
+    fn __or__<'py>(&self, other: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.stated(other, Sign::Or)
     }
 
     fn __ror__(&self, other: &Bound<PyAny>) -> PyResult<Self> {

@@ -4,7 +4,7 @@ use super::open;
 use super::programs::{BEHIND, CROSSING, TURNING};
 use super::scripted::{Act, ready, scripted, welcome};
 use crate::wire::{self, answer};
-use crate::{Address, serve};
+use crate::{Address, Answers, Partner, serve};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Rig};
 use paracosm_engine::vehicle::{Vehicle, VehicleModel};
@@ -43,6 +43,41 @@ fn the_same_driver_gives_the_same_trace_in_process_and_over_grpc() {
             hash(&near)
         );
     }
+}
+
+/// Answers the messages as a server does that asks a driver of this process.
+struct Here {
+    driver: Box<dyn Driver>,
+    observation: Observation,
+}
+
+impl Answers for Here {
+    fn reset(&mut self, reset: &wire::Reset) -> Result<(), Fault> {
+        self.driver.reset(&reset.into())
+    }
+
+    fn step(&mut self, step: wire::Step) -> Result<Control, Fault> {
+        wire::read(&step, &mut self.observation);
+        self.driver.step(&self.observation)
+    }
+}
+
+#[test]
+fn a_partner_in_this_process_drives_as_the_driver_that_it_asks() {
+    for (program, name) in [(&CROSSING, "aeb"), (&BEHIND, "cc"), (&TURNING, "cruise")] {
+        let test = program.declare().unwrap().nominal();
+        let asked = Here { driver: built_in(name), observation: Observation::default() };
+        let welcome = wire::Welcome { period: asked.driver.period(), others: true, ..welcome() };
+        let mut partner = Partner::new(welcome, 0, asked).unwrap();
+        let own = simulate(program, &test, VehicleModel::SingleTrack, built_in(name).as_mut());
+        for _ in 0..2 {
+            let over = simulate(program, &test, VehicleModel::SingleTrack, &mut partner);
+            assert_eq!(over, own, "{name} in {}", program.name());
+        }
+    }
+    let asked = Here { driver: built_in("aeb"), observation: Observation::default() };
+    let wrong = Partner::new(wire::Welcome { period: 0.0, ..welcome() }, 0, asked).err().unwrap();
+    assert!(wrong.to_string().contains("period is 0 s"), "{wrong}");
 }
 
 #[test]
