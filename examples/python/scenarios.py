@@ -1,4 +1,4 @@
-"""Five scenarios of the catalogue, written in Python. Their worlds and traces are the same as in Rust, which a test checks.
+"""Seven scenarios of the catalogue, written in Python. Their worlds and traces are the same as in Rust, which a test checks.
 
     paracosm-fuzz scenarios.py:cut-in --driver aeb --budget 100
 """
@@ -204,3 +204,89 @@ def grid_traffic(s: pc.Scenario) -> None:
     s.monitor(pc.Monitor.no_collision(car))
     s.monitor(pc.Monitor.right_of_way(car, 1.0))
     s.monitor(pc.Monitor.activity(car, 30.0))
+
+
+def _circus() -> pc.RoadNetwork:
+    circus: pc.Roundabout | pc.Composite = pc.Roundabout().named("circus")
+    for point, name in (("one", "east"), ("two", "south"), ("three", "west"), ("four", "north")):
+        at = point if isinstance(circus, pc.Roundabout) else f"circus.{point}"
+        circus = circus.connect(at, pc.RoadSegment(120.0).named(name), "one")
+    assert isinstance(circus, pc.Composite)
+    return circus.build()
+
+
+CIRCUS = _circus()
+
+
+@pc.scenario
+def roundabout_entry(s: pc.Scenario) -> None:
+    """the ego vehicle enters a roundabout with another car in it"""
+    speed = s.interval("approach_speed", 4.0, 14.0, unit="m/s", default=8.0)
+    other_speed = s.interval("other_speed", 3.0, 9.0, unit="m/s", default=6.0)
+    lead = s.interval("lead", -4.0, 4.0, unit="s", default=0.5)
+    friction = s.nominal("friction", 0.2, 0.8, 0.8)
+    environment = weather(s, friction, later=True)
+
+    streets = s.place(CIRCUS)
+    s.place(environment)
+    way = streets.way(("south", -1, 60.0), ("north", 1, 100.0))
+    car = s.place(pc.AutonomousVehicle.along(way).speed(speed.value()))
+    # Both cars reach the place where they meet after 60 m of the ego vehicle.
+    start = 130.0 - other_speed.value() * (60.0 / speed.value() - lead.value())
+    if start < 0.0:
+        s.refuse("the other car would have to start before the beginning of its road")
+    other = pc.TrafficCar.following(streets, ("west", -1, 110.0), ("north", 1, 100.0), driven=start)
+    s.place(pc.EnvironmentCars.on(streets, [other])).drive(0, other_speed)
+    roadside(s)
+
+    s.duration(45.0)
+    s.monitor(pc.Monitor.no_collision(car))
+    s.monitor(pc.Monitor.right_of_way(car, 0.5))
+    s.monitor(pc.Monitor.route_completion(car, 60.0))
+
+
+def _highway() -> pc.RoadNetwork:
+    def arm(name: str, length: float) -> pc.RoadSegment:
+        return pc.RoadSegment(length).lanes(6).named(name)
+
+    crossing = pc.CrossIntersection().lanes(6).connect("one", arm("east", 150.0), "one")
+    crossing = crossing.connect("two", arm("south", 150.0), "one").connect("three", arm("west", 250.0), "one")
+    return crossing.connect("four", arm("north", 150.0), "one").build()
+
+
+HIGHWAY = _highway()
+
+
+@pc.scenario
+def highway_traffic(s: pc.Scenario) -> None:
+    """six lanes of traffic, and a truck that crosses them"""
+    delay = s.interval("truck_delay", 0.0, 15.0, unit="s", default=8.0)
+    truck_speed = s.interval("truck_speed", 3.0, 15.0, unit="m/s", default=8.0)
+    speed = s.nominal("ego_speed", 8.0, 25.0, 14.0, unit="m/s")
+    traffic_seed = s.nominal_choice("traffic_seed", [1, 2, 3, 4], 1)
+    environment = weather(s)
+
+    streets = s.place(HIGHWAY)
+    s.place(environment)
+    way = streets.way(("west", -1, 240.0), ("east", 1, 140.0))
+    car = s.place(pc.AutonomousVehicle.along(way).speed(speed.value()))
+    cars = [pc.TrafficCar.following(streets, ("north", -1, 25.0), ("south", 1, 140.0)).body("truck").heedless()]
+    seed = traffic_seed.value()
+    places = [(road, lane, i) for road, count in (("west", 6), ("east", 3)) for lane in (-3, -2, 2, 3) for i in range(count)]
+    for index, (road, lane, i) in enumerate(places):
+        even = lane % 2 == 0
+        start = (road, lane, 30.0 + 40.0 * i + (0.0 if even else 15.0))
+        if (index + seed) % 3 != 0:
+            other = pc.TrafficCar(streets, start).changing_lanes()
+        elif even:
+            other = pc.TrafficCar.truck(streets, start)
+        else:
+            other = pc.TrafficCar.van(streets, start).changing_lanes()
+        cars.append(other.varied(100 * seed + index).moving())
+    fleet = s.place(pc.EnvironmentCars.on(streets, cars, seed))
+    fleet.drive(0, truck_speed.skip_until(pc.Stream.time() >= delay).hold(0.0))
+    roadside(s)
+
+    s.duration(25.0)
+    s.monitor(pc.Monitor.no_collision(car))
+    s.monitor(pc.Monitor.progress(car, 200.0))

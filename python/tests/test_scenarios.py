@@ -65,6 +65,8 @@ OPENED = ["friction", "rain", "lanes", "zebra", "side", "acceleration", "approac
         ("follow_leader", 30, ["gap", "friction"]),
         ("t_loop", 3, []),
         ("grid_traffic", 3, ["cars"]),
+        ("roundabout_entry", 30, ["friction"]),
+        ("highway_traffic", 8, ["traffic_seed", "ego_speed"]),
     ],
 )
 def test_a_scenario_in_python_has_the_traces_of_the_scenario_in_rust(tmp_path, name, budget, opened):

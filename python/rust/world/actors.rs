@@ -301,7 +301,10 @@ impl Roadside {
 }
 
 /// Reads a body: the name of a kind, or a class with length, width and height.
-fn body_of(found: &Bound<PyAny>) -> PyResult<Body> {
+///
+/// # Errors
+/// There is no such kind or class.
+pub fn body_of(found: &Bound<PyAny>) -> PyResult<Body> {
     if let Ok((class, length, width, height)) = found.extract::<(String, f64, f64, f64)>() {
         return Ok(Body::block(class_of(&class)?, length, width, height));
     }

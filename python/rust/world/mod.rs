@@ -28,4 +28,4 @@ pub use road::{Road, RoadSegment};
 pub use scenario::Scenario;
 pub use stream::{Effect, Stream};
 pub use temporal::{Monitor, Temporal, always, eventually, historically, never, once, until};
-pub use traffic::{EnvironmentCars, Fleet};
+pub use traffic::{EnvironmentCars, Fleet, TrafficCar};

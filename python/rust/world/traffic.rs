@@ -1,12 +1,132 @@
 //! Cars that drive by themselves.
 
+use super::actors::body_of;
 use super::building::Building;
 use super::network::{Streets, side_of};
 use super::place::Pose;
 use super::stream::Stream;
 use super::wire::Operand;
+use crate::error::raised;
+use paracosm::engine::road::RoutePosition;
 use paracosm::engine::{self, Place};
 use pyo3::prelude::*;
+
+/// A place on the roads: a road, a lane, and metres along the road.
+type OnRoad = (String, i32, f64);
+
+/// A car that drives by itself, as `EnvironmentCars.on` takes it. It stands with its middle at a place (road, lane, metres along the road), drives at
+/// 50 km/h on a free road, and turns at random.
+#[pyclass(frozen, module = "paracosm")]
+pub struct TrafficCar {
+    inner: engine::traffic::TrafficCar,
+}
+
+impl TrafficCar {
+    fn made(
+        streets: &Streets,
+        (road, lane, at): &OnRoad,
+        make: fn(RoutePosition) -> engine::traffic::TrafficCar,
+    ) -> PyResult<Self> {
+        let start = streets.building.with(|_| streets.inner.place_on(road, *lane, *at))?;
+        start.map(|start| Self { inner: make(start) }).ok_or_else(|| raised("the network of the roads cannot be built"))
+    }
+}
+
+#[pymethods]
+impl TrafficCar {
+    #[new]
+    fn new(streets: &Streets, start: OnRoad) -> PyResult<Self> {
+        Self::made(streets, &start, engine::traffic::TrafficCar::at)
+    }
+
+    /// Makes a panel van at a place.
+    #[staticmethod]
+    fn van(streets: &Streets, start: OnRoad) -> PyResult<Self> {
+        Self::made(streets, &start, engine::traffic::TrafficCar::van)
+    }
+
+    /// Makes a lorry at a place, for ways that lead straight on.
+    #[staticmethod]
+    fn truck(streets: &Streets, start: OnRoad) -> PyResult<Self> {
+        Self::made(streets, &start, engine::traffic::TrafficCar::truck)
+    }
+
+    /// Makes a city bus at a place, for ways that lead straight on.
+    #[staticmethod]
+    fn bus(streets: &Streets, start: OnRoad) -> PyResult<Self> {
+        Self::made(streets, &start, engine::traffic::TrafficCar::bus)
+    }
+
+    /// Makes a motorcycle at a place.
+    #[staticmethod]
+    fn motorcycle(streets: &Streets, start: OnRoad) -> PyResult<Self> {
+        Self::made(streets, &start, engine::traffic::TrafficCar::motorcycle)
+    }
+
+    /// Makes a bicycle at a place. It drives at up to 5 m/s at the right of its lane.
+    #[staticmethod]
+    fn bicycle(streets: &Streets, start: OnRoad) -> PyResult<Self> {
+        Self::made(streets, &start, engine::traffic::TrafficCar::bicycle)
+    }
+
+    /// Makes a car that drives along the shortest route from one place to another, and stays there. It starts `driven` metres after the beginning of
+    /// the route.
+    #[staticmethod]
+    #[pyo3(signature = (streets, start, end, driven = 0.0))]
+    fn following(streets: &Streets, start: OnRoad, end: OnRoad, driven: f64) -> PyResult<Self> {
+        let ends = streets.building.with(|_| {
+            [&start, &end].map(|(road, lane, at)| streets.inner.place_on(road, *lane, *at))
+        })?;
+        let (Some(network), [Some(from), Some(to)]) = (streets.inner.network(), ends) else {
+            return Err(raised("the network of the roads cannot be built"));
+        };
+        let route = network.route(from, to, 0.0).ok_or_else(|| {
+            raised(format!("no route leads from lane {} of `{}` to lane {} of `{}`", start.1, start.0, end.1, end.0))
+        })?;
+        let route = if driven > 0.0 { network.rest_of(&route, driven) } else { route };
+        Ok(Self { inner: engine::traffic::TrafficCar::following(&route) })
+    }
+
+    /// Returns the car with another body, as that of a `Mover`.
+    fn body(&self, body: &Bound<PyAny>) -> PyResult<Self> {
+        Ok(Self { inner: self.inner.clone().body(body_of(body)?) })
+    }
+
+    /// Returns the car with the speed in m/s at which it drives on a free road.
+    fn desired_speed(&self, speed: f64) -> Self {
+        Self { inner: self.inner.clone().desired_speed(speed) }
+    }
+
+    /// Returns the car with the speed in m/s that it has at the start.
+    fn speed(&self, speed: f64) -> Self {
+        Self { inner: self.inner.clone().speed(speed) }
+    }
+
+    /// Returns the car with a start at its desired speed.
+    fn moving(&self) -> Self {
+        Self { inner: self.inner.clone().moving() }
+    }
+
+    /// Returns the car with a distance in metres to the right of the middle of its lane.
+    fn keeping_right(&self, metres: f64) -> Self {
+        Self { inner: self.inner.clone().keeping_right(metres) }
+    }
+
+    /// Returns a car that changes lanes in order to drive faster.
+    fn changing_lanes(&self) -> Self {
+        Self { inner: self.inner.clone().changing_lanes() }
+    }
+
+    /// Returns a car that does not react to the car under test.
+    fn heedless(&self) -> Self {
+        Self { inner: self.inner.clone().heedless() }
+    }
+
+    /// Returns a similar car with random changes of its size and its driver, which follow from `seed`.
+    fn varied(&self, seed: u64) -> Self {
+        Self { inner: self.inner.clone().varied(seed) }
+    }
+}
 
 /// Cars that drive by themselves over the roads, and react to others. They are not placed yet.
 #[pyclass(frozen, unsendable, module = "paracosm")]
@@ -16,6 +136,14 @@ pub struct EnvironmentCars {
 
 #[pymethods]
 impl EnvironmentCars {
+    /// Makes cars that stand at the places of their own.
+    #[staticmethod]
+    #[pyo3(signature = (streets, cars, seed = 1))]
+    fn on(streets: &Streets, cars: Vec<PyRef<TrafficCar>>, seed: u64) -> Self {
+        let cars = cars.iter().map(|car| car.inner.clone()).collect();
+        Self { inner: engine::EnvironmentCars::on(&streets.inner, cars).seed(seed) }
+    }
+
     /// Makes `count` cars at random places of the roads; fewer if there is not enough room.
     #[staticmethod]
     #[pyo3(signature = (streets, count, seed = 1))]
