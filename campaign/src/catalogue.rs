@@ -38,7 +38,7 @@ pub struct Reader {
     pub ending: &'static str,
     /// A short description of the kind of files that the reader reads.
     pub about: &'static str,
-    /// What the files hold.
+    /// The kind of contents of the files.
     pub holds: Holds,
     /// The function that reads a file and returns the program of a scenario in the file: of the scenario with this name, or of the only one.
     pub read: fn(&Path, Option<&str>) -> Result<Program, Error>,
@@ -47,7 +47,7 @@ pub struct Reader {
     pub tests: Option<TestsOf>,
 }
 
-/// What the files of scenarios hold.
+/// The kind of contents of files of scenarios.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holds {
     /// The description of one scenario.
@@ -106,7 +106,7 @@ pub struct NoScenarioFile {
 /// The error that a campaign names a file that is a program, which nobody trusts.
 #[derive(Debug, Error, PartialEq, Eq)]
 #[error(
-    "the scenario `{name}` stands in a file that is a program, and a file of a stranger may do anything: `--trust` (in Python `trust=True`) runs the file"
+    "the file of the scenario `{name}` is a program: if you trust its author, add `--trust` (in Python `trust=True`)"
 )]
 pub struct UntrustedScenario {
     /// The name of the scenario.

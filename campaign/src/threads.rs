@@ -6,7 +6,7 @@ use std::sync::Arc;
 /// A function that does the work of a thread, between what it does before and after.
 type Around = dyn Fn(&mut (dyn FnMut() + Send)) + Send + Sync;
 
-/// What happens around the work of each thread that runs tests. Usually nothing.
+/// The work around that of each thread that runs tests. Usually there is none.
 #[derive(Clone, Default)]
 pub struct Threads(Option<Arc<Around>>);
 

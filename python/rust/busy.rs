@@ -6,7 +6,7 @@ use pyo3::sync::PyOnceLock;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The number of calls that each thread has begun and not ended, by the name that Python gives the thread.
+/// The number of calls that each thread has begun and not ended, by its Python thread id.
 static BUSY: Mutex<BTreeMap<u64, usize>> = Mutex::new(BTreeMap::new());
 
 /// Calls a function of Python in this thread.
@@ -26,7 +26,7 @@ pub fn calling<T>(py: Python, call: impl FnOnce() -> PyResult<T>) -> PyResult<T>
     called
 }
 
-/// Returns the name that Python gives this thread.
+/// Returns the Python thread id of this thread.
 fn own_thread(py: Python) -> PyResult<u64> {
     static ASK: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let ask = ASK.get_or_try_init(py, || Ok::<_, PyErr>(py.import("threading")?.getattr("get_ident")?.unbind()))?;
@@ -52,7 +52,7 @@ pub fn interrupt(py: Python) -> PyResult<()> {
 /// Returns `true` in the main thread of Python.
 ///
 /// # Errors
-/// Python does not say.
+/// Python raises an error.
 pub fn is_main_thread(py: Python) -> PyResult<bool> {
     let threading = py.import("threading")?;
     Ok(threading.call_method0("current_thread")?.is(&threading.call_method0("main_thread")?))

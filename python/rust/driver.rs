@@ -124,7 +124,7 @@ fn fault(py: Python, error: &PyErr) -> Fault {
     }
 }
 
-/// The classes of what a driver is told and answers.
+/// The classes of the messages to and from a driver.
 #[derive(Clone, Copy)]
 enum Class {
     Control,

@@ -48,8 +48,8 @@ mod _core {
         world::{
             Actor, AutonomousVehicle, Car, Composite, Conditions, CrossIntersection, Effect, Environment,
             EnvironmentCars, Fixture, Fleet, Line, Monitor, Mover, Path, Pedestrian, Pose, Program, Road, RoadNetwork,
-            RoadSegment, Roadside, Roundabout, Scenario, Stream, Streets, TIntersection, Temporal, TrafficCar, Walk, Walker,
-            always, eventually, grid_city, historically, never, once, until,
+            RoadSegment, Roadside, Roundabout, Scenario, Stream, Streets, TIntersection, Temporal, TrafficCar, Walk,
+            Walker, always, eventually, grid_city, historically, never, once, until,
         },
     };
 }

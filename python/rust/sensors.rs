@@ -1,4 +1,4 @@
-//! What a driver of Python says of itself and of its sensors, as a message of the protocol.
+//! The period and the sensors of a Python driver, as a message of the protocol.
 
 use crate::error::raised;
 use paracosm::rpc::message;
@@ -26,7 +26,7 @@ pub fn welcome(described: &Bound<PyDict>) -> PyResult<message::Welcome> {
     })
 }
 
-/// The entries of a sensor by their names. What is not there is as the protocol has it.
+/// The entries of a sensor by their names. A missing entry has the default of the protocol.
 struct Entries<'py>(Bound<'py, PyDict>);
 
 impl<'py> Entries<'py> {

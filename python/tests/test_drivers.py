@@ -130,7 +130,7 @@ class Needy(pc.Driver):
         (OddSensor(), {}, "the sensor `front` is 'wide', expected a Camera"),
         (NoPeriod(), {}, "the driver's period is 0 s"),
         (NoRays(), {}, "impossible sensor"),
-        (Needy, {}, "Needy cannot be made without arguments"),
+        (Needy, {}, "the class Needy needs arguments"),
         (5, {}, "driver is 5, expected the name of a driver, a Driver, or a function"),
     ],
 )

@@ -261,7 +261,7 @@ def looks_left(s):
         (adds_a_word, "`+`: found a value of the type str, expected a stream or a number"),
         (mixes_types, "`+` does not work between a stream of truths and a stream of numbers"),
         (drives_by_a_stream, "`parameter.value()`"),
-        (streams_words, "the parameter `v` has words"),
+        (streams_words, "the values of the parameter `v` are words"),
         (asks_a_stream, "only a parameter has one"),
         (places_a_number, "found a value of the type int, expected an object"),
         (misspells, "no kind of body is called `trck` (did you mean `truck`?)"),
@@ -305,7 +305,7 @@ def test_nothing_of_a_test_can_be_kept_for_the_next(tmp_path):
         _, car = street(s)
         s.require("x", pc.never(kept.setdefault("speed", car.speed()) > 100.0))
 
-    with pytest.raises(pc.Error, match="belongs to the world of a test that is complete"):
+    with pytest.raises(pc.Error, match="belongs to the world of an earlier test"):
         declared(world)
     with pytest.raises(pc.Error, match="keep none"):
         kept["speed"] + 1.0
@@ -479,3 +479,37 @@ def test_a_fresh_process_reads_a_campaign_and_runs_its_tests_only_with_trust(tmp
     with pytest.raises(pc.Error, match="trust=True"):
         report[0].replay()
     assert len(pc.load(tmp_path / "out", trust=True)[0].replay()) > 0
+
+
+def requires_a_stream(s):
+    s.require("slow", street(s)[1].speed() < 5.0)
+
+
+def starts_at_a_stream(s):
+    speed, (road, _) = s.interval("v", 1.0, 2.0), street(s)
+    s.place(pc.Mover.car(road.path(1)).starting(speed))
+
+
+def drives_a_stream_of_lanes(s):
+    s.place(pc.RoadSegment(300.0).lanes(s.choice("lanes", [2, 4])))
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (requires_a_stream, "write `pc.always(..)`, `pc.never(..)` or `pc.eventually(..)`"),
+        (starts_at_a_stream, "write `parameter.value()`"),
+        (drives_a_stream_of_lanes, "write `parameter.value()`"),
+    ],
+)
+def test_a_stream_in_the_wrong_place_is_an_error_that_says_what_to_write(function, message):
+    with pytest.raises(pc.Error) as error:
+        declared(function)
+    assert message in str(error.value)
+
+
+def test_the_lanes_of_a_path_follow_each_other():
+    loop = examples().LOOP
+    assert loop.path([("side 1", 1), ("tee 2", "three", "two", 1)]).length > 60.0
+    with pytest.raises(pc.Error, match="lane 2 of the path does not begin where lane 1 ends"):
+        loop.path([("side 1", 1), ("side 3", 1)])

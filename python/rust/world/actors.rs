@@ -2,9 +2,10 @@
 
 use super::building::Building;
 use super::ego::class_of;
+use super::operand::Operand;
 use super::place::{Path, Pose};
 use super::stream::Stream;
-use super::wire::{Operand, each};
+use super::wire::each;
 use crate::error::raised;
 use paracosm::engine::object::{Body, VehicleKind};
 use paracosm::engine::{self, Place};
@@ -35,7 +36,7 @@ impl Pedestrian {
         Self { inner: self.inner.clone().named(name) }
     }
 
-    /// Returns the pedestrian with the acceleration in m/s² with which it becomes faster and slower. Without it, a new speed holds at once.
+    /// Sets the acceleration and the deceleration of the pedestrian in m/s². Without it, the speed changes at once.
     fn accelerating(&self, acceleration: f64) -> Self {
         Self { inner: self.inner.clone().accelerating(acceleration) }
     }
@@ -228,7 +229,7 @@ impl Actor {
     }
 }
 
-/// Something that stands still at a pose. `body` is as that of a `Mover`.
+/// Something that stands still at a pose. `body` has the same form as for `Mover`.
 #[pyclass(frozen, module = "paracosm")]
 pub struct Fixture {
     inner: engine::Fixture,

@@ -56,6 +56,6 @@ impl Building {
 
 fn over() -> PyErr {
     raised(
-        "this object belongs to the world of a test that is complete; make all objects and streams in the function of the scenario, and keep none",
+        "this object belongs to the world of an earlier test: make all objects and streams inside the function of the scenario, and keep none",
     )
 }

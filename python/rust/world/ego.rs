@@ -9,7 +9,7 @@ use paracosm::engine::{self, Place};
 use paracosm::space::{did_you_mean, nearest};
 use pyo3::prelude::*;
 
-/// The car under test, which is not placed yet: at a pose, to go straight on, or along a path.
+/// The ego vehicle before it is placed. It starts at a pose and drives straight on, or it follows a path (`along`).
 #[pyclass(frozen, unsendable, module = "paracosm")]
 pub struct AutonomousVehicle {
     inner: engine::AutonomousVehicle,

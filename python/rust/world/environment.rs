@@ -1,8 +1,8 @@
 //! Light, fog, rain, the sun, and the friction of the roads.
 
 use super::building::Building;
+use super::operand::Operand;
 use super::stream::Stream;
-use super::wire::Operand;
 use paracosm::engine::{self, Place};
 use pyo3::prelude::*;
 

@@ -2,7 +2,6 @@
 
 use super::building::Building;
 use super::called::Kind;
-use super::stream::{Origin, Stream};
 use super::wire::Wire;
 use nalgebra::Vector2;
 use paracosm::engine;
@@ -21,13 +20,12 @@ pub enum Forward {
 ///
 /// # Errors
 /// The scenario is complete.
-pub fn announced(building: &Building, name: &str, kind: Kind) -> PyResult<Stream> {
-    let forward = building.with(|scenario| match kind {
+pub fn announced(building: &Building, name: &str, kind: Kind) -> PyResult<Forward> {
+    building.with(|scenario| match kind {
         Kind::Number => Forward::Number(Rc::new(scenario.forward(name))),
         Kind::Truth => Forward::Truth(Rc::new(scenario.forward(name))),
         Kind::Vector => Forward::Vector(Rc::new(scenario.forward(name))),
-    })?;
-    Ok(Stream { building: Some(building.clone()), origin: Origin::Forward(forward) })
+    })
 }
 
 impl Forward {

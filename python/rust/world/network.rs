@@ -1,10 +1,12 @@
-//! Networks of roads: intersections and roundabouts, joined to a `Composite`, and `Streets` once they are placed.
+//! Roads, intersections and roundabouts that are not placed yet, alone or joined to a `Composite`.
 
 use super::building::Building;
-use super::place::{Line, Path, Pose};
-use super::road::RoadSegment;
+use super::operand::Operand;
+use super::place::Path;
+use super::road::Road;
+use super::streets::Streets;
 use crate::error::raised;
-use paracosm::engine::{self, Place, Side, road};
+use paracosm::engine::{self, Place, road};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -49,6 +51,88 @@ impl Composite {
     /// Raises `Error` if the parts do not fit together.
     fn build(&self) -> PyResult<RoadNetwork> {
         Ok(RoadNetwork { inner: self.inner.clone().build().map_err(raised)? })
+    }
+}
+
+/// A straight road of a length in metres, which is not placed yet. It begins at the origin and leads along x. Its points are "one" (the start) and
+/// "two" (the end).
+#[pyclass(frozen, unsendable, module = "paracosm")]
+#[derive(Clone)]
+pub struct RoadSegment {
+    inner: engine::RoadSegment,
+    friction: Option<engine::Stream<f64>>,
+}
+
+impl RoadSegment {
+    fn changed(&self, change: impl FnOnce(engine::RoadSegment) -> engine::RoadSegment) -> Self {
+        Self { inner: change(self.inner.clone()), friction: self.friction.clone() }
+    }
+
+    /// Places the road in a scenario.
+    ///
+    /// # Errors
+    /// The scenario has noted a mistake.
+    pub fn place(&self, building: &Building) -> PyResult<Road> {
+        let road = self.inner.clone();
+        let inner = building.with(|scenario| match self.friction.clone() {
+            Some(friction) => road.friction(friction).place(scenario),
+            None => road.place(scenario),
+        })?;
+        Ok(Road::of(building, inner))
+    }
+
+    /// Returns the road as a part of a network.
+    pub fn composite(&self) -> road::Composite {
+        self.inner.clone().into()
+    }
+}
+
+#[pymethods]
+impl RoadSegment {
+    #[new]
+    fn new(length: f64) -> Self {
+        Self { inner: engine::RoadSegment::new(length), friction: None }
+    }
+
+    /// Makes a road along an arc. `radius` is in metres, and `angle` in radians, positive to the left.
+    #[staticmethod]
+    fn arc(radius: f64, angle: f64) -> Self {
+        Self { inner: engine::RoadSegment::arc(radius, angle), friction: None }
+    }
+
+    /// Returns the road with a number of lanes in both directions together.
+    fn lanes(&self, lanes: i32) -> Self {
+        self.changed(|road| road.lanes(lanes))
+    }
+
+    /// Returns the road with a width of its lanes in metres.
+    fn lane_width(&self, metres: f64) -> Self {
+        self.changed(|road| road.lane_width(metres))
+    }
+
+    /// Returns the road with a width of its sidewalks in metres; 0 for none.
+    fn sidewalk(&self, metres: f64) -> Self {
+        self.changed(|road| road.sidewalk(metres))
+    }
+
+    /// Returns the road with a zebra crossing `at` metres along it.
+    fn zebra(&self, at: f64) -> Self {
+        self.changed(|road| road.zebra(at))
+    }
+
+    /// Returns the road with a name, by which a network refers to it.
+    fn named(&self, name: &str) -> Self {
+        self.changed(|road| road.named(name))
+    }
+
+    /// Returns the road with a friction coefficient between tyre and road: a number or a stream.
+    fn friction(&self, friction: &Bound<PyAny>) -> PyResult<Self> {
+        Ok(Self { inner: self.inner.clone(), friction: Some(Operand::numbers(friction, "friction")?) })
+    }
+
+    /// Joins the point `child_point` of another part to the point `point` of this road.
+    fn connect(&self, point: &str, child: &Bound<PyAny>, child_point: &str) -> PyResult<Composite> {
+        Composite::from(self.composite()).joined(point, child, child_point)
     }
 }
 
@@ -148,7 +232,7 @@ element!(
     entry: f64
 );
 
-/// Makes a city with a grid of junctions and streets of `block` metres between them. The junctions are called "junction ROW,COLUMN", and the
+/// Makes the parts of a city, to be built by `build()`: a grid of junctions and streets of `block` metres between them. The junctions are called "junction ROW,COLUMN", and the
 /// streets that begin there "street ROW,COLUMN east" and "street ROW,COLUMN south".
 ///
 /// Raises `Error` if there are fewer than two rows or columns.
@@ -175,7 +259,7 @@ impl RoadNetwork {
         self.inner.elements().collect()
     }
 
-    /// Returns the path along lanes that follow each other. A lane is a pair of a road and a number of a lane; or, through an intersection, a
+    /// Returns the path along lanes that follow each other. A road has the points "one" (its start) and "two". A lane is a pair of a road and a number of a lane; or, through an intersection, a
     /// tuple of the intersection, the arm of the entry, the arm of the exit, and the number of the lane.
     fn path(&self, lanes: Vec<Bound<PyAny>>) -> PyResult<Path> {
         let lane = |found: Bound<PyAny>| {
@@ -192,19 +276,18 @@ impl RoadNetwork {
             self.inner.lane_between(&element, &from, &to, number).map_err(raised)
         };
         let lanes = lanes.into_iter().map(lane).collect::<PyResult<Vec<_>>>()?;
+        if let Some(at) = lanes.windows(2).position(|pair| !self.inner.lane(pair[0]).successors.contains(&pair[1])) {
+            let (one, other) = (at + 1, at + 2);
+            return Err(raised(format!(
+                "lane {other} of the path does not begin where lane {one} ends (counted from 1)"
+            )));
+        }
         Ok(self.inner.path(&lanes).into())
     }
 
     fn __repr__(&self) -> String {
         format!("RoadNetwork({} elements)", self.inner.elements().len())
     }
-}
-
-/// A network of roads in the world.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct Streets {
-    pub building: Building,
-    pub inner: engine::Streets,
 }
 
 /// Places a network in a scenario; `None` if the object is no network.
@@ -220,46 +303,4 @@ pub fn placed(found: &Bound<PyAny>, building: &Building) -> PyResult<Option<Stre
         },
     };
     Ok(Some(Streets { building: building.clone(), inner }))
-}
-
-#[pymethods]
-impl Streets {
-    /// Returns the pose in the middle of a lane of a road, `at` metres along the road.
-    fn on_lane(&self, road: &str, lane: i32, at: f64) -> PyResult<Pose> {
-        self.building.with(|_| self.inner.on_lane(road, lane, at)).map(Pose::from)
-    }
-
-    /// Returns the pose in the middle of the sidewalk on a side of a road, "left" or "right", `at` metres along the road.
-    fn on_sidewalk(&self, road: &str, side: &str, at: f64) -> PyResult<Pose> {
-        let side = side_of(side)?;
-        self.building.with(|_| self.inner.on_sidewalk(road, side, at)).map(Pose::from)
-    }
-
-    /// Returns the line straight across a road, `at` metres along it.
-    fn crossing(&self, road: &str, at: f64) -> PyResult<Line> {
-        Ok(Line { inner: self.building.with(|_| self.inner.crossing(road, at))? })
-    }
-
-    /// Returns the path along the middle of a whole lane of a road.
-    fn path(&self, road: &str, lane: i32) -> PyResult<Path> {
-        self.building.with(|_| self.inner.path(road, lane)).map(Path::from)
-    }
-
-    /// Returns the shortest path between two places without a change of lanes. A place is a road, a lane, and metres along the road.
-    fn way(&self, start: (String, i32, f64), end: (String, i32, f64)) -> PyResult<Path> {
-        let way = |_: &mut engine::Scenario| self.inner.way((&start.0, start.1, start.2), (&end.0, end.1, end.2));
-        self.building.with(way).map(Path::from)
-    }
-}
-
-/// Reads a side.
-///
-/// # Errors
-/// The text is neither "left" nor "right".
-pub fn side_of(side: &str) -> PyResult<Side> {
-    match side {
-        "left" => Ok(Side::Left),
-        "right" => Ok(Side::Right),
-        _ => Err(raised(format!("found the side \"{side}\", expected \"left\" or \"right\""))),
-    }
 }

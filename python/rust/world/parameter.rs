@@ -1,7 +1,6 @@
 //! Parameters: values that each test gives to the scenario. A parameter is a stream, and its value can decide how the world is built.
 
 use super::building::Building;
-use super::stream::{Origin, Stream};
 use crate::error::raised;
 use crate::value::to_python;
 use paracosm::engine::{Declared, Param};
@@ -15,7 +14,7 @@ pub enum Parameter {
     Word { parameter: Param<Value>, name: String },
 }
 
-/// What a scenario says about a parameter besides its name and its values.
+/// The properties of a parameter besides its name and its values.
 #[derive(Default)]
 pub struct Said {
     pub unit: Option<String>,
@@ -31,7 +30,7 @@ pub struct Said {
 ///
 /// # Errors
 /// The shape of the signal does not exist, or the scenario has noted a mistake.
-pub fn declared(building: &Building, mut declared: Declared, said: Said) -> PyResult<Stream> {
+pub fn declared(building: &Building, mut declared: Declared, said: Said) -> PyResult<Parameter> {
     declared.parameter.unit = said.unit;
     declared.parameter.default = said.default.or(declared.parameter.default);
     declared.parameter.signal = said.signal.map(|shape| shape.parse::<Shape>().map_err(raised)).transpose()?;
@@ -42,11 +41,10 @@ pub fn declared(building: &Building, mut declared: Declared, said: Said) -> PyRe
     let is_choice = levels.is_some();
     let has_words = levels.is_some_and(|levels| levels.iter().any(|level| level.number().is_none()));
     let marks = (said.atmospheric, said.incidental);
-    let parameter = building.with(|scenario| match has_words {
+    building.with(|scenario| match has_words {
         true => Parameter::Word { parameter: marked(scenario.parameter(declared), marks), name },
         false => Parameter::Number { parameter: marked(scenario.number(declared), marks), is_choice },
-    })?;
-    Ok(Stream { building: Some(building.clone()), origin: Origin::Parameter(parameter) })
+    })
 }
 
 /// Marks a parameter. The library wants the marks in this order.

@@ -25,29 +25,28 @@ pub fn catalogue() -> Catalogue {
         ending: "py",
         about: "scenarios of Python",
         holds: Holds::Programs,
-        read: |file, part| read(file, part).map_err(|why| BrokenFile(why).into()),
+        read: |file, part| read(file, part).map_err(|error| BrokenFile { error }.into()),
         tests: None,
     })
 }
 
 /// Runs a file of Python, and returns one of its scenarios.
-fn read(file: &Path, part: Option<&str>) -> Result<engine::Program, String> {
+fn read(file: &Path, part: Option<&str>) -> PyResult<engine::Program> {
     Python::attach(|py| {
-        let found = || -> PyResult<engine::Program> {
-            let found = py.import("paracosm._scenarios")?.call_method1("_read", (file, part))?;
-            Ok(found.cast::<Program>()?.get().inner.clone())
-        };
-        found().map_err(|error| in_words(py, &error))
+        let found = py.import("paracosm._scenarios")?.call_method1("_read", (file, part))?;
+        Ok(found.cast::<Program>()?.get().inner.clone())
     })
 }
 
-/// The error that a file of Python has no scenario that can be used.
+/// The error that a Python file has no scenario that can be used.
 #[derive(Debug)]
-struct BrokenFile(String);
+struct BrokenFile {
+    error: PyErr,
+}
 
 impl fmt::Display for BrokenFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        f.write_str(&Python::attach(|py| in_words(py, &self.error)))
     }
 }
 

@@ -3,16 +3,17 @@
 use super::actors::{Fixture, Mover, Pedestrian, Roadside};
 use super::building::Building;
 use super::called::Kind;
+use super::effect::Effect;
 use super::ego::AutonomousVehicle;
 use super::environment::Environment;
 use super::forward::announced;
-use super::network::placed;
+use super::monitor::Monitor;
+use super::network::{RoadSegment, placed};
+use super::operand::Operand;
 use super::parameter::{Said, declared};
-use super::road::RoadSegment;
-use super::stream::{Effect, Stream};
-use super::temporal::{Monitor, statement};
+use super::stream::{Origin, Stream};
+use super::temporal::statement;
 use super::traffic::EnvironmentCars;
-use super::wire::Operand;
 use crate::error::raised;
 use crate::value::value_of;
 use paracosm::engine::{Declared, RequirementDraft};
@@ -30,6 +31,12 @@ impl Scenario {
     /// Makes the scenario that a function of Python gets.
     pub fn of(building: &Building) -> Self {
         Self { building: building.clone() }
+    }
+
+    /// Declares a parameter, which is a stream.
+    fn parameter(&self, parameter: Declared, said: Said) -> PyResult<Stream> {
+        let parameter = declared(&self.building, parameter, said)?;
+        Ok(Stream { building: Some(self.building.clone()), origin: Origin::Parameter(parameter) })
     }
 
     fn stated(&self, draft: RequirementDraft, said: (Option<String>, Option<String>, Option<f64>)) {
@@ -50,7 +57,9 @@ impl Scenario {
     /// Declares an open parameter with the numbers from `low` to `high`. Tests vary it.
     ///
     /// `default` is its nominal value, `plausible` the range that occurs in the world, and `signal` the shape of a parameter that varies while a
-    /// test runs, such as "piecewise-constant(4)". The marks `incidental` and `atmospheric` are as those of the library in Rust.
+    /// test runs: "piecewise-constant(4)", "polynomial(2)" or "piecewise-linear(3)".
+    /// `incidental=True` says that a test with the nominal value has the same camera noise as a test without the parameter. `atmospheric=True` says
+    /// that the parameter changes only light, fog, rain or the sun.
     #[pyo3(signature = (name, low, high, *, unit = None, default = None, plausible = None, signal = None, incidental = false, atmospheric = false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn interval(
@@ -68,7 +77,7 @@ impl Scenario {
         let parameter = Declared::open(paracosm::space::Parameter::new(name, Domain::Interval { lo: low, hi: high }));
         let default = given(default, name)?;
         let said = Said { unit, default, opens: None, plausible, signal, incidental, atmospheric };
-        declared(&self.building, parameter, said)
+        self.parameter(parameter, said)
     }
 
     /// Declares a closed parameter with the numbers from `low` to `high`. It stays at `nominal` until a study opens it; then tests vary it in
@@ -92,7 +101,7 @@ impl Scenario {
         let parameter = Declared { open: false, ..Declared::open(parameter) };
         let default = Some(Value::Number(nominal));
         let said = Said { unit, default, opens, plausible, signal, incidental, atmospheric };
-        declared(&self.building, parameter, said)
+        self.parameter(parameter, said)
     }
 
     /// Declares an open parameter that takes one of some values: numbers or words.
@@ -111,7 +120,7 @@ impl Scenario {
         let parameter = Declared::open(paracosm::space::Parameter::new(name, levels(name, &values)?));
         let default = given(default, name)?;
         let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
-        declared(&self.building, parameter, said)
+        self.parameter(parameter, said)
     }
 
     /// Declares a closed parameter that takes one of some values, and stays at `nominal` until a study opens it.
@@ -131,7 +140,7 @@ impl Scenario {
         let parameter = Declared { open: false, ..Declared::open(parameter) };
         let default = given(Some(nominal), name)?;
         let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
-        declared(&self.building, parameter, said)
+        self.parameter(parameter, said)
     }
 
     /// Places an object in the world, and returns its handle.
@@ -189,13 +198,19 @@ impl Scenario {
         unit: Option<String>,
         scale: Option<f64>,
     ) -> PyResult<()> {
+        if asked.cast::<Stream>().is_ok() {
+            return Err(raised(
+                "a requirement is a statement about the whole run, and found a stream: write `pc.always(..)`, `pc.never(..)` or \
+                 `pc.eventually(..)`",
+            ));
+        }
         let asked = statement(asked, "require")?;
         let draft = self.building.with(|scenario| scenario.require(id, asked))?;
         self.stated(draft, (text, unit, scale));
         Ok(())
     }
 
-    /// States a usual requirement, with other words, another unit or another scale if there are any.
+    /// States a predefined requirement. `text`, `unit` and `scale` replace its defaults.
     #[pyo3(signature = (monitor, *, text = None, unit = None, scale = None))]
     fn monitor(
         &self,
@@ -221,7 +236,7 @@ impl Scenario {
         self.building.with(|scenario| scenario.end(&event))
     }
 
-    /// States a constraint between parameters, such as "gap >= 0.5 * speed". No test breaks it.
+    /// States a constraint between parameters, such as "gap >= 0.5 * speed". All tests satisfy the constraint.
     fn constrain(&self, constraint: &str) -> PyResult<()> {
         let expression: Expression = constraint.parse().map_err(raised)?;
         self.building.with(|scenario| scenario.constrain(expression))
@@ -245,7 +260,8 @@ impl Scenario {
     /// Announces a stream that is used before it is defined. `type` is the type of its values: `float`, `bool` or `tuple`.
     #[pyo3(signature = (name, r#type = None))]
     fn forward(&self, name: &str, r#type: Option<&Bound<PyAny>>) -> PyResult<Stream> {
-        announced(&self.building, name, Kind::of(r#type)?)
+        let forward = announced(&self.building, name, Kind::of(r#type)?)?;
+        Ok(Stream { building: Some(self.building.clone()), origin: Origin::Forward(forward) })
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::actors::body_of;
 use super::building::Building;
-use super::network::{Streets, side_of};
+use super::operand::Operand;
 use super::place::Pose;
 use super::stream::Stream;
-use super::wire::Operand;
+use super::streets::{Streets, side_of};
 use crate::error::raised;
 use paracosm::engine::road::RoutePosition;
 use paracosm::engine::{self, Place};
@@ -74,9 +74,9 @@ impl TrafficCar {
     #[staticmethod]
     #[pyo3(signature = (streets, start, end, driven = 0.0))]
     fn following(streets: &Streets, start: OnRoad, end: OnRoad, driven: f64) -> PyResult<Self> {
-        let ends = streets.building.with(|_| {
-            [&start, &end].map(|(road, lane, at)| streets.inner.place_on(road, *lane, *at))
-        })?;
+        let ends = streets
+            .building
+            .with(|_| [&start, &end].map(|(road, lane, at)| streets.inner.place_on(road, *lane, *at)))?;
         let (Some(network), [Some(from), Some(to)]) = (streets.inner.network(), ends) else {
             return Err(raised("the network of the roads cannot be built"));
         };
@@ -87,7 +87,7 @@ impl TrafficCar {
         Ok(Self { inner: engine::traffic::TrafficCar::following(&route) })
     }
 
-    /// Returns the car with another body, as that of a `Mover`.
+    /// Returns the car with another body. `body` has the same form as for `Mover`.
     fn body(&self, body: &Bound<PyAny>) -> PyResult<Self> {
         Ok(Self { inner: self.inner.clone().body(body_of(body)?) })
     }
@@ -136,7 +136,7 @@ pub struct EnvironmentCars {
 
 #[pymethods]
 impl EnvironmentCars {
-    /// Makes cars that stand at the places of their own.
+    /// Makes a fleet of the given cars.
     #[staticmethod]
     #[pyo3(signature = (streets, cars, seed = 1))]
     fn on(streets: &Streets, cars: Vec<PyRef<TrafficCar>>, seed: u64) -> Self {
@@ -151,7 +151,7 @@ impl EnvironmentCars {
         Ok(Self { inner: streets.building.with(|_| engine::EnvironmentCars::scattered(&streets.inner, count, seed))? })
     }
 
-    /// Returns the cars without those that would start within some metres of a place.
+    /// Removes all cars that would start less than `metres` from `place`, and returns the rest.
     fn away_from(&self, place: &Pose, metres: f64) -> Self {
         Self { inner: self.inner.clone().away_from(place.inner.position, metres) }
     }

@@ -1,9 +1,6 @@
-//! Streams of the library by the type of their values, and what stands for a stream: numbers, truths and pairs of numbers.
+//! Streams of the library by the type of their values, and the operators between two of them.
 
-use super::building::Building;
-use super::stream::Stream;
 use crate::error::raised;
-use crate::value::is_truth;
 use nalgebra::Vector2;
 use paracosm::engine;
 use pyo3::prelude::*;
@@ -108,42 +105,6 @@ impl Wire {
             Self::Vector(stream) => Ok(stream),
             other => Err(raised(format!("{place}: found {}, expected a stream of vectors", other.words()))),
         }
-    }
-}
-
-/// A value that stands for a stream: a stream, a number, or a truth.
-pub struct Operand {
-    pub building: Option<Building>,
-    pub wire: Wire,
-}
-
-impl Operand {
-    /// Reads a stream, a number, a truth, or a pair of numbers.
-    ///
-    /// # Errors
-    /// The object is none of these; `place` begins the message.
-    pub fn of(found: &Bound<PyAny>, place: &str) -> PyResult<Self> {
-        if let Ok(stream) = found.cast::<Stream>() {
-            let stream = stream.try_borrow()?;
-            return Ok(Self { building: stream.building.clone(), wire: stream.wire()? });
-        }
-        let constant = |wire| Ok(Self { building: None, wire });
-        if is_truth(found) {
-            return constant(Wire::Truth(engine::Stream::constant(found.is_truthy()?)));
-        }
-        if let Ok(number) = found.extract::<f64>() {
-            return constant(Wire::Number(engine::Stream::constant(number)));
-        }
-        if let Ok([x, y]) = found.extract::<[f64; 2]>() {
-            return constant(Wire::Vector(engine::Stream::constant(Vector2::new(x, y))));
-        }
-        let kind = found.get_type().name()?;
-        Err(raised(format!("{place}: found a value of the type {kind}, expected a stream or a number")))
-    }
-
-    /// Reads a stream of numbers, or a number.
-    pub fn numbers(found: &Bound<PyAny>, place: &str) -> PyResult<engine::Stream<f64>> {
-        Self::of(found, place)?.wire.numbers(place)
     }
 }
 

@@ -23,7 +23,7 @@ class _Function(Driver):
 
 
 def as_driver(given: object) -> tuple[Driver, str] | None:
-    """Returns the driver that a study was given as an object, a class or a function, with its name; `None` for a name.
+    """Converts the `driver` of a study: an object, a class or a function. Returns the driver and its name, or `None` for the name of a built-in driver.
 
     Raises `Error` for anything else.
     """
@@ -35,7 +35,7 @@ def as_driver(given: object) -> tuple[Driver, str] | None:
         try:
             return given(), given.__name__
         except TypeError as error:
-            raise Error(f"driver: {given.__name__} cannot be made without arguments ({error}): give an object of the class") from None
+            raise Error(f"driver: the class {given.__name__} needs arguments ({error}): pass an object, such as driver={given.__name__}(..)") from None
     if not callable(given):
         raise Error(f"driver is {given!r}, expected the name of a driver, a Driver, or a function that gets an Observation")
     name = getattr(given, "__name__", type(given).__name__)

@@ -30,7 +30,7 @@ def scenario(
     """Makes a scenario of a function that builds a world: write `@scenario` above it.
 
     The function gets a `Scenario`, and is called once for each test. It depends on the test alone, and returns nothing. `name` and `about` are the
-    name and the description; without them, the name of the function and the first line of its documentation count. In a file, the name begins
+    name and the description; without them, the scenario has the name of the function, with hyphens for underscores, and the first line of its documentation. In a file, the name begins
     with the path of the file, so that a folder of a campaign says where its scenario stands.
     """
     if function is None:

@@ -21,11 +21,11 @@ SESSIONS = 1024
 class Driver:
     """A system under test: subclass it, and implement `step`.
 
-    What a driver does may depend on what it was told since the last `reset`, on `seed` and on `settings`, and on nothing else:
-    then a test gives the same trace wherever and whenever it is run.
+    The controls of a driver may depend only on the observations since the last `reset`, on `seed` and on `settings`. Then a test gives the
+    same trace wherever and whenever it runs.
 
-    Every session is served by a deep copy of the driver that was served, so that tests that run at the same time do not disturb
-    each other. What is large and never changes, such as a network, can be an attribute of the class, or be shared by `serve`.
+    Each session gets a deep copy of the driver, so that tests that run at the same time do not disturb each other. Store large constant
+    objects, such as a network, as attributes of the class: copies share them.
     """
 
     period: float = 0.1
@@ -38,15 +38,15 @@ class Driver:
     others: bool = False
     """Whether it is told where the others truly are."""
     settings: dict[str, float] = {}
-    """What can be set by `--set driver.NAME=VALUE`, with its default. In a session it has the values that were set."""
+    """The settings with their default values. `--set driver.NAME=VALUE` and `driver_settings` change them for a session."""
     seed: int = 0
-    """Where all chance is to come from: what `--set driver.seed=N` says."""
+    """The seed of all random numbers of the driver. `--set driver.seed=N` sets it."""
 
     def reset(self, briefing: Briefing) -> None:
-        """A new test begins: forget everything. `briefing` is a `Briefing`."""
+        """Begins a new test: forget everything. `briefing` is a `Briefing`."""
 
     def step(self, observation: Observation) -> Control:
-        """What to do until the next step: a `Control`. `observation` is an `Observation`."""
+        """Returns the `Control` that the car applies until the next step. `observation` is an `Observation`."""
         raise NotImplementedError(f"{type(self).__name__}.step")
 
     def serve(self, address: str | None = None) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Control:
-    """What to do until the next step."""
+    """The control until the next step: `throttle` from -1 (full brakes) to 1 (full power), and `steering` from -1 (right) to 1 (left)."""
 
     throttle: float = 0.0
     """From -1, full brakes, to 1, full power."""
