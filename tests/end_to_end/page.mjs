@@ -20,6 +20,12 @@ seen.title = await page.title();
 seen.headline = await page.textContent(".headline");
 seen.text = await page.evaluate(() => document.body.innerText);
 seen.elements = await page.evaluate(() => document.querySelectorAll("main img, main script, main iframe, main b").length);
+seen.twice = await page.evaluate(() => {
+  const ids = [...document.querySelectorAll("[id]")].map(({ id }) => id);
+  return ids.filter((id, at) => ids.indexOf(id) !== at);
+});
+seen.heights = await page.evaluate(() => [".worst", "#table thead", ".cards .card", "header.top"].map((part) => document.querySelector(part)?.clientHeight ?? 0));
+seen.width = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
 
 if (task === "use") {
   // The worst failing test plays at a click, and its contact is on the canvas at the end.

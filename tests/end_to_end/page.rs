@@ -100,7 +100,8 @@ fn names_of_strangers_are_text_on_the_page() {
     let hostile = "</script><img src=x onerror=alert(1)><b>\u{202e}\"'&";
     let unit = serde_json::to_string(&hostile).unwrap();
     let space = format!(
-        "parameter = [{{ name = \"x\", interval = [-1, 1], unit = {unit} }}, {{ name = \"y\", interval = [0, 1] }}]\n"
+        "parameter = [{{ name = \"x\", interval = [-1, 1], unit = {unit} }}, {{ name = \"y\", interval = [0, 1], unit = \"{}\" }}]\n",
+        "L".repeat(10_000)
     );
     fs::write(dir.path().join("SPACE.toml"), space).unwrap();
     let command = format!("sh system.sh '{}'", hostile.replace('\'', ""));
@@ -114,6 +115,12 @@ fn names_of_strangers_are_text_on_the_page() {
     assert_eq!(seen["errors"], serde_json::json!([]));
     assert!(seen["text"].as_str().unwrap().contains("<img src=x onerror=alert(1)>"), "{}", seen["text"]);
     assert!(seen["headline"].as_str().unwrap().contains("8 of 8 tests fail"), "{}", seen["headline"]);
+    // A name that turns the text, or that has 10,000 letters, changes nothing beside it.
+    assert!(!seen["text"].as_str().unwrap().contains('\u{202e}'));
+    let heights: Vec<f64> = serde_json::from_value(seen["heights"].clone()).unwrap();
+    assert!(heights[0] < 900.0 && heights[1..].iter().all(|height| *height < 400.0), "{heights:?}");
+    assert!(seen["width"].as_f64().unwrap() <= 0.0, "{}", seen["width"]);
+    assert_eq!(seen["twice"], serde_json::json!([]));
 }
 
 #[test]

@@ -192,8 +192,13 @@ async function unpacked(id: string): Promise<ArrayBuffer> {
   return new Response(stream).arrayBuffer();
 }
 
+/** Marks that turn the direction of a text. In a name of a stranger, they would also turn the words and numbers beside the name. */
+const TURNS = /[\u200e\u200f\u202a-\u202e\u2066-\u2069]/g;
+
+const readable = (_: string, value: unknown) => (typeof value === "string" ? value.replace(TURNS, "\ufffd") : value);
+
 async function json<T>(id: string): Promise<T> {
-  return JSON.parse(new TextDecoder().decode(await unpacked(id))) as T;
+  return JSON.parse(new TextDecoder().decode(await unpacked(id)), readable) as T;
 }
 
 export const readDocument = () => json<Document>("document");

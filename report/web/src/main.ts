@@ -45,6 +45,7 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0, tr
   // The rest follows after the first picture.
   requestAnimationFrame(() => setTimeout(() => {
     root.dataset.first = performance.now().toFixed(0);
+    const table = new Table(store);
     const more = [
       sections.changes(store),
       sections.modes(store),
@@ -53,7 +54,7 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0, tr
       sections.growth(page),
       sections.requirements(store),
       tests.robustness.length > 0 && tests.rows > 1 ? sections.section("matrix", "Requirements by test, in the order of the campaign", new Matrix(store).element) : null,
-      sections.section("tests", "Tests: click a row to play it", new Table(store).element),
+      sections.section("all-tests", "Tests: click a row to play it", table.element),
       sections.results(page),
       sections.about(page),
     ];
@@ -64,7 +65,9 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0, tr
     setTimeout(() => map?.prepare(), 300);
     if (page.served && study.unfinished) {
       follow(page, unfinished, {
-        isBusy: () => store.isFiltered || store.tried.length > 0 || film.isBusy || (map?.isZoomed ?? false) || root.querySelector(":focus-visible") !== null,
+        isPlaying: () => film.isBusy,
+        // A page that is made again forgets what the user has arranged.
+        isBusy: () => store.isFiltered || store.tried.length > 0 || film.isBusy || table.isArranged || root.querySelector("details[open]") !== null || (map?.isZoomed ?? false) || root.querySelector(":focus-visible") !== null,
         restart: () => start(root, { axes: map?.shown ?? null, scroll: scrollY, tried: store.tried }),
       });
     }
@@ -74,7 +77,7 @@ async function start(root: HTMLElement, kept: Kept = { axes: null, scroll: 0, tr
 const soFar = (page: Page, tests: number) => `The campaign has not ended: ${tests.toLocaleString("en")} of at most ${page.study.budget.toLocaleString("en")} tests have run.`;
 
 /** Follows a campaign that still runs: tells of new tests, and shows them unless the user is busy with the tests on the page. */
-function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; restart: () => Promise<void> }) {
+function follow(page: Page, place: HTMLElement, part: { isPlaying: () => boolean; isBusy: () => boolean; restart: () => Promise<void> }) {
   const shown = page.tests.all;
   let next = 0;
   const later = () => (next = window.setTimeout(look, pause));
@@ -87,7 +90,7 @@ function follow(page: Page, place: HTMLElement, part: { isBusy: () => boolean; r
     const begun = performance.now();
     const fresh = await pageByNow();
     // The user may have begun something meanwhile.
-    if (!isAsked && part.isBusy()) return void later();
+    if (isAsked ? part.isPlaying() : part.isBusy()) return void later();
     for (const id of ["document", "tests"]) document.getElementById(id)!.textContent = fresh.getElementById(id)!.textContent;
     forgetThemes();
     await part.restart();

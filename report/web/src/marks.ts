@@ -2,8 +2,8 @@
 
 import { colour } from "./dom";
 
-/** Okabe and Ito, "Color Universal Design" (2008). */
-const MODES = ["#d55e00", "#cc79a7", "#009e73", "#e69f00", "#56b4e9", "#0072b2"];
+/** The colours of Okabe and Ito, "Color Universal Design" (2008), without the blues, which are the colours of tests that pass; and a violet and a brown. */
+const MODES = ["#d55e00", "#cc79a7", "#009e73", "#e69f00", "#8f5fd0", "#a0622d"];
 
 export function modeColour(mode: number): string {
   return mode === 0 ? colour("fail") : MODES[(mode - 1) % MODES.length];

@@ -26,6 +26,8 @@ export function verdict(page: Document): HTMLElement {
 
 /** A picture of a test at its end, which plays the test. */
 export function thumbnail(store: Store, index: number, label: string): HTMLElement {
+  // A system has no world to draw.
+  if (store.page.study.scenario === null) return h("button", { type: "button", class: "quiet", click: () => store.show(index) }, `Show ${label}`);
   const button = h("button", { type: "button", class: "thumb", "aria-label": `Play ${label}`, click: () => store.show(index) });
   const place = h("span", { class: "picture" });
   button.append(place, h("span", { class: "playmark" }, `▶ ${label}`));
@@ -43,15 +45,23 @@ export function thumbnail(store: Store, index: number, label: string): HTMLEleme
 }
 
 /** The test that the first screen shows, with what it is: the worst plausible failure, or else the worst test. */
-function worstTest({ worst, worst_plausible: plausible, plausible: ranges }: Document): [Worst, string] | null {
+function worstTest(store: Store): [Worst, string] | null {
+  const { worst, worst_plausible: plausible, plausible: ranges, modes } = store.page;
   if (plausible?.verdict === "fail") return [plausible, ranges ? "Worst plausible failure" : "Worst failure"];
   if (!worst) return null;
+  // The worst test may be unpreventable, which is no failure. The first mode has the most failures.
+  if (worst.verdict !== "fail" && modes.modes.length > 0) {
+    const index = modes.modes[0].worst;
+    const row = store.rowOf(index);
+    const margins = row < 0 ? [] : store.tests.robustness.filter(({ values }) => values[row] < 0);
+    if (margins.length > 0) return [{ index, verdict: "fail", requirement: margins[0].id, robustness: margins[0].values[row] }, "Worst failure of the largest mode"];
+  }
   return [worst, worst.verdict === "fail" ? (ranges ? "Worst failure, not plausible" : "Worst failure") : "Nearest to a failure"];
 }
 
 export function worstCard(store: Store): HTMLElement | null {
   const { page } = store;
-  const found = worstTest(page);
+  const found = worstTest(store);
   if (!found) return null;
   const [worst, title] = found;
   const row = store.rowOf(worst.index);
@@ -138,12 +148,18 @@ export function changes(store: Store): HTMLElement | null {
     h("dl", { class: "findings" }, ...list("new failures", added), ...list("mended", mended)));
 }
 
+/** The least value so far: an empty box of more tests is no larger, so an earlier bound holds for later sizes, too. */
+function leastSoFar(values: (number | null)[]): (number | null)[] {
+  let least = Infinity;
+  return values.map((value) => (value === null ? null : (least = Math.min(least, value))));
+}
+
 export function growth(page: Document): HTMLElement | null {
   const { growth: sizes } = page;
   if (sizes.length < 3) return null;
   const place = h("div", { class: "growth" });
   const curves = [
-    { label: "dispersion (largest empty box)", values: sizes.map(({ dispersion }) => dispersion && dispersion[1]), stroke: "#0072b2" },
+    { label: "largest empty box, at most", values: leastSoFar(sizes.map(({ dispersion }) => dispersion && dispersion[1])), stroke: "#0072b2" },
     { label: "combinations of values covered", values: sizes.map(({ k_wise: share }) => share), stroke: "#009e73", dash: [5, 4] },
   ].filter(({ values }) => values.some((value) => value !== null));
   if (curves.length === 0) return null;

@@ -44,6 +44,11 @@ export class Table {
     this.arrange();
   }
 
+  /** True if the user has sorted or scrolled the table. */
+  get isArranged(): boolean {
+    return this.sorted !== 0 || this.isDown || this.scroll.scrollTop > 0;
+  }
+
   private sort(column: number) {
     this.isDown = column === this.sorted ? !this.isDown : false;
     this.sorted = column;
