@@ -508,6 +508,39 @@ def test_a_stream_in_the_wrong_place_is_an_error_that_says_what_to_write(functio
     assert message in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("state", "message"),
+    [
+        (lambda s, car: s.require("x", pc.never(car.collides)), "found a method, expected what it returns: write `collides()`"),
+        (lambda s, car: s.require("x", pc.never(car.collides(), within=5)), "within is 5, expected a pair of numbers of seconds"),
+        (lambda s, car: s.require("x", pc.never(car.collides(), within=(5, 1))), "the smaller one first"),
+        (lambda s, car: s.monitor(pc.never(car.collides())), "`s.require("),
+    ],
+)
+def test_a_statement_that_is_none_is_an_error_that_says_what_to_write(state, message):
+    def world(s):
+        state(s, street(s)[1])
+
+    with pytest.raises(pc.Error) as error:
+        declared(world)
+    assert message in str(error.value)
+
+
+def test_a_scenario_describes_itself():
+    told = examples().cut_in.describe()
+    side = next(parameter for parameter in told["parameters"] if parameter["name"] == "side")
+    assert side["choice"] == ["left", "right"] and not side["open"] and side["nominal"] == "left"
+    assert told["duration"] == 20.0 and told["dt"] == 0.01 and "other.position" in told["premise"]
+    seen = []
+
+    @pc.scenario
+    def world(s):
+        seen.append(repr(s.choice("kind", ["a", "b"])))
+        street(s)
+
+    assert world.describe()["premise"] is None and seen == ["Stream(kind, a parameter of words)"]
+
+
 def test_the_lanes_of_a_path_follow_each_other():
     loop = examples().LOOP
     assert loop.path([("side 1", 1), ("tee 2", "three", "two", 1)]).length > 60.0

@@ -35,6 +35,10 @@ impl Operand {
         if let Ok([x, y]) = found.extract::<[f64; 2]>() {
             return constant(Wire::Vector(engine::Stream::constant(Vector2::new(x, y))));
         }
+        if found.is_callable() {
+            let name = found.getattr("__name__").map(|name| name.to_string()).unwrap_or_default();
+            return Err(raised(format!("{place}: found a method, expected what it returns: write `{name}()`")));
+        }
         let kind = found.get_type().name()?;
         Err(raised(format!("{place}: found a value of the type {kind}, expected a stream or a number")))
     }

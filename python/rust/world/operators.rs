@@ -3,6 +3,7 @@
 use super::called::{Called, Datum, Kind};
 use super::effect::Effect;
 use super::operand::Operand;
+use super::parameter::Parameter;
 use super::place::Line;
 use super::stream::{Origin, Stream};
 use super::temporal::{Temporal, statement};
@@ -382,6 +383,9 @@ impl Stream {
     }
 
     fn __repr__(&self) -> PyResult<String> {
+        if let Origin::Parameter(Parameter::Word { name, .. }) = &self.origin {
+            return Ok(format!("Stream({name}, a parameter of words)"));
+        }
         Ok(each!(self.wire()?, stream => format!("Stream({stream:?})")))
     }
 }

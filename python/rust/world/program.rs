@@ -106,16 +106,31 @@ impl Program {
         self.function.call1(py, (scenario,))
     }
 
-    /// Returns the parameters and the requirements that the scenario declares.
+    /// Returns the parameters, the requirements, the premise, the duration and the tick (`dt`, both in seconds) of the scenario.
     ///
     /// Raises `Error` if the world cannot be built with nominal values.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let declaration = self.inner.declare().map_err(raised)?;
-        let parameters: Vec<_> = declaration.parameters.iter().map(|declared| &declared.parameter).collect();
+        let parameter = |declared: &engine::Declared| {
+            let mut entries = serde_json::to_value(&declared.parameter).map_err(raised)?;
+            entries["open"] = declared.open.into();
+            entries["nominal"] = serde_json::to_value(declared.nominal()).map_err(raised)?;
+            PyResult::Ok(entries)
+        };
+        let parameters = declaration.parameters.iter().map(parameter).collect::<PyResult<Vec<_>>>()?;
         let requirements = declaration.requirements.iter();
         let requirements: Vec<_> =
             requirements.map(|one| serde_json::json!({ "id": one.id, "text": one.text, "unit": one.unit })).collect();
-        to_dict(py, &serde_json::json!({ "parameters": parameters, "requirements": requirements }))
+        to_dict(
+            py,
+            &serde_json::json!({
+                "parameters": parameters,
+                "requirements": requirements,
+                "premise": declaration.premise,
+                "duration": declaration.duration,
+                "dt": declaration.dt,
+            }),
+        )
     }
 
     /// Returns the graph of the streams with nominal values, in the language DOT of Graphviz.

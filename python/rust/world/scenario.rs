@@ -214,12 +214,16 @@ impl Scenario {
     #[pyo3(signature = (monitor, *, text = None, unit = None, scale = None))]
     fn monitor(
         &self,
-        monitor: &Monitor,
+        monitor: &Bound<PyAny>,
         text: Option<String>,
         unit: Option<String>,
         scale: Option<f64>,
     ) -> PyResult<()> {
-        let draft = self.building.with(|scenario| scenario.monitor(monitor.inner.clone()))?;
+        let monitor = monitor.cast::<Monitor>().map_err(|_| {
+            raised("monitor: expected a `pc.Monitor`, such as `pc.Monitor.no_collision(car)`; `s.require(\"id\", ..)` takes other statements")
+        })?;
+        let monitor = monitor.try_borrow()?.inner.clone();
+        let draft = self.building.with(|scenario| scenario.monitor(monitor))?;
         self.stated(draft, (text, unit, scale));
         Ok(())
     }

@@ -25,7 +25,14 @@ pub fn statement(found: &Bound<PyAny>, place: &str) -> PyResult<engine::Temporal
 }
 
 /// Reads the interval of an operator: `None` for the whole run, or two numbers of seconds.
-fn interval(within: Option<[f64; 2]>) -> PyResult<Interval> {
+fn interval(within: Option<Bound<PyAny>>) -> PyResult<Interval> {
+    let read = |within: Bound<PyAny>| {
+        let found = || within.repr().map(|text| text.to_string()).unwrap_or_default();
+        within.extract::<[f64; 2]>().map_err(|_| {
+            raised(format!("within is {}, expected a pair of numbers of seconds, such as (0, 5)", found()))
+        })
+    };
+    let within = within.map(read).transpose()?;
     let Some([start, end]) = within else { return Ok((..).into()) };
     if start >= 0.0 && start <= end {
         return Ok((start..=end).into());
@@ -70,42 +77,42 @@ impl Temporal {
 /// Returns the statement that `holds` holds at every tick; with `within=(0, 5)`, at every tick of the 5 s from now on.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
-pub fn always(holds: &Bound<PyAny>, within: Option<[f64; 2]>) -> PyResult<Temporal> {
+pub fn always(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     Ok(Temporal { inner: statement(holds, "always")?.always(interval(within)?) })
 }
 
 /// Returns the statement that `holds` holds at no tick; with `within=(0, 5)`, at no tick of the 5 s from now on.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
-pub fn never(holds: &Bound<PyAny>, within: Option<[f64; 2]>) -> PyResult<Temporal> {
+pub fn never(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     Ok(Temporal { inner: (!statement(holds, "never")?).always(interval(within)?) })
 }
 
 /// Returns the statement that `holds` holds at some tick; with `within=(0, 5)`, at some tick of the 5 s from now on.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
-pub fn eventually(holds: &Bound<PyAny>, within: Option<[f64; 2]>) -> PyResult<Temporal> {
+pub fn eventually(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     Ok(Temporal { inner: statement(holds, "eventually")?.eventually(interval(within)?) })
 }
 
 /// Returns the statement that `holds` held at every tick up to now; with `within=(0, 5)`, at every tick of the 5 s before.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
-pub fn historically(holds: &Bound<PyAny>, within: Option<[f64; 2]>) -> PyResult<Temporal> {
+pub fn historically(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     Ok(Temporal { inner: statement(holds, "historically")?.historically(interval(within)?) })
 }
 
 /// Returns the statement that `holds` held at some tick up to now; with `within=(0, 5)`, at some tick of the 5 s before.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
-pub fn once(holds: &Bound<PyAny>, within: Option<[f64; 2]>) -> PyResult<Temporal> {
+pub fn once(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     Ok(Temporal { inner: statement(holds, "once")?.once(interval(within)?) })
 }
 
 /// Returns the statement that `holds` holds until `goal` holds; with `within=(0, 5)`, `goal` holds within the 5 s from now on.
 #[pyfunction]
 #[pyo3(signature = (holds, goal, *, within = None))]
-pub fn until(holds: &Bound<PyAny>, goal: &Bound<PyAny>, within: Option<[f64; 2]>) -> PyResult<Temporal> {
+pub fn until(holds: &Bound<PyAny>, goal: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     let (holds, goal) = (statement(holds, "until")?, statement(goal, "until")?);
     Ok(Temporal { inner: holds.until(interval(within)?, goal) })
 }
