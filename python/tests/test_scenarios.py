@@ -526,6 +526,55 @@ def test_a_statement_that_is_none_is_an_error_that_says_what_to_write(state, mes
     assert message in str(error.value)
 
 
+def deep(s, x):
+    for _ in range(100_000):
+        x = x + 1.0
+    s.require("r", pc.never(x < 0.0))
+
+
+def wide(s, x):
+    for _ in range(100):
+        x = x + x
+    s.require("r", pc.never(x < 0.0))
+
+
+def wide_statement(s, x):
+    statement = pc.never(x < 0.0)
+    for _ in range(100):
+        statement = statement & statement
+    s.require("r", statement)
+
+
+def deep_statement(s, x):
+    statement = pc.never(x < 0.0)
+    for _ in range(100_000):
+        statement = ~statement
+    s.require("r", statement)
+
+
+@pytest.mark.parametrize("nest", [deep, wide, wide_statement, deep_statement])
+def test_a_loop_that_nests_without_end_is_an_error_and_not_the_end_of_the_interpreter(nest):
+    def world(s):
+        speed = s.interval("v", 0.0, 1.0)
+        street(s)
+        nest(s, speed)
+
+    with pytest.raises(pc.Error, match="more than 1"):
+        declared(world)
+
+
+def test_many_operators_are_no_mistake_if_a_stream_that_is_used_often_has_a_name(tmp_path):
+    def world(s):
+        total = s.interval("v", 0.0, 1.0)
+        street(s)
+        s.duration(0.5)
+        for i in range(300):
+            total = (total + total * 0.001).named(f"total-{i}")
+        s.require("r", pc.always(total >= 0.0))
+
+    assert pc.Study(pc.scenario(world), budget=3).run(tmp_path / "run").verdicts["pass"] == 3
+
+
 def test_a_scenario_describes_itself():
     told = examples().cut_in.describe()
     side = next(parameter for parameter in told["parameters"] if parameter["name"] == "side")

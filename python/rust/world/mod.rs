@@ -7,6 +7,7 @@ mod called;
 mod effect;
 mod ego;
 mod environment;
+mod extent;
 mod forward;
 mod monitor;
 mod network;

@@ -1,6 +1,7 @@
 //! Operands of streams: streams, numbers, truths, and pairs of numbers.
 
 use super::building::Building;
+use super::extent::Extent;
 use super::stream::Stream;
 use super::wire::Wire;
 use crate::error::raised;
@@ -13,6 +14,7 @@ use pyo3::prelude::*;
 pub struct Operand {
     pub building: Option<Building>,
     pub wire: Wire,
+    pub extent: Extent,
 }
 
 impl Operand {
@@ -23,9 +25,9 @@ impl Operand {
     pub fn of(found: &Bound<PyAny>, place: &str) -> PyResult<Self> {
         if let Ok(stream) = found.cast::<Stream>() {
             let stream = stream.try_borrow()?;
-            return Ok(Self { building: stream.building.clone(), wire: stream.wire()? });
+            return Ok(Self { building: stream.building.clone(), wire: stream.wire()?, extent: stream.extent });
         }
-        let constant = |wire| Ok(Self { building: None, wire });
+        let constant = |wire| Ok(Self { building: None, wire, extent: Extent::ONE });
         if is_truth(found) {
             return constant(Wire::Truth(engine::Stream::constant(found.is_truthy()?)));
         }

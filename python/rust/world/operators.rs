@@ -6,7 +6,7 @@ use super::operand::Operand;
 use super::parameter::Parameter;
 use super::place::Line;
 use super::stream::{Origin, Stream};
-use super::temporal::{Temporal, statement};
+use super::temporal::Temporal;
 use super::wire::{Sign, Wire, both, each};
 use crate::error::raised;
 use nalgebra::Vector2;
@@ -23,7 +23,8 @@ impl Stream {
     /// Makes a stream of this stream and another operand.
     fn joined(&self, other: Operand, join: impl FnOnce(Wire, Wire) -> PyResult<Wire>) -> PyResult<Self> {
         let wire = join(self.wire()?, other.wire)?;
-        Ok(Self { building: self.building.clone().or(other.building), origin: Origin::Wire(wire) })
+        let (building, extent) = (self.building.clone().or(other.building), self.extent.with(other.extent));
+        Ok(Self { building, origin: Origin::Wire(wire), extent })
     }
 
     /// Makes the stream of `&` or `|`. A statement on the right makes a statement, which is its own affair.
@@ -54,29 +55,29 @@ impl Stream {
     /// Makes the stream that has one value at every tick: a number, a truth, or a pair of coordinates.
     #[staticmethod]
     fn constant(value: &Bound<PyAny>) -> PyResult<Self> {
-        let Operand { building, wire } = Operand::of(value, "constant")?;
-        Ok(Self { building, origin: Origin::Wire(wire) })
+        let Operand { building, wire, extent } = Operand::of(value, "constant")?;
+        Ok(Self { building, origin: Origin::Wire(wire), extent })
     }
 
     /// Makes the stream of the time since the beginning of the run, in seconds.
     #[staticmethod]
     fn time() -> Self {
-        Self { building: None, origin: Origin::Wire(engine::Stream::time().into()) }
+        Self::from_origin(None, Origin::Wire(engine::Stream::time().into()))
     }
 
     /// Makes the stream with an event at every tick.
     #[staticmethod]
     fn tick() -> Self {
-        Self { building: None, origin: Origin::Wire(engine::Stream::tick().into()) }
+        Self::from_origin(None, Origin::Wire(engine::Stream::tick().into()))
     }
 
     /// Makes a stream of vectors from the streams of their coordinates.
     #[staticmethod]
     fn vector(x: &Bound<PyAny>, y: &Bound<PyAny>) -> PyResult<Self> {
         let (x, y) = (Operand::of(x, "x")?, Operand::of(y, "y")?);
-        let building = x.building.or(y.building);
+        let (building, extent) = (x.building.or(y.building), x.extent.with(y.extent));
         let wire = engine::Stream::vector(x.wire.numbers("x")?, y.wire.numbers("y")?).into();
-        Ok(Self { building, origin: Origin::Wire(wire) })
+        Ok(Self { building, origin: Origin::Wire(wire), extent })
     }
 
     fn __add__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
@@ -175,8 +176,7 @@ impl Stream {
 
     /// Returns the statement that `other` holds if this stream is true.
     fn implies(&self, other: &Bound<PyAny>) -> PyResult<Temporal> {
-        let own = engine::Temporal::from(self.wire()?.truths("implies")?);
-        Ok(Temporal { inner: own.implies(statement(other, "implies")?) })
+        Temporal::of_stream(self, "implies")?.implies(other)
     }
 
     fn __float__(&self) -> PyResult<f64> {
@@ -255,25 +255,29 @@ impl Stream {
 
     /// Returns the same stream with a name. The graph uses the name, and so do the traces if a requirement reads the stream.
     fn named(&self, name: &str) -> PyResult<Self> {
-        Ok(each!(self.wire()?, stream => self.made(stream.named(name))))
+        let made = each!(self.wire()?, stream => self.made(stream.named(name)));
+        Ok(Self { extent: made.extent.named(), ..made })
     }
 
     /// Returns the stream at the ticks at which `event` occurs.
     fn when(&self, event: &Self) -> PyResult<Self> {
-        let event = event.wire()?;
-        Ok(each!(self.wire()?, stream => each!(&event, event => self.made(stream.when(event)))))
+        let (event, extent) = (event.wire()?, self.extent.with(event.extent));
+        let made = each!(self.wire()?, stream => each!(&event, event => self.made(stream.when(event))));
+        Ok(Self { extent, ..made })
     }
 
     /// Returns the stream from the first tick on at which `event` occurs.
     fn skip_until(&self, event: &Self) -> PyResult<Self> {
-        let event = event.wire()?;
-        Ok(each!(self.wire()?, stream => each!(&event, event => self.made(stream.skip_until(event)))))
+        let (event, extent) = (event.wire()?, self.extent.with(event.extent));
+        let made = each!(self.wire()?, stream => each!(&event, event => self.made(stream.skip_until(event))));
+        Ok(Self { extent, ..made })
     }
 
     /// Returns the stream before the first tick at which `event` occurs.
     fn take_until(&self, event: &Self) -> PyResult<Self> {
-        let event = event.wire()?;
-        Ok(each!(self.wire()?, stream => each!(&event, event => self.made(stream.take_until(event)))))
+        let (event, extent) = (event.wire()?, self.extent.with(event.extent));
+        let made = each!(self.wire()?, stream => each!(&event, event => self.made(stream.take_until(event))));
+        Ok(Self { extent, ..made })
     }
 
     /// Returns the first `count` values of the stream.

@@ -36,7 +36,7 @@ impl Scenario {
     /// Declares a parameter, which is a stream.
     fn parameter(&self, parameter: Declared, said: Said) -> PyResult<Stream> {
         let parameter = declared(&self.building, parameter, said)?;
-        Ok(Stream { building: Some(self.building.clone()), origin: Origin::Parameter(parameter) })
+        Ok(Stream::from_origin(Some(self.building.clone()), Origin::Parameter(parameter)))
     }
 
     fn stated(&self, draft: RequirementDraft, said: (Option<String>, Option<String>, Option<f64>)) {
@@ -204,7 +204,7 @@ impl Scenario {
                  `pc.eventually(..)`",
             ));
         }
-        let asked = statement(asked, "require")?;
+        let asked = statement(asked, "require")?.inner;
         let draft = self.building.with(|scenario| scenario.require(id, asked))?;
         self.stated(draft, (text, unit, scale));
         Ok(())
@@ -265,7 +265,7 @@ impl Scenario {
     #[pyo3(signature = (name, r#type = None))]
     fn forward(&self, name: &str, r#type: Option<&Bound<PyAny>>) -> PyResult<Stream> {
         let forward = announced(&self.building, name, Kind::of(r#type)?)?;
-        Ok(Stream { building: Some(self.building.clone()), origin: Origin::Forward(forward) })
+        Ok(Stream::from_origin(Some(self.building.clone()), Origin::Forward(forward)))
     }
 }
 

@@ -1,6 +1,7 @@
 //! `Stream`: the handle of values that change from tick to tick. Its methods and operators are in [`super::operators`].
 
 use super::building::Building;
+use super::extent::Extent;
 use super::forward::Forward;
 use super::parameter::Parameter;
 use super::wire::Wire;
@@ -25,20 +26,27 @@ pub struct Stream {
     /// The scenario that the stream belongs to; `None` if it belongs to none.
     pub building: Option<Building>,
     pub origin: Origin,
+    pub extent: Extent,
 }
 
 impl Stream {
     /// Makes a stream of a scenario.
     pub fn of(building: &Building, wire: impl Into<Wire>) -> Self {
-        Self { building: Some(building.clone()), origin: Origin::Wire(wire.into()) }
+        Self::from_origin(Some(building.clone()), Origin::Wire(wire.into()))
+    }
+
+    /// Makes a stream that is made of no other.
+    pub fn from_origin(building: Option<Building>, origin: Origin) -> Self {
+        Self { building, origin, extent: Extent::ONE }
     }
 
     /// Returns the stream of the library.
     ///
     /// # Errors
-    /// The scenario of the stream is complete, or it is a parameter that cannot be a stream.
+    /// The scenario of the stream is complete, the stream has too many operators, or it is a parameter that cannot be a stream.
     pub fn wire(&self) -> PyResult<Wire> {
         self.building.as_ref().map_or(Ok(()), Building::check)?;
+        self.extent.check()?;
         match &self.origin {
             Origin::Wire(wire) => Ok(wire.clone()),
             Origin::Forward(forward) => Ok(forward.wire()),
@@ -55,6 +63,6 @@ impl Stream {
 
     /// Makes a stream of the same scenario.
     pub fn made(&self, wire: impl Into<Wire>) -> Self {
-        Self { building: self.building.clone(), origin: Origin::Wire(wire.into()) }
+        Self { building: self.building.clone(), origin: Origin::Wire(wire.into()), extent: self.extent.next() }
     }
 }

@@ -1,6 +1,8 @@
 //! `Temporal`: statements about a whole run.
 
+use super::extent::Extent;
 use super::operand::Operand;
+use super::stream::Stream;
 use crate::error::raised;
 use paracosm::engine;
 use paracosm::oracles::Interval;
@@ -11,16 +13,51 @@ use pyo3::prelude::*;
 #[pyclass(frozen, unsendable, module = "paracosm")]
 pub struct Temporal {
     pub inner: engine::Temporal,
+    extent: Extent,
 }
 
 /// Reads a statement, or a stream of truths, which is a statement about each tick.
 ///
 /// # Errors
 /// The object is neither; `place` begins the message.
-pub fn statement(found: &Bound<PyAny>, place: &str) -> PyResult<engine::Temporal> {
-    match found.cast::<Temporal>() {
-        Ok(temporal) => Ok(temporal.try_borrow()?.inner.clone()),
-        Err(_) => Ok(Operand::of(found, place)?.wire.truths(place)?.into()),
+pub fn statement(found: &Bound<PyAny>, place: &str) -> PyResult<Temporal> {
+    if let Ok(temporal) = found.cast::<Temporal>() {
+        let temporal = temporal.try_borrow()?;
+        return Ok(Temporal { inner: temporal.inner.clone(), extent: temporal.extent });
+    }
+    let operand = Operand::of(found, place)?;
+    Ok(Temporal { inner: operand.wire.truths(place)?.into(), extent: operand.extent })
+}
+
+impl Temporal {
+    /// Makes the statement that a stream of truths is true at a tick.
+    ///
+    /// # Errors
+    /// The stream has values of another type.
+    pub fn of_stream(stream: &Stream, place: &str) -> PyResult<Self> {
+        Ok(Self { inner: stream.wire()?.truths(place)?.into(), extent: stream.extent })
+    }
+
+    /// Makes a statement of this statement alone.
+    fn made(self, make: impl FnOnce(engine::Temporal) -> engine::Temporal) -> PyResult<Self> {
+        let extent = self.extent.next();
+        extent.check()?;
+        Ok(Self { inner: make(self.inner), extent })
+    }
+
+    /// Makes a statement of two statements.
+    fn joined(
+        self,
+        other: Self,
+        join: impl FnOnce(engine::Temporal, engine::Temporal) -> engine::Temporal,
+    ) -> PyResult<Self> {
+        let extent = self.extent.with(other.extent);
+        extent.check()?;
+        Ok(Self { inner: join(self.inner, other.inner), extent })
+    }
+
+    fn copied(&self) -> Self {
+        Self { inner: self.inner.clone(), extent: self.extent }
     }
 }
 
@@ -43,23 +80,23 @@ fn interval(within: Option<Bound<PyAny>>) -> PyResult<Interval> {
 #[pymethods]
 impl Temporal {
     fn __and__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: self.inner.clone().and(statement(other, "`&`")?) })
+        self.copied().joined(statement(other, "`&`")?, engine::Temporal::and)
     }
 
     fn __rand__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: statement(other, "`&`")?.and(self.inner.clone()) })
+        statement(other, "`&`")?.joined(self.copied(), engine::Temporal::and)
     }
 
     fn __or__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: self.inner.clone().or(statement(other, "`|`")?) })
+        self.copied().joined(statement(other, "`|`")?, engine::Temporal::or)
     }
 
     fn __ror__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: statement(other, "`|`")?.or(self.inner.clone()) })
+        statement(other, "`|`")?.joined(self.copied(), engine::Temporal::or)
     }
 
-    fn __invert__(&self) -> Self {
-        Self { inner: !self.inner.clone() }
+    fn __invert__(&self) -> PyResult<Self> {
+        self.copied().made(|holds| !holds)
     }
 
     fn __bool__(&self) -> PyResult<bool> {
@@ -69,8 +106,8 @@ impl Temporal {
     }
 
     /// Returns the statement that `other` holds if this statement holds.
-    fn implies(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: self.inner.clone().implies(statement(other, "implies")?) })
+    pub fn implies(&self, other: &Bound<PyAny>) -> PyResult<Self> {
+        self.copied().joined(statement(other, "implies")?, engine::Temporal::implies)
     }
 }
 
@@ -78,35 +115,40 @@ impl Temporal {
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
 pub fn always(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
-    Ok(Temporal { inner: statement(holds, "always")?.always(interval(within)?) })
+    let within = interval(within)?;
+    statement(holds, "always")?.made(|holds| holds.always(within))
 }
 
 /// Returns the statement that `holds` holds at no tick; with `within=(0, 5)`, at no tick of the 5 s from now on.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
 pub fn never(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
-    Ok(Temporal { inner: (!statement(holds, "never")?).always(interval(within)?) })
+    let within = interval(within)?;
+    statement(holds, "never")?.made(|holds| (!holds).always(within))
 }
 
 /// Returns the statement that `holds` holds at some tick; with `within=(0, 5)`, at some tick of the 5 s from now on.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
 pub fn eventually(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
-    Ok(Temporal { inner: statement(holds, "eventually")?.eventually(interval(within)?) })
+    let within = interval(within)?;
+    statement(holds, "eventually")?.made(|holds| holds.eventually(within))
 }
 
 /// Returns the statement that `holds` held at every tick up to now; with `within=(0, 5)`, at every tick of the 5 s before.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
 pub fn historically(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
-    Ok(Temporal { inner: statement(holds, "historically")?.historically(interval(within)?) })
+    let within = interval(within)?;
+    statement(holds, "historically")?.made(|holds| holds.historically(within))
 }
 
 /// Returns the statement that `holds` held at some tick up to now; with `within=(0, 5)`, at some tick of the 5 s before.
 #[pyfunction]
 #[pyo3(signature = (holds, *, within = None))]
 pub fn once(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
-    Ok(Temporal { inner: statement(holds, "once")?.once(interval(within)?) })
+    let within = interval(within)?;
+    statement(holds, "once")?.made(|holds| holds.once(within))
 }
 
 /// Returns the statement that `holds` holds until `goal` holds; with `within=(0, 5)`, `goal` holds within the 5 s from now on.
@@ -114,5 +156,6 @@ pub fn once(holds: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temp
 #[pyo3(signature = (holds, goal, *, within = None))]
 pub fn until(holds: &Bound<PyAny>, goal: &Bound<PyAny>, within: Option<Bound<PyAny>>) -> PyResult<Temporal> {
     let (holds, goal) = (statement(holds, "until")?, statement(goal, "until")?);
-    Ok(Temporal { inner: holds.until(interval(within)?, goal) })
+    let within = interval(within)?;
+    holds.joined(goal, |holds, goal| holds.until(within, goal))
 }
