@@ -77,6 +77,9 @@ pub fn deep_copy<'py>(choices: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDic
 /// A choice makes no sense.
 pub fn built(mut study: StudyBuilder, choices: &Bound<PyDict>) -> PyResult<paracosm::Study> {
     let choices = Choices(choices);
+    if choices.get::<Bound<PyAny>>("driver")?.is_some() && choices.get::<String>("driver_command")?.is_some() {
+        return Err(raised("driver and driver_command exclude each other: give one of them, and None for the other"));
+    }
     let own = choices.get::<Bound<PyAny>>("driver")?.map(|driver| of_python(&driver)).transpose()?.flatten();
     match own {
         Some(own) => study = given_to(study, own, choices.entries("driver_settings")?)?,

@@ -140,6 +140,11 @@ def test_a_driver_that_cannot_begin_is_a_mistake_of_the_study(driver, settings, 
     assert message in str(error.value)
 
 
+def test_a_study_has_one_driver():
+    with pytest.raises(pc.Error, match="driver and driver_command exclude each other"):
+        pc.Study(driver=Cautious(), driver_command="python3 brake.py", budget=3)
+
+
 def test_ctrl_c_ends_a_step_that_never_returns(tmp_path):
     script = textwrap.dedent("""
         import paracosm as pc

@@ -416,6 +416,29 @@ def test_ctrl_c_ends_a_function_that_never_returns(tmp_path):
     assert report.verdicts["error"] == 0
 
 
+def test_ctrl_c_ends_a_function_of_a_stream_that_never_returns(tmp_path):
+    script = textwrap.dedent("""
+        import paracosm as pc
+        def stuck(value):
+            print("stuck", flush=True)
+            while True: pass
+        @pc.scenario
+        def world(s):
+            speed = s.interval("v", 1.0, 2.0)
+            road = s.place(pc.RoadSegment(300.0))
+            s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(10.0))
+            s.require("m", pc.never(speed.map(stuck) < 0.0))
+        pc.Study(world, budget=20).run("out", executor=1)
+    """)
+    (tmp_path / "stuck.py").write_text(script)
+    running = subprocess.Popen([sys.executable, "stuck.py"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert running.stdout is not None and running.stdout.readline() == "stuck\n"
+    running.send_signal(signal.SIGINT)
+    begun = time.monotonic()
+    _, errors = running.communicate(timeout=60)
+    assert time.monotonic() - begun < 30 and "KeyboardInterrupt" in errors
+
+
 def test_the_program_takes_a_scenario_in_a_file(fuzz, tmp_path):
     (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING))
     ran = fuzz("crossing.py", "--driver", "aeb", "--budget", "30", "--fail-on-violation")

@@ -1,5 +1,6 @@
 //! Functions of Python that a stream calls at every tick, and the values that go to them and come back.
 
+use crate::busy;
 use crate::error::raised;
 use crate::system::in_words;
 use crate::value::is_truth;
@@ -128,7 +129,8 @@ impl Called {
     fn unless_raised<T>(&self, call: impl FnOnce(Python, &Bound<PyAny>) -> PyResult<T>) -> T {
         let answered = Python::attach(|py| {
             let function = self.0.bind(py);
-            call(py, function).map_err(|error| format!("{}{}", in_words(py, &error), place_of(function)))
+            busy::calling(py, || call(py, function))
+                .map_err(|error| format!("{}{}", in_words(py, &error), place_of(function)))
         });
         answered.unwrap_or_else(|why| panic::resume_unwind(Box::new(why)))
     }
