@@ -52,7 +52,7 @@ pub struct Reader {
 pub enum Holds {
     /// The description of one scenario.
     Description,
-    /// Programs, which run when they are read. A file may have several scenarios, of which `FILE:NAME` is one.
+    /// Programs, which run when they are read. A file may have several scenarios: `FILE:NAME` names one of them.
     Programs,
 }
 

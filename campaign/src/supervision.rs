@@ -26,7 +26,7 @@ pub struct Supervision {
     pub output: Output,
     /// The folder in which programs start; `None` for the folder of this process.
     pub folder: Option<PathBuf>,
-    /// The work around that of each thread that runs tests.
+    /// The function that wraps the work of each thread that runs tests.
     pub threads: Threads,
     /// The doubts about the programs of the campaign, which its log does not show.
     pub doubts: Doubts,

@@ -1,4 +1,4 @@
-//! The threads that run tests, as the program wants them. An interpreter attaches each thread once, and not at every question to a driver.
+//! A wrapper around the work of the threads that run tests. An interpreter attaches each thread once, and not at every question to a driver.
 
 use std::fmt;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 /// A function that does the work of a thread, between what it does before and after.
 type Around = dyn Fn(&mut (dyn FnMut() + Send)) + Send + Sync;
 
-/// The work around that of each thread that runs tests. Usually there is none.
+/// The function that wraps the work of each thread that runs tests. By default there is none.
 #[derive(Clone, Default)]
 pub struct Threads(Option<Arc<Around>>);
 

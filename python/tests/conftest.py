@@ -2,8 +2,10 @@
 
 import json
 import shutil
+import signal
 import subprocess
 import sys
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -48,5 +50,23 @@ def estimate(cover: Program) -> Callable[..., Any]:
 
     def run(*arguments: str) -> Any:
         return json.loads(cover("estimate", *arguments, "--format", "json"))
+
+    return run
+
+
+@pytest.fixture
+def interrupted(tmp_path: Path) -> Callable[[str, str], str]:
+    """Runs a script until it prints a line, sends Ctrl-C, and returns what the script wrote to standard error within half a minute."""
+
+    def run(script: str, line: str) -> str:
+        (tmp_path / "script.py").write_text(textwrap.dedent(script))
+        command = [sys.executable, "script.py"]
+        running = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        assert running.stdout is not None and running.stdout.readline() == f"{line}\n"
+        running.send_signal(signal.SIGINT)
+        try:
+            return running.communicate(timeout=30)[1]
+        finally:
+            running.kill()
 
     return run

@@ -1,12 +1,8 @@
 """Drivers in this process: they drive as over gRPC, and what they do wrong ends a test and nothing else."""
 
 import json
-import signal
-import subprocess
 import sys
-import textwrap
 import threading
-import time
 from pathlib import Path
 
 import paracosm as pc
@@ -145,8 +141,8 @@ def test_a_study_has_one_driver():
         pc.Study(driver=Cautious(), driver_command="python3 brake.py", budget=3)
 
 
-def test_ctrl_c_ends_a_step_that_never_returns(tmp_path):
-    script = textwrap.dedent("""
+def test_ctrl_c_ends_a_step_that_never_returns(interrupted, tmp_path):
+    script = """
         import paracosm as pc
         class Stuck(pc.Driver):
             def step(self, observation):
@@ -155,12 +151,6 @@ def test_ctrl_c_ends_a_step_that_never_returns(tmp_path):
                     while True: pass
                 return pc.Control()
         pc.Study(driver=Stuck(), budget=20).run("out", executor=2)
-    """)
-    (tmp_path / "stuck.py").write_text(script)
-    running = subprocess.Popen([sys.executable, "stuck.py"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert running.stdout is not None and running.stdout.readline() == "stuck\n"
-    running.send_signal(signal.SIGINT)
-    begun = time.monotonic()
-    _, errors = running.communicate(timeout=60)
-    assert time.monotonic() - begun < 30 and "KeyboardInterrupt" in errors
+    """
+    assert "KeyboardInterrupt" in interrupted(script, "stuck")
     assert len(pc.load(tmp_path / "out")) == 0

@@ -4,11 +4,9 @@ import importlib.util
 import json
 import os
 import pickle
-import signal
 import subprocess
 import sys
 import textwrap
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -391,8 +389,8 @@ def test_a_study_of_a_scenario_at_the_level_of_a_module_can_be_pickled():
     assert repr(again) == repr(study) and again.scenario == study.scenario
 
 
-def test_ctrl_c_ends_a_function_that_never_returns(tmp_path):
-    script = textwrap.dedent("""
+def test_ctrl_c_ends_a_function_that_never_returns(interrupted, tmp_path):
+    script = """
         import paracosm as pc
         @pc.scenario
         def loops(s):
@@ -403,21 +401,15 @@ def test_ctrl_c_ends_a_function_that_never_returns(tmp_path):
                 print("looping", flush=True)
                 while True: pass
         pc.Study(loops, budget=20).run("out", executor=2)
-    """)
-    (tmp_path / "loops.py").write_text(script)
-    running = subprocess.Popen([sys.executable, "loops.py"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert running.stdout is not None and running.stdout.readline() == "looping\n"
-    running.send_signal(signal.SIGINT)
-    begun = time.monotonic()
-    _, errors = running.communicate(timeout=60)
-    assert time.monotonic() - begun < 30 and "KeyboardInterrupt" in errors
+    """
+    assert "KeyboardInterrupt" in interrupted(script, "looping")
     # The test that was interrupted did not end, so it is not in the log.
     report = pc.load(tmp_path / "out")
     assert report.verdicts["error"] == 0
 
 
-def test_ctrl_c_ends_a_function_of_a_stream_that_never_returns(tmp_path):
-    script = textwrap.dedent("""
+def test_ctrl_c_ends_a_function_of_a_stream_that_never_returns(interrupted):
+    script = """
         import paracosm as pc
         def stuck(value):
             print("stuck", flush=True)
@@ -429,14 +421,8 @@ def test_ctrl_c_ends_a_function_of_a_stream_that_never_returns(tmp_path):
             s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(10.0))
             s.require("m", pc.never(speed.map(stuck) < 0.0))
         pc.Study(world, budget=20).run("out", executor=1)
-    """)
-    (tmp_path / "stuck.py").write_text(script)
-    running = subprocess.Popen([sys.executable, "stuck.py"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert running.stdout is not None and running.stdout.readline() == "stuck\n"
-    running.send_signal(signal.SIGINT)
-    begun = time.monotonic()
-    _, errors = running.communicate(timeout=60)
-    assert time.monotonic() - begun < 30 and "KeyboardInterrupt" in errors
+    """
+    assert "KeyboardInterrupt" in interrupted(script, "stuck")
 
 
 def test_the_program_takes_a_scenario_in_a_file(fuzz, tmp_path):

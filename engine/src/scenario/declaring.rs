@@ -19,7 +19,7 @@ impl Scenario {
         self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()), Read::number())
     }
 
-    /// Declares an open parameter that takes one of the given values, of which there is at least one.
+    /// Declares an open parameter that takes one of the given values. At least one value is given.
     pub fn choice<T: Into<Value> + Clone + 'static, const N: usize>(&mut self, name: &str, levels: [T; N]) -> Param<T> {
         const { assert!(N > 0, "a choice needs at least one value") }
         self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))

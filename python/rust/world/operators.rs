@@ -318,7 +318,7 @@ impl Stream {
         })
     }
 
-    /// Applies a function of Python to each value. It is called at every tick, and takes some microseconds. `returns` is the type of its
+    /// Applies a function of Python to each value. It is called at every tick. `returns` is the type of its
     /// results: `float`, `bool`, or `tuple` for a pair of coordinates.
     #[pyo3(signature = (function, returns = None))]
     fn map(&self, function: Py<PyAny>, returns: Option<&Bound<PyAny>>) -> PyResult<Self> {

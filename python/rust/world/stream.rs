@@ -19,7 +19,7 @@ pub enum Origin {
 /// A value at each tick: numbers, truths, vectors, or events.
 ///
 /// Operators make other streams: `+ - * /`, comparisons, and `& | ~` for "and", "or" and "not". They are nodes of the graph that a run
-/// evaluates, so nothing of Python runs in a test. Only `map`, `filter`, `scan` and `for_each` with a function of Python call it at every tick.
+/// evaluates, so a test runs no Python code. Only `map`, `filter`, `scan` and `for_each` with a function of Python call it at every tick.
 #[pyclass(frozen, unsendable, module = "paracosm")]
 #[derive(Clone)]
 pub struct Stream {

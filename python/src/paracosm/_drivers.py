@@ -1,14 +1,13 @@
 """Drivers in this process: what a study does with the driver that it is given."""
 
 import copy
-import difflib
 import inspect
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from typing import Any
 
 from ._core import Error
-from .driver import Driver
+from .driver import Driver, configure
 from .observation import Control, Observation
 
 
@@ -44,14 +43,11 @@ def as_driver(given: object) -> tuple[Driver, str] | None:
 
 def of_session(driver: Driver, settings: dict[str, float], seed: int) -> Driver:
     """Returns the driver for one session: a copy with its settings."""
-    for name in settings:
-        if name not in driver.settings:
-            near = difflib.get_close_matches(name, driver.settings, 1)
-            hint = f" (did you mean `{near[0]}`?)" if near else ""
-            raise Error(f"driver_settings: {type(driver).__name__} has no setting `{name}`{hint}")
     own = copy.deepcopy(driver)
-    own.settings = {**driver.settings, **settings}
-    own.seed = seed
+    try:
+        configure(own, settings, seed)
+    except ValueError as error:
+        raise Error(f"driver_settings: {error}") from None
     return own
 
 

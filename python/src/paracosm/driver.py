@@ -7,7 +7,7 @@ import stat
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NoReturn
 
@@ -135,15 +135,20 @@ def _session(make: Callable[[], Driver], requests: Iterator[Any], protocol: Any)
         yield answer
 
 
-def _welcome(driver: Driver, hello: Any, welcome: Any, version: int) -> Driver:
-    """Sets a driver as it is asked to, and says what it measures with."""
-    for name in hello.settings:
+def configure(driver: Driver, settings: Mapping[str, float], seed: int) -> None:
+    """Gives a driver its settings and its seed for a session. Raises `ValueError` if the driver has no such setting."""
+    for name in settings:
         if name not in driver.settings:
             near = difflib.get_close_matches(name, driver.settings, 1)
             hint = f" (did you mean `{near[0]}`?)" if near else ""
             raise ValueError(f"{type(driver).__name__} has no setting `{name}`{hint}")
-    driver.settings = {**driver.settings, **hello.settings}
-    driver.seed = hello.seed
+    driver.settings = {**driver.settings, **settings}
+    driver.seed = seed
+
+
+def _welcome(driver: Driver, hello: Any, welcome: Any, version: int) -> Driver:
+    """Sets a driver as it is asked to, and says what it measures with."""
+    configure(driver, hello.settings, hello.seed)
     welcome.protocol = version
     welcome.name = type(driver).__name__
     welcome.period = driver.period
