@@ -3,7 +3,6 @@
 use crate::Report;
 use crate::analysis::sensitivity::{Indices, Sensitivity, of_model};
 use crate::analysis::{Effects, Inconclusive};
-use crate::campaign::Log;
 use crate::report::html::{Finding, FindingTable};
 use crate::space::{digits, plural, values_in_words};
 use serde_json::Value;
@@ -50,18 +49,29 @@ pub(crate) fn suspects(report: &Report) -> Option<Finding> {
 
 /// Returns the shares of the variance of the probability of failure that the parameters explain, by the model of the failures; `None` if no
 /// model fits, if there is one parameter, or if parameters depend on each other.
-pub(crate) fn sensitivity(log: &Log) -> Option<Finding> {
-    if log.study().space().parameters().len() < 2 {
+///
+/// Parameters without effect are left out. Their shares say how far the model is off.
+pub(crate) fn sensitivity(report: &Report) -> Option<Finding> {
+    if report.log.study().space().parameters().len() < 2 {
         return None;
     }
-    let Sensitivity { failure, notes, .. } = of_model(log, 0).ok()?;
+    let Sensitivity { failure, notes, .. } = of_model(&report.log, 0).ok()?;
+    let no_effect: Vec<&str> =
+        report.effects.iter().flat_map(|effects| effects.without_effect().map(|(name, _)| name)).collect();
+    let (without, with): (Vec<_>, Vec<_>) =
+        failure.parameters.into_iter().partition(|indices| no_effect.contains(&indices.name.as_str()));
     let row =
         |indices: &Indices| vec![indices.name.clone(), indices.first_order.to_string(), indices.total.to_string()];
-    let rows: Vec<_> = failure.parameters.iter().map(row).collect();
+    let rows: Vec<_> = with.iter().map(row).collect();
     let mut lines = vec![
         "Shares of the variance of the probability of failure (Sobol indices), by the model of the failures, with 95 % intervals.".to_owned(),
     ];
     lines.extend(notes);
+    if let Some(most) = without.iter().max_by(|a, b| a.total.estimate.total_cmp(&b.total.estimate)) {
+        let names = without.iter().map(|indices| indices.name.as_str()).collect::<Vec<_>>().join(", ");
+        let share = format!("{:.3}", most.total.estimate);
+        lines.push(format!("Left out, because they had no effect: {names}. The model gives {} a total share of {share}, which is its error.", most.name));
+    }
     let head = ["parameter", "alone (first order)", "in all (total)"];
     (!rows.is_empty()).then(|| Finding { label: "sensitivity", lines, table: Some(table(&head, rows)) })
 }

@@ -20,10 +20,12 @@
 pub mod cli;
 mod findings;
 mod lists;
+mod notes;
 mod page;
 mod runner;
 
 pub use lists::Lists;
+pub use notes::{capped_strength, notes_before};
 pub use page::{Beside, OtherAudit};
 pub use paracosm_campaign::{
     Campaign, Catalogue, Error, Finish, Folder, Log, Observer, Sampling, Study, StudyBuilder, Trial,

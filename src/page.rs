@@ -81,7 +81,7 @@ impl Report {
         let mut findings = findings::of_tests(self);
         findings.extend(findings::suspects(self));
         // A campaign that runs changes its sensitivity with every test.
-        findings.extend((!unfinished).then(|| findings::sensitivity(&self.log)).flatten());
+        findings.extend((!unfinished).then(|| findings::sensitivity(self)).flatten());
         findings.extend(results.get("blame.json").and_then(findings::blame));
         findings.extend(results.get("located.json").and_then(findings::located));
         findings.extend(results.get(AUDIT).and_then(findings::audit));

@@ -5,8 +5,8 @@ use crate::analysis::{
     Promise, Summary, SuspectReport, explanation,
 };
 use crate::campaign::{
-    Artefact, Campaign, Doubts, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason, Shard,
-    Study, Supervision, Trial,
+    Artefact, Campaign, Crew, Doubts, Error, Extension, Finish, Folder, JsonArtefact, Learned, Log, Observer, Reason,
+    Shard, Study, Supervision, Trial,
 };
 use crate::coverage::Measure;
 use crate::oracles::Verdict;
@@ -14,6 +14,7 @@ use crate::report::{FailureMap, Junit, TrialTable, plot::MapFiles};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Runs the tests of a study and writes the results into a folder. The folder gets the study, the log, the table of
@@ -51,6 +52,7 @@ pub struct Runner<'a> {
     junit: bool,
     program: String,
     supervision: Supervision,
+    crew: Option<Arc<dyn Crew>>,
 }
 
 /// The results of a campaign that was run to its end.
@@ -168,8 +170,16 @@ impl Report {
     }
 
     fn of(log: Log, finish: Finish, summary: Summary) -> Result<Self, Error> {
-        let coverage = Coverage::of(&log.test_set()?, &Measure::all().collect::<Vec<_>>(), None, Limit::USUAL)?;
-        let map = Self::axes_of(&log)?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
+        let measures: Vec<_> = Measure::all().collect();
+        // Each takes about half of the time.
+        let (coverage, seen) = rayon::join(
+            || Coverage::of(&log.test_set()?, &measures, None, Limit::USUAL),
+            || {
+                let map = Self::axes_of(&log)?.map(|[x, y]| FailureMap::over(&log, [&x, &y])).transpose()?;
+                Ok::<_, Error>((map, Explanation::of(&log)?))
+            },
+        );
+        let (coverage, (map, explanation)) = (coverage?, seen?);
         let has_levels = !log.study().space().levels().is_empty();
         Ok(Self {
             coverage,
@@ -181,7 +191,7 @@ impl Report {
             located: None,
             modes: Modes::of(&log),
             perceived: Perceived::of(&log),
-            explanation: Explanation::of(&log)?,
+            explanation,
             inconclusive: Inconclusive::of(&log)?,
             effects: None,
             doubts: Vec::new(),
@@ -207,6 +217,7 @@ impl<'a> Runner<'a> {
             junit: false,
             program: "paracosm-fuzz".to_owned(),
             supervision: Supervision::default(),
+            crew: None,
         }
     }
 
@@ -219,6 +230,12 @@ impl<'a> Runner<'a> {
     /// Sets the number of tests that run at the same time. Results do not depend on this number.
     pub fn jobs(mut self, tests: NonZeroUsize) -> Self {
         self.jobs = Some(tests);
+        self
+    }
+
+    /// Lets a crew run the tests, in other processes or on other machines. Results do not depend on the crew.
+    pub fn with_crew(mut self, crew: Arc<dyn Crew>) -> Self {
+        self.crew = Some(crew);
         self
     }
 
@@ -268,6 +285,25 @@ impl<'a> Runner<'a> {
         } else {
             (Folder::create(folder, self.study, self.extension)?, Vec::new())
         };
+        self.run_in(campaign, kept, known, observers)
+    }
+
+    /// Completes the campaign of a folder that is open, with the trials in its log, like [`run_into`].
+    ///
+    /// # Errors
+    /// The errors of [`run_into`].
+    pub fn complete(&self, folder: Folder, known: Vec<Trial>) -> Result<Report, Error> {
+        self.run_in(self.campaign()?, folder, known, &mut [])
+    }
+
+    fn run_in(
+        &self,
+        campaign: Campaign<'_>,
+        kept: Folder,
+        known: Vec<Trial>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Report, Error> {
+        let folder = &kept.path().to_owned();
         self.supervision.output.keep_in(folder);
         let mut record = Record::new(self, kept);
         let mut all: Vec<&mut dyn Observer> = vec![&mut record];
@@ -344,10 +380,8 @@ impl<'a> Runner<'a> {
             campaign = campaign.extending(extension)?;
         }
         campaign.check()?;
-        Ok(match self.jobs {
-            Some(jobs) => campaign.jobs(jobs),
-            None => campaign,
-        })
+        let campaign = self.jobs.into_iter().fold(campaign, Campaign::jobs);
+        Ok(self.crew.iter().cloned().fold(campaign, Campaign::with_crew))
     }
 
     fn effects(&self, log: &Log) -> Result<Effects, Error> {

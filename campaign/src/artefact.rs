@@ -2,13 +2,14 @@
 
 use crate::json_text::read_json;
 use crate::{Error, Folder};
+use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
 use std::path::Path;
 
 /// A result of a campaign that is written to files in the campaign's folder.
-pub trait Artefact {
+pub trait Artefact: Sync {
     /// Returns the names of the artefact's files. No two artefacts share a file name.
     fn files(&self) -> Vec<&'static str>;
 
@@ -20,7 +21,7 @@ pub trait Artefact {
 }
 
 /// A result of a campaign that is written to a single JSON file.
-pub trait JsonArtefact: Serialize {
+pub trait JsonArtefact: Serialize + Sync {
     /// The name of the JSON file to which the result is written.
     const FILE: &'static str;
 
@@ -65,6 +66,8 @@ impl Folder {
     /// # Errors
     /// A file cannot be drawn or written.
     pub fn put(&self, artefact: &dyn Artefact) -> Result<(), Error> {
-        artefact.files().into_iter().try_for_each(|file| self.write(file, &artefact.contents(file)?))
+        // A picture takes long to draw.
+        let contents: Vec<_> = artefact.files().into_par_iter().map(|file| (file, artefact.contents(file))).collect();
+        contents.into_iter().try_for_each(|(file, contents)| self.write(file, &contents?))
     }
 }

@@ -4,6 +4,7 @@
 //! A campaign itself writes and prints nothing: the log, the progress bar and the summary are [observers](Observer). If
 //! a test panics, its trial has the verdict `error`, and the campaign goes on.
 
+use crate::crew::{Crew, in_order_by};
 use crate::darkroom::Darkroom;
 use crate::executor::{Desk, from_desk, in_order, pool_of};
 use crate::expected::Expected;
@@ -41,6 +42,8 @@ pub struct Campaign<'a> {
     given: Vec<Values>,
     known: Vec<Trial>,
     supervision: Supervision,
+    /// The crew that runs the tests; `None` if threads of this process do.
+    crew: Option<Arc<dyn Crew>>,
     /// Idle workers, which keep the processes that they started from one batch of tests to the next.
     idle: Mutex<Vec<Worker<'a>>>,
 }
@@ -57,11 +60,22 @@ pub enum Finish {
 }
 
 /// The error that a trial of the log does not belong to the campaign that should be resumed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("the test of trial {index} of the log differs from the test that this study proposes; was the log edited?")]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the test of trial {index} of the log differs from the test that this study proposes; {}", remedy(.own.as_deref()))]
 pub struct ForeignTrial {
     /// The index of the trial that does not belong to the campaign.
     pub index: usize,
+    /// The name of the program's own strategy; `None` for a strategy of the library.
+    pub own: Option<String>,
+}
+
+fn remedy(own: Option<&str>) -> String {
+    match own {
+        Some(own) => format!(
+            "give the strategy `{own}` as before: the same object, or a function that uses the seed of the study"
+        ),
+        None => "was the log edited?".to_owned(),
+    }
 }
 
 /// The error that a known test ends otherwise than in the log.
@@ -108,6 +122,7 @@ impl<'a> Campaign<'a> {
             given: Vec::new(),
             known: Vec::new(),
             supervision,
+            crew: None,
             idle,
         })
     }
@@ -132,6 +147,12 @@ impl<'a> Campaign<'a> {
     /// Sets the number of threads that run tests. The number of threads does not change the results.
     pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
         self.jobs = jobs;
+        self
+    }
+
+    /// Lets a crew run the tests. The crew does not change the results.
+    pub fn with_crew(mut self, crew: Arc<dyn Crew>) -> Self {
+        self.crew = Some(crew);
         self
     }
 
@@ -199,12 +220,12 @@ impl<'a> Campaign<'a> {
             };
             let mut trials: Vec<Trial> = known.by_ref().take(tests.len()).collect();
             if let Some((trial, _)) = trials.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
-                return Err(foreign(trial));
+                return Err(foreign(study, trial));
             }
             for (at, trial) in trials.iter().enumerate() {
                 if all(&mut observers, |observer| observer.known(trial))?.is_break() {
                     if let Some(trial) = trials.get(at + 1).or(known.as_slice().first()) {
-                        return Err(foreign(trial));
+                        return Err(foreign(study, trial));
                     }
                     observers.iter_mut().try_for_each(|observer| observer.ended())?;
                     return Ok(Finish::Stopped);
@@ -220,15 +241,19 @@ impl<'a> Campaign<'a> {
                 return Ok(Finish::Stopped);
             }
             let before = steering.scales().learned().len();
-            steering.tell(&points, &trials)?;
+            let told = steering.tell(&points, &trials);
             let learned = steering.scales().learned();
             if learned.len() > before {
                 observers.iter_mut().try_for_each(|observer| observer.learned(learned))?;
             }
             done += points.len();
+            // A search that breaks when nothing more is asked of it has proposed all of its tests.
+            if done < budget {
+                told?;
+            }
         }
         if let Some(trial) = known.next() {
-            return Err(foreign(&trial));
+            return Err(foreign(study, &trial));
         }
         observers.iter_mut().try_for_each(|observer| observer.ended())?;
         Ok(finish)
@@ -248,7 +273,7 @@ impl<'a> Campaign<'a> {
         let tests = &all_tests[range.start.min(all_tests.len())..range.end.min(all_tests.len())];
         let differs = |(at, trial): &(usize, &Trial)| tests.get(*at) != Some(&trial.test);
         if let Some((_, trial)) = known.iter().enumerate().find(differs) {
-            return Err(foreign(trial));
+            return Err(foreign(self.study, trial));
         }
         observers.iter_mut().try_for_each(|observer| observer.begun())?;
         for trial in &known {
@@ -360,7 +385,6 @@ impl<'a> Campaign<'a> {
         mut watch: impl FnMut(&Trial) -> Result<ControlFlow<()>, Error>,
     ) -> Result<ControlFlow<()>, Error> {
         let hire = || Hired { campaign: self, worker: Some(self.worker().expect("one like it was made before")) };
-        let pool = pool_of(self.jobs.get().min(tests.len()).max(1), &self.supervision.threads)?;
         let mut shown = 0;
         let mut show = |trial| {
             let went_on = watch(&expected.check(trial))?;
@@ -380,13 +404,17 @@ impl<'a> Campaign<'a> {
             self.supervision.stop.store(true, Ordering::Relaxed);
             Err(end)
         };
-        let result = if self.darkroom.is_some() && self.study.perceiver().is_none() {
+        let pool = || pool_of(self.jobs.get().min(tests.len()).max(1), &self.supervision.threads);
+        let result = if let Some(crew) = &self.crew {
+            in_order_by(&**crew, first, tests, &self.supervision, sink)
+        } else if self.darkroom.is_some() && self.study.perceiver().is_none() {
+            let pool = pool()?;
             let at_once = self.at_once.get().div_ceil(pool.current_num_threads());
             let work = |desk: &Desk<Trial>| hire().run_in_lockstep((desk, at_once), (first, tests));
             from_desk(&pool, first..first + tests.len(), work, sink)
         } else {
             let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
-            in_order(&pool, 0..tests.len(), hire, work, sink)
+            in_order(&pool()?, 0..tests.len(), hire, work, sink)
         };
         match result {
             Err(end) => {
@@ -456,16 +484,17 @@ impl Drop for Hired<'_, '_> {
     }
 }
 
-fn foreign(trial: &Trial) -> Error {
-    ForeignTrial { index: trial.index }.into()
+fn foreign(study: &Study, trial: &Trial) -> Error {
+    let own = study.sampling().own.as_ref().map(|own| own.name().to_owned());
+    ForeignTrial { index: trial.index, own }.into()
 }
 
 /// Returns the next tests of a campaign that has proposed some tests already; no tests if the strategy is exhausted.
 fn propose(steering: &mut Steering<'_>, study: &Study, proposed: usize) -> Result<Vec<Point>, Error> {
     let sampling = study.sampling();
     let batch = sampling.batch_size().unwrap_or(BATCH);
-    let points = steering.ask(batch.min(sampling.budget - proposed));
-    proposal::check(study.space(), sampling.strategy, &points)?;
+    let points = steering.ask(batch.min(sampling.budget - proposed))?;
+    proposal::check(study.space(), sampling.strategy_name(), &points)?;
     Ok(points)
 }
 

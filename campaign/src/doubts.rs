@@ -21,12 +21,19 @@ const LONGEST_ERROR: usize = 500;
 #[derive(Debug, Clone, Default)]
 pub struct Doubts(Arc<Mutex<Seen>>);
 
-#[derive(Debug, Default)]
-struct Seen {
+/// The errors that did not repeat. A [`Crew`](crate::Crew) brings the errors of another process as JSON.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Recovered {
     /// The tests whose error did not repeat, with this error.
-    recovered: BTreeMap<usize, String>,
+    tests: BTreeMap<usize, String>,
     /// The number of questions about images whose error did not repeat, and the first of these errors.
     images: Option<(usize, String)>,
+}
+
+#[derive(Debug, Default)]
+struct Seen {
+    /// The errors that did not repeat.
+    recovered: Recovered,
     /// A known test that ends otherwise now.
     differing: Option<usize>,
     /// The doubts that the folder had before; `None` until they are read.
@@ -79,7 +86,20 @@ impl Doubts {
 
     /// Returns the number of tests that ended in an error, and that had a result when they ran again.
     pub fn recovered(&self) -> usize {
-        self.seen().recovered.len()
+        self.seen().recovered.tests.len()
+    }
+
+    /// Takes the errors that did not repeat out of the doubts, so that they can travel to the process of the campaign.
+    pub fn take_recovered(&self) -> Recovered {
+        std::mem::take(&mut self.seen().recovered)
+    }
+
+    /// Adds errors of another process that did not repeat.
+    pub fn add_recovered(&self, Recovered { tests, images }: Recovered) {
+        tests.iter().for_each(|(index, error)| self.recover(*index, error));
+        if let Some((count, error)) = images {
+            self.seen().recovered.images.get_or_insert((0, error)).0 += count;
+        }
     }
 
     /// Returns the index of a known test of a continued campaign that ends otherwise now.
@@ -89,7 +109,7 @@ impl Doubts {
 
     /// Returns the doubts in words.
     pub fn notes(&self) -> Vec<String> {
-        let Seen { recovered, images, differing, .. } = &*self.seen();
+        let Seen { recovered: Recovered { tests: recovered, images }, differing, .. } = &*self.seen();
         let recovered = recovered.first_key_value().map(|(index, error)| {
             let tests = plural(recovered.len(), "test");
             format!(
@@ -115,13 +135,13 @@ impl Doubts {
 
     /// Adds a test whose error did not repeat.
     pub(crate) fn recover(&self, index: usize, error: &str) {
-        self.seen().recovered.entry(index).or_insert_with(|| short(error));
+        self.seen().recovered.tests.entry(index).or_insert_with(|| short(error));
     }
 
     /// Adds a question about images whose error did not repeat.
     #[cfg(feature = "camera")]
     pub(crate) fn recover_images(&self, error: &str) {
-        self.seen().images.get_or_insert_with(|| (0, short(error))).0 += 1;
+        self.seen().recovered.images.get_or_insert_with(|| (0, short(error))).0 += 1;
     }
 
     /// Says that a known test ends otherwise now.

@@ -70,7 +70,7 @@ pub enum FolderFlaw {
     },
     /// The folder already holds a campaign.
     #[error(
-        "{} holds a campaign already ({name}): continue it with --resume, or write elsewhere with --out", path.display()
+        "{} holds a campaign already ({name}): continue it with --resume (`resume=True` in Python), or choose another folder (--out)", path.display()
     )]
     Occupied {
         /// The path of the folder.

@@ -22,6 +22,7 @@ mod campaign;
 mod catalogue;
 mod concrete;
 mod conversation;
+mod crew;
 #[cfg(feature = "camera")]
 pub mod darkroom;
 #[cfg(not(feature = "camera"))]
@@ -74,7 +75,8 @@ pub use artefact::{Artefact, JsonArtefact};
 pub use black_box::{Answer, BlackBox};
 pub use campaign::{Campaign, Finish};
 pub use catalogue::{Catalogue, ConcreteValue, Holds, Reader, TestsOf};
-pub use doubts::Doubts;
+pub use crew::Crew;
+pub use doubts::{Doubts, Recovered};
 pub use error::{BadFile, Error, Failure, Reason};
 pub use expected::Expected;
 pub use extension::{Extension, ExtensionRecord};
@@ -110,6 +112,7 @@ pub mod reasons {
     pub use crate::catalogue::{AmbiguousScenario, NoScenarioFile, UnknownScenario, UntrustedScenario};
     pub use crate::concrete::{NoConcrete, NoFileOfScenario};
     pub use crate::conversation::NotStarted;
+    pub use crate::crew::CrewFlaw;
     pub use crate::darkroom::Blind;
     pub use crate::drivers::{DriverAway, NoDriver};
     pub use crate::error::CsvFlaw;

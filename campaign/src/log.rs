@@ -7,6 +7,7 @@ use crate::study_file::{STUDY, StudyFile, hash_of_text};
 use crate::test_set::TestSet;
 use crate::trials_file::{TRIALS, read_trials};
 use crate::{Catalogue, Error, Extension, Folder, Reason, Shard, SpaceFile, Study, Trial, Trust, run_in, shard};
+use paracosm_engine::driver::Driver;
 use paracosm_space::Point;
 use paracosm_space::pict::Aliases;
 use std::io::Read;
@@ -61,16 +62,31 @@ impl Log {
         Self::read_range(path, catalogue, |study| shard.range(study.sampling().budget))
     }
 
+    /// Reads the log of a campaign whose trials are known already.
+    pub(crate) fn read_study(path: &Path, catalogue: &Catalogue, trials: Vec<Trial>) -> Result<Self, Error> {
+        Self::read_with(path, catalogue, |_, _| Ok(trials))
+    }
+
     fn read_range(path: &Path, catalogue: &Catalogue, indices: impl Fn(&Study) -> Range<usize>) -> Result<Self, Error> {
+        let log = path.join(TRIALS);
+        Self::read_with(path, catalogue, |study, hash| {
+            Ok(read_trials(&log, Lines::open_here(&log)?, study, hash, indices(study))?.trials)
+        })
+    }
+
+    fn read_with(
+        path: &Path,
+        catalogue: &Catalogue,
+        trials: impl FnOnce(&Study, &str) -> Result<Vec<Trial>, Error>,
+    ) -> Result<Self, Error> {
         let file = path.join(STUDY);
         let text = read_text_here(&file)?;
         let read = StudyFile::parse(&text, &catalogue.near(path));
         let hash = hash_of_text(&text);
         let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
-        let log = path.join(TRIALS);
-        let read = read_trials(&log, Lines::open_here(&log)?, &study, &hash, indices(&study))?;
+        let trials = trials(&study, &hash)?;
         let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
-        Ok(Self { run_in: run_in::read(path), hash: Some(hash), ..Self::new(study, learned, extension, read.trials) })
+        Ok(Self { run_in: run_in::read(path), hash: Some(hash), ..Self::new(study, learned, extension, trials) })
     }
 
     /// Returns the log with the trust of the user in the command that its study names. Without trust, no test of a log
@@ -88,6 +104,18 @@ impl Log {
     /// The study names no command for the option, or the new command is invalid.
     pub fn with_command(&self, option: &'static str, command: &str) -> Result<Self, Error> {
         Ok(Self { study: self.study.with_command(option, command)?, ..self.clone() })
+    }
+
+    /// Returns a copy of the log whose study has the driver that the given function makes, as [`Study::with_own_driver`] describes.
+    ///
+    /// # Errors
+    /// The driver of the study has another name, or the study is that of an external system.
+    pub fn with_own_driver(
+        &self,
+        name: &str,
+        make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static,
+    ) -> Result<Self, Error> {
+        Ok(Self { study: self.study.with_own_driver(name, make)?, ..self.clone() })
     }
 
     /// Returns the folder in which the commands of the campaign ran; `None` if the study runs no commands, or if the folder is not known.
@@ -124,6 +152,11 @@ impl Log {
     /// Returns the trials of the campaign, in the order of their indices.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
+    }
+
+    /// Returns the trials of the campaign.
+    pub fn into_trials(self) -> Vec<Trial> {
+        self.trials
     }
 
     /// Returns a copy of the log with the given trials in place of the present trials.

@@ -5,6 +5,7 @@ use crate::shard::{Shard, ShardFlaw, Written, read};
 use crate::study_file::STUDY;
 use crate::trials_file::TRIALS;
 use crate::{Catalogue, Doubts, Error, Folder, Log, Trust};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -15,23 +16,21 @@ struct Part<'a> {
     log: Log,
 }
 
-/// Puts the shards of a campaign together in a new folder, which then holds the study and the log of the whole campaign. Returns the log.
+/// Puts the shards of a campaign together in a new folder, which then holds the study and the log of the whole campaign. Returns the folder and the
+/// log.
 ///
 /// # Errors
 /// A folder holds no shard, or one that has not ended; shards are missing, given twice, or of different campaigns; the user does not trust a
 /// command of the campaign; or the new folder cannot be written.
-pub fn merge(out: &Path, folders: &[PathBuf], catalogue: &Catalogue, trust: &Trust) -> Result<Log, Error> {
+pub fn merge(out: &Path, folders: &[PathBuf], catalogue: &Catalogue, trust: &Trust) -> Result<(Folder, Log), Error> {
     let catalogue = &catalogue.trusting(trust);
     let mut parts = BTreeMap::<usize, Part>::new();
     let mut first: Option<(&Path, Shard, Option<String>)> = None;
     let mut judged = None;
-    for folder in folders {
-        let no_shard = || ShardFlaw::NoShard { folder: folder.clone() };
-        let Written { shard, tests } = read(folder)?.ok_or_else(no_shard)?;
-        if tests.is_none() {
-            return Err(ShardFlaw::Unfinished { folder: folder.clone(), shard }.into());
-        }
-        let log = Log::read_shard(folder, catalogue, shard)?;
+    // The logs of all shards together take long to read.
+    let all: Vec<_> = folders.par_iter().map(|folder| read_part(folder, catalogue)).collect();
+    for (folder, part) in folders.iter().zip(all) {
+        let (Written { shard, tests }, log) = part?;
         let (begun, of, hash) = first.get_or_insert_with(|| (folder, shard, log.hash().map(str::to_owned)));
         let what = match () {
             () if of.of != shard.of => Some(format!("one is of {}, the other of {}", of.of, shard.of)),
@@ -58,8 +57,12 @@ pub fn merge(out: &Path, folders: &[PathBuf], catalogue: &Catalogue, trust: &Tru
         return Err(ShardFlaw::Missing { missing, of }.into());
     }
     whole(&parts, of)?;
-    let log = parts[&1].log.clone().trusting(trust);
+    let log = parts[&1].log.with_trials(Vec::new()).trusting(trust);
     log.study().check_trust()?;
+    // A scenario that cannot be used here would leave a folder that cannot be completed.
+    if let Ok(simulation) = log.study().subject().scenario() {
+        simulation.program()?;
+    }
     // The text of the shards, which their lines refer to: this may be another version of the software.
     let text = read_text_here(&parts[&1].folder.join(STUDY))?;
     let mut folder = Folder::begin(out, log.study(), log.extension(), &text, None)?;
@@ -74,7 +77,21 @@ pub fn merge(out: &Path, folders: &[PathBuf], catalogue: &Catalogue, trust: &Tru
     if !doubts.is_empty() {
         Doubts::write(out, doubts)?;
     }
-    Ok(Log::read(out, catalogue)?.trusting(trust))
+    // The lines of the shards were read already.
+    let trials = parts.into_values().flat_map(|part| part.log.into_trials()).collect();
+    let log = Log::read_study(out, catalogue, trials)?.trusting(trust);
+    Ok((folder, log))
+}
+
+/// Reads the shard in a folder, which has ended.
+fn read_part(folder: &Path, catalogue: &Catalogue) -> Result<(Written, Log), Error> {
+    let no_shard = || ShardFlaw::NoShard { folder: folder.to_owned() };
+    let written = read(folder)?.ok_or_else(no_shard)?;
+    if written.tests.is_none() {
+        return Err(ShardFlaw::Unfinished { folder: folder.to_owned(), shard: written.shard }.into());
+    }
+    let log = Log::read_shard(folder, catalogue, written.shard)?;
+    Ok((written, log))
 }
 
 /// Returns the difference in words if the tests of a shard are judged by other requirements than the tests of the shards before.

@@ -52,17 +52,30 @@ impl<'a> Steering<'a> {
     }
 
     /// Returns at most `n` new tests; no tests if the strategy is exhausted.
-    pub fn ask(&mut self, n: usize) -> Vec<Point> {
-        match &mut self.search {
+    ///
+    /// # Errors
+    /// The strategy of a program broke.
+    pub fn ask(&mut self, n: usize) -> Result<Vec<Point>, GeneratorError> {
+        let tests = match &mut self.search {
             Steered::One(search) => search.ask(n),
             Steered::Several { bandit, .. } => bandit.ask(n),
-        }
+        };
+        self.check()?;
+        Ok(tests)
+    }
+
+    /// Checks that the strategy can go on.
+    fn check(&self) -> Result<(), GeneratorError> {
+        // Only the strategy of a program can break, and it is one search.
+        let Steered::One(search) = &self.search else { return Ok(()) };
+        let name = || self.study.sampling().strategy_name().to_owned();
+        search.failure().map_or(Ok(()), |why| Err(GeneratorError::OwnFailed { name: name(), why }))
     }
 
     /// Reports the trials of tests that [`ask`](Self::ask) returned.
     ///
     /// # Errors
-    /// The same errors as [`Study::generator`].
+    /// The same errors as [`Study::generator`]; or the strategy of a program broke.
     pub fn tell(&mut self, tests: &[Point], trials: &[Trial]) -> Result<(), GeneratorError> {
         self.scales.learn(trials);
         if let (Steered::One(_), Some(first)) = (&self.search, trials.iter().find(|trial| trial.covers())) {
@@ -82,7 +95,7 @@ impl<'a> Steering<'a> {
                 bandit.tell(tests, &trials.iter().map(of).collect::<Vec<_>>());
             }
         }
-        Ok(())
+        self.check()
     }
 
     /// Returns the scales of the requirements, by which the searches compare values of robustness.
@@ -136,7 +149,7 @@ mod tests {
         let mut steering = Steering::new(study, Vec::new()).unwrap();
         let mut all: Vec<Point> = Vec::new();
         while all.len() < 400 {
-            let tests = steering.ask(16);
+            let tests = steering.ask(16).unwrap();
             let trial = |(i, test): (usize, &Point)| {
                 let (index, values) = (all.len() + i, study.space().decode(test));
                 if all.is_empty() {

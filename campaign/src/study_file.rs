@@ -7,7 +7,7 @@ use crate::study::{
 };
 use crate::{BlackBox, Catalogue, Extension, ExtensionRecord, Learned, Reason};
 use paracosm_engine::vehicle::{Resistance, VehicleModel, VehicleSetup};
-use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
+use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, OwnStrategy, Strategy};
 use paracosm_space::{Space, Values};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -80,6 +80,9 @@ struct Entries {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     odd: Option<Odd>,
     strategy: String,
+    /// The name of the strategy of the program that ran the campaign.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    own_strategy: Option<String>,
     discrete: String,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     delta: Option<f64>,
@@ -288,6 +291,7 @@ impl TryFrom<Entries> for StudyFile {
         let discrete: DiscreteFamily = entries.discrete.parse()?;
         let sampling = Sampling {
             strategy,
+            own: entries.own_strategy.as_deref().map(OwnStrategy::named),
             discrete: discrete.with_delta(entries.delta)?,
             k: entries.k,
             epsilon: entries.epsilon,
@@ -343,6 +347,7 @@ impl From<StudyFile> for Entries {
             learned_scales: learned,
             odd: study.odd().cloned(),
             strategy: sampling.strategy.name().to_owned(),
+            own_strategy: sampling.own.as_ref().map(|own| own.name().to_owned()),
             discrete: sampling.discrete.name().to_owned(),
             delta,
             k: sampling.k,

@@ -7,6 +7,7 @@ use crate::trial::{Line, UnknownWord};
 use crate::{Error, Reason, Subject, Trial};
 use paracosm_oracles::Verdict;
 use paracosm_space::{SpaceError, did_you_mean, nearest, plural};
+use rayon::prelude::*;
 use std::collections::HashSet;
 use std::io::{self, BufRead, BufReader};
 use std::ops::Range;
@@ -121,35 +122,58 @@ pub(crate) fn read_trials(
     let mut log = BufReader::new(log);
     let mut found = Read::default();
     let ids: HashSet<&str> = study.requirements().iter().map(|requirement| requirement.id.as_str()).collect();
-    let mut line = Vec::new();
     loop {
-        line.clear();
-        log.read_until(b'\n', &mut line).map_err(Error::io("read", file))?;
-        let Some(text) = line.strip_suffix(b"\n") else { break };
-        let number = found.trials.len() + 1;
-        let index = indices.start + found.trials.len();
-        if index >= indices.end {
-            return Err(Error::in_file(file, number, LogFlaw::Surplus { most: indices.len() }));
-        }
-        let line_read = parse(text, index, hash).map_err(|flaw| Error::in_file(file, number, flaw))?;
-        let is_older = line_read.study().is_none();
-        if number > 1 && is_older != found.is_older {
-            return Err(Error::in_file(file, number, LogFlaw::Mixed));
-        }
-        found.is_older = is_older;
-        let problem = line_read.contradiction();
-        let trial = Trial::try_from(line_read).map_err(LogFlaw::Word).and_then(|trial| {
-            study.space().encode(&trial.test).map_err(LogFlaw::Test)?;
-            agrees(&trial, study, &ids)?;
-            match problem {
-                Some((entry, is_there)) => Err(LogFlaw::Problem { verdict: trial.verdict, entry, is_there }),
-                None => Ok(trial),
+        let (lines, is_last) = next_lines(&mut log).map_err(Error::io("read", file))?;
+        let first = indices.start + found.trials.len();
+        let read = |(at, line): (usize, &Vec<u8>)| -> Result<(bool, Result<Trial, LogFlaw>), LogFlaw> {
+            let line = parse(&line[..line.len() - 1], first + at, hash)?;
+            let (is_older, problem) = (line.study().is_none(), line.contradiction());
+            let trial = Trial::try_from(line).map_err(LogFlaw::Word).and_then(|trial| {
+                study.space().encode(&trial.test).map_err(LogFlaw::Test)?;
+                agrees(&trial, study, &ids)?;
+                match problem {
+                    Some((entry, is_there)) => Err(LogFlaw::Problem { verdict: trial.verdict, entry, is_there }),
+                    None => Ok(trial),
+                }
+            });
+            Ok((is_older, trial))
+        };
+        let all: Vec<_> = lines.par_iter().enumerate().map(read).collect();
+        for (line, read) in lines.iter().zip(all) {
+            let number = found.trials.len() + 1;
+            if number > indices.len() {
+                return Err(Error::in_file(file, number, LogFlaw::Surplus { most: indices.len() }));
             }
-        });
-        trial.map_err(|flaw| Error::in_file(file, number, flaw))?.append_to(&mut found.trials);
-        found.bytes += line.len() as u64;
+            let (is_older, trial) = read.map_err(|flaw| Error::in_file(file, number, flaw))?;
+            if number > 1 && is_older != found.is_older {
+                return Err(Error::in_file(file, number, LogFlaw::Mixed));
+            }
+            found.is_older = is_older;
+            trial.map_err(|flaw| Error::in_file(file, number, flaw))?.append_to(&mut found.trials);
+            found.bytes += line.len() as u64;
+        }
+        if is_last {
+            return Ok(found);
+        }
     }
-    Ok(found)
+}
+
+/// The number of lines that are read together, on all cores.
+const TOGETHER: usize = 4096;
+
+/// Returns the next lines of a log, each with its end, and `true` if no more lines follow. A last line without its end is left out, also if
+/// another process writes the rest of the line meanwhile.
+fn next_lines(log: &mut impl BufRead) -> io::Result<(Vec<Vec<u8>>, bool)> {
+    let mut lines = Vec::new();
+    while lines.len() < TOGETHER {
+        let mut line = Vec::new();
+        log.read_until(b'\n', &mut line)?;
+        if line.last() != Some(&b'\n') {
+            return Ok((lines, true));
+        }
+        lines.push(line);
+    }
+    Ok((lines, false))
 }
 
 /// Checks that the verdict of a trial agrees with its robustness, and that the study has its requirements. A system that
@@ -176,6 +200,21 @@ fn agrees(trial: &Trial, study: &Study, ids: &HashSet<&str>) -> Result<(), LogFl
     }
 }
 
+impl Trial {
+    /// Returns the trial as JSON in one line: a line of `trials.jsonl` without the hash of a study.
+    pub fn as_line(&self) -> String {
+        serde_json::to_string(&Line::of(self, None)).expect("a trial is always JSON")
+    }
+
+    /// Reads the line that [`as_line`](Self::as_line) returns.
+    ///
+    /// # Errors
+    /// The line is no trial.
+    pub fn of_line(line: &str) -> Result<Self, LogFlaw> {
+        Ok(Self::try_from(read_json::<Line>(line).map_err(LogFlaw::NoTrial)?)?)
+    }
+}
+
 /// Reads a line of a log, which should be the trial with the given index.
 fn parse(line: &[u8], index: usize, study: &str) -> Result<Line, LogFlaw> {
     let line = std::str::from_utf8(line).map_err(|_| LogFlaw::NoText)?;
@@ -188,4 +227,30 @@ fn parse(line: &[u8], index: usize, study: &str) -> Result<Line, LogFlaw> {
         return Err(LogFlaw::OtherStudy { found: found.to_owned(), expected: study.to_owned() });
     }
     if line.index() == index { Ok(line) } else { Err(LogFlaw::Index { found: line.index(), expected: index }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read;
+
+    /// A log whose last line is torn, and which gets the rest of the line after its reader has seen the end.
+    struct Torn(Vec<&'static [u8]>);
+
+    impl Read for Torn {
+        fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+            if self.0.is_empty() {
+                return Ok(0);
+            }
+            let part = self.0.remove(0);
+            into[..part.len()].copy_from_slice(part);
+            Ok(part.len())
+        }
+    }
+
+    #[test]
+    fn a_line_that_another_process_is_writing_is_left_out() {
+        let mut log = BufReader::new(Torn(vec![b"one\ntw", b"", b"o\nthree\n"]));
+        assert_eq!(next_lines(&mut log).unwrap(), (vec![b"one\n".to_vec()], true));
+    }
 }

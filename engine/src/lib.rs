@@ -61,7 +61,7 @@ pub use observation::{Ahead, Briefing, Control, Navigation, Observation, Other, 
 pub use outcome::{Breakdown, Ending, Invalid, Judgement, Measurements, Outcome, Violation};
 pub use paracosm_road::{self as road, Pose, RoadSegment, Side};
 pub use paracosm_space::Shape;
-pub use program::{Declaration, Program, ProgramError, panic_message};
+pub use program::{Declaration, FilesRead, Program, ProgramError, panic_message};
 pub use run::{Motion, Run, Setup, Step, Track, simulate, watch};
 pub use scenario::{
     AutonomousVehicle, Car, Conditions, Constraint, DEFAULT_DT, Environment, Lead, LedMotion, ObjectDraft, Param,

@@ -56,11 +56,13 @@ def pedestrian_crossing(s: pc.Scenario) -> None:
         road = road.zebra(100.0)
     placed = s.place(road)
     car = s.place(pc.AutonomousVehicle(placed.on_lane(1, 10.0)).speed(approach.value()))
-    start, end = ("left", "right") if side.value() == "far" else ("right", "left")
-    walker = s.place(pc.Pedestrian(placed.on_sidewalk(start, 100.0)).accelerating(acceleration.value()))
+    far = side.value() == "far"
+    start = placed.on_sidewalk("left" if far else "right", 100.0)
+    walker = s.place(pc.Pedestrian(start).accelerating(acceleration.value()))
 
     near = car.gap_along(placed.crossing(100.0)) < distance
-    walker.walk(placed.on_sidewalk(end, 100.0), speed).skip_until(near).take_until(walker.arrived())
+    end = placed.on_sidewalk("right" if far else "left", 100.0)
+    walker.walk(end, speed).skip_until(near).take_until(walker.arrived())
     roadside(s)
 
     s.duration(25.0)

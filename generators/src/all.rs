@@ -35,7 +35,7 @@ impl FromStr for Strategy {
     type Err = GeneratorError;
 
     fn from_str(name: &str) -> Result<Self, GeneratorError> {
-        Self::all().chain([Self::GIVEN]).find(|strategy| strategy.name() == name).ok_or_else(|| {
+        Self::all().chain([Self::GIVEN, Self::OWN]).find(|strategy| strategy.name() == name).ok_or_else(|| {
             GeneratorError::UnknownStrategy {
                 name: name.to_owned(),
                 nearest: nearest(name, Self::all().map(Self::name)),

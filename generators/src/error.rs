@@ -16,6 +16,20 @@ pub enum GeneratorError {
         /// The name of the strategy that the user perhaps meant; `None` if no strategy has a similar name.
         nearest: Option<&'static str>,
     },
+    /// The strategy of a program is not there.
+    #[error("{}", missing(.name.as_deref()))]
+    OwnIsMissing {
+        /// The name of the strategy; `None` if nothing names it.
+        name: Option<String>,
+    },
+    /// The strategy of a program makes no generator.
+    #[error("the strategy `{name}`: {why}")]
+    OwnFailed {
+        /// The name of the strategy.
+        name: String,
+        /// The reason that the strategy gives.
+        why: String,
+    },
     /// No discrete family has the name that the user gave.
     #[error("no discrete family is called `{name}`{}; the families are ipog, random and cross", did_you_mean(.nearest))]
     UnknownFamily {
@@ -227,4 +241,14 @@ pub enum GeneratorError {
         /// Advice to the user for a family with fewer rows.
         advice: &'static str,
     },
+}
+
+fn missing(name: Option<&str>) -> String {
+    match name {
+        Some(name) => format!(
+            "the strategy `{name}` is an object of the program that ran the campaign: give the strategy again (in Python `Study(.., strategy=..)`)"
+        ),
+        None => "the strategy `own` is the name for the strategy of a program, which only a program can give (in Python `Study(.., strategy=..)`)"
+            .to_owned(),
+    }
 }

@@ -39,6 +39,9 @@ mod greedy;
 mod independent;
 mod keeping;
 mod mixed;
+pub mod optimised;
+
+mod own;
 mod point_sets;
 mod request;
 mod seeded;
@@ -53,7 +56,7 @@ pub use bandit::Bandit;
 pub use discrete::DiscreteFamily;
 pub use error::GeneratorError;
 pub use point_sets::PointSets;
-pub use request::Request;
+pub use request::{OwnStrategy, Request};
 pub use strategy::{BuildOwn, Descriptor, Look, MarkShape, Method, Strategy};
 
 use paracosm_space::Point;
@@ -72,4 +75,9 @@ pub trait Generator: Send {
     /// Open-loop strategies ignore the results. Adaptive strategies use every result, whatever it is. A test may
     /// remain without a result.
     fn tell(&mut self, _tests: &[Point], _robustness: &[Option<f64>]) {}
+
+    /// Returns the reason why the generator can propose no more tests, if it broke. The strategies of this crate do not break.
+    fn failure(&self) -> Option<String> {
+        None
+    }
 }

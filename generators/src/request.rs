@@ -1,8 +1,10 @@
 //! The request for a generator: the space, the budget, the seed, and the demands on the tests.
 
-use crate::{Aim, DiscreteFamily};
+use crate::{Aim, DiscreteFamily, Generator, GeneratorError};
 use paracosm_coverage::Deadline;
 use paracosm_space::{Point, Space};
+use std::fmt;
+use std::sync::Arc;
 
 /// A request for a generator of tests, with the space, the budget, the seed and further options.
 ///
@@ -46,6 +48,8 @@ pub struct Request<'a> {
     /// The groups of discrete parameters that the family `ipog` covers with a strength above k. Each group has the
     /// positions of its parameters among the discrete parameters, and its strength.
     pub groups: &'a [(Vec<usize>, usize)],
+    /// The strategy that the program brings, for [`Strategy::OWN`](crate::Strategy::OWN).
+    pub own: Option<&'a OwnStrategy>,
     /// The rows of discrete values to use instead of the family's rows; `None` uses the family's rows.
     pub rows: Option<&'a [Vec<usize>]>,
 }
@@ -65,7 +69,60 @@ impl<'a> Request<'a> {
             aim: None,
             existing: &[],
             groups: &[],
+            own: None,
             rows: None,
         }
+    }
+}
+
+/// A function that makes the generator of a request.
+type Make = dyn Fn(&Request) -> Result<Box<dyn Generator>, GeneratorError> + Send + Sync;
+
+/// A strategy that a program brings: its name, and the function that makes its generator. A [`Request`] for the strategy
+/// [`Strategy::OWN`](crate::Strategy::OWN) has it.
+#[derive(Clone)]
+pub struct OwnStrategy {
+    name: String,
+    /// `None` if a file names the strategy: the program has to give it again.
+    make: Option<Arc<Make>>,
+}
+
+impl OwnStrategy {
+    /// Makes a strategy of a function. The same request has to give a generator that proposes the same tests after the same results; otherwise
+    /// a campaign cannot be continued.
+    pub fn new(
+        name: &str,
+        make: impl Fn(&Request) -> Result<Box<dyn Generator>, GeneratorError> + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.to_owned(), make: Some(Arc::new(make)) }
+    }
+
+    /// Returns the strategy that a file names, which can propose no tests.
+    pub fn named(name: &str) -> Self {
+        Self { name: name.to_owned(), make: None }
+    }
+
+    /// Returns the name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Builds the generator of a request.
+    pub(crate) fn build(&self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
+        let make = self.make.as_ref().ok_or_else(|| GeneratorError::OwnIsMissing { name: Some(self.name.clone()) })?;
+        make(request)
+    }
+}
+
+impl fmt::Debug for OwnStrategy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("OwnStrategy").field(&self.name).finish()
+    }
+}
+
+/// Two strategies with the same name are equal, because a file has only the name.
+impl PartialEq for OwnStrategy {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
     }
 }

@@ -8,7 +8,7 @@ from pathlib import Path
 try:
     import numpy as np
 
-    from paracosm import Control, Driver
+    from paracosm import Briefing, Control, Driver, Observation
 except ModuleNotFoundError as missing:
     raise SystemExit(f"brake.py needs the package {missing.name}: pip install {Path(__file__).parents[1]}") from None
 
@@ -17,17 +17,17 @@ class Brake(Driver):
     others = True
     settings = {"deceleration": 5.0, "margin": 2.0, "ahead": 3.0}  # m/s2, metres, and seconds that it looks ahead
 
-    def reset(self, briefing):
+    def reset(self, briefing: Briefing) -> None:
         self.cruise_speed, self.vehicle = briefing.cruise_speed, briefing.vehicle
 
-    def step(self, observation):
+    def step(self, observation: Observation) -> Control:
         stopping = observation.speed**2 / (2 * self.settings["deceleration"]) + self.settings["margin"]
         if self.free_way(observation) < stopping:
             return Control(throttle=-1.0, steering=self.steering(observation))
         throttle = float(np.clip(0.3 * (self.cruise_speed - observation.speed), -0.5, 0.5))
         return Control(throttle, self.steering(observation))
 
-    def free_way(self, observation):
+    def free_way(self, observation: Observation) -> float:
         """Returns the metres from the front of the car to the nearest body that is in its way soon."""
         free = np.inf
         for body in observation.others:
@@ -39,7 +39,7 @@ class Brake(Driver):
             free = min(free, in_the_way.min(initial=np.inf))
         return free
 
-    def steering(self, observation):
+    def steering(self, observation: Observation) -> float:
         way = observation.way
         place = min(round(8.0 / way.spacing), len(way.ahead) - 1)  # a point some 8 m ahead
         x, y, _ = way.ahead[place]

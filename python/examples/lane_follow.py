@@ -8,8 +8,9 @@ from pathlib import Path
 
 try:
     import numpy as np
+    from numpy.typing import NDArray
 
-    from paracosm import Camera, Control, Driver
+    from paracosm import Briefing, Camera, Control, Driver, Observation
 except ModuleNotFoundError as missing:
     raise SystemExit(f"lane_follow.py needs the package {missing.name}: pip install {Path(__file__).parents[1]}") from None
 
@@ -21,15 +22,15 @@ class LaneFollow(Driver):
     cameras = {"front": Camera()}
     settings = {"to_kerb": 1.75}  # metres from the middle of the lane to the kerb
 
-    def reset(self, briefing):
+    def reset(self, briefing: Briefing) -> None:
         self.cruise_speed, self.vehicle = briefing.cruise_speed, briefing.vehicle
 
-    def step(self, observation):
+    def step(self, observation: Observation) -> Control:
         throttle = float(np.clip(0.3 * (self.cruise_speed - observation.speed), -0.5, 0.5))
         image = observation.images.get("front")
         return Control(throttle, 0.0 if image is None else self.steering(image))
 
-    def steering(self, image):
+    def steering(self, image: NDArray[np.uint8]) -> float:
         camera = self.cameras["front"]
         focal = camera.width * camera.focal_mm / camera.sensor_mm  # pixels
         horizon = camera.height / 2 - focal * np.tan(np.radians(camera.pitch_degrees))

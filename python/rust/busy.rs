@@ -26,6 +26,13 @@ pub fn calling<T>(py: Python, call: impl FnOnce() -> PyResult<T>) -> PyResult<T>
     called
 }
 
+/// Forgets all threads. A thread of the process that was forked may hold the list for ever, and then the list stays as it is.
+pub fn forget() {
+    if let Ok(mut busy) = BUSY.try_lock() {
+        busy.clear();
+    }
+}
+
 /// Returns the Python thread id of this thread.
 fn own_thread(py: Python) -> PyResult<u64> {
     static ASK: PyOnceLock<Py<PyAny>> = PyOnceLock::new();

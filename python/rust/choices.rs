@@ -2,44 +2,44 @@
 
 use crate::driver::{given_to, of_python};
 use crate::error::raised;
+use crate::own_strategy;
 use crate::space::parameter;
 use crate::value::value_of;
+use crate::whole::whole;
 use paracosm::campaign::study::Variation;
 use paracosm::campaign::{Sampling, StudyBuilder};
 use paracosm::engine::vehicle::VehicleModel;
 use paracosm::generators::{DiscreteFamily, Strategy};
 use paracosm::oracles::Semantics;
-use paracosm::space::{Distribution, did_you_mean, nearest};
+use paracosm::space::{Distribution, Value, did_you_mean, nearest};
+use paracosm::standards::openscenario::{DURATION, EGO};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use std::path::PathBuf;
 
-/// The names of all choices of a study, in the order of the documentation.
-const CHOICES: [&str; 23] = [
+/// The names of the choices that say what is tested, in the order of the documentation.
+const SUBJECT: [&str; 16] = [
     "driver",
     "driver_command",
     "driver_settings",
     "open",
     "fix",
+    "continuous",
+    "ego",
+    "duration",
+    "models",
     "vehicle",
     "vehicle_settings",
     "spec",
     "dense",
     "requirements",
-    "strategy",
-    "budget",
-    "seed",
-    "skip",
-    "k",
-    "epsilon",
-    "discrete",
-    "delta",
-    "measure",
-    "batch",
-    "stop_at_first",
     "references",
     "timeout",
 ];
+
+/// The names of the choices that say which tests run, in the order of the documentation.
+pub const SAMPLING: [&str; 11] =
+    ["strategy", "budget", "seed", "skip", "k", "epsilon", "discrete", "delta", "measure", "batch", "stop_at_first"];
 
 /// Returns a copy of the choices.
 ///
@@ -50,12 +50,12 @@ pub fn checked<'py>(py: Python<'py>, choices: Option<&Bound<'py, PyDict>>) -> Py
         Some(choices) => deep_copy(choices)?,
         None => PyDict::new(py),
     };
+    let all: Vec<&str> = SUBJECT.into_iter().chain(SAMPLING).collect();
     for name in choices.keys() {
         let name: String = name.extract()?;
-        if !CHOICES.contains(&name.as_str()) {
-            let meant = did_you_mean(&nearest(&name, CHOICES));
-            let all = CHOICES.join(", ");
-            return Err(raised(format!("a study has no choice `{name}`{meant}; the choices are {all}")));
+        if !all.contains(&name.as_str()) {
+            let meant = did_you_mean(&nearest(&name, all.iter().copied()));
+            return Err(raised(format!("a study has no choice `{name}`{meant}; the choices are {}", all.join(", "))));
         }
     }
     Ok(choices)
@@ -107,6 +107,18 @@ pub fn built(mut study: StudyBuilder, choices: &Bound<PyDict>) -> PyResult<parac
     for (name, value) in choices.entries::<Bound<PyAny>>("fix")? {
         study = study.fix(&name, value_of(&value, &format!("fix: parameter `{name}`"))?);
     }
+    if choices.get("continuous")?.unwrap_or(false) {
+        study = study.continuous();
+    }
+    if let Some(entity) = choices.get::<String>("ego")? {
+        study = study.fix(EGO, Value::from(entity.as_str()));
+    }
+    if let Some(seconds) = choices.get::<f64>("duration")? {
+        study = study.fix(DURATION, Value::from(seconds));
+    }
+    for (actor, file) in choices.entries::<PathBuf>("models")? {
+        study = study.show(&actor, &file.to_string_lossy());
+    }
     study = opened(study, &choices)?;
     if let Some(file) = choices.get::<PathBuf>("requirements")? {
         study = study.require(&file);
@@ -144,21 +156,27 @@ fn opened(mut study: StudyBuilder, choices: &Choices) -> PyResult<StudyBuilder> 
 
 fn sampling(choices: &Choices) -> PyResult<Sampling> {
     let usual = Sampling::default();
-    let strategy =
-        choices.get::<String>("strategy")?.map(|name| name.parse::<Strategy>().map_err(raised)).transpose()?;
+    let own = choices
+        .get::<Bound<PyAny>>("strategy")?
+        .map(|strategy| own_strategy::of_python(&strategy))
+        .transpose()?
+        .flatten();
+    let named = || choices.get::<String>("strategy")?.map(|name| name.parse::<Strategy>().map_err(raised)).transpose();
+    let strategy = if own.is_some() { Some(Strategy::OWN) } else { named()? };
     let family = choices.get::<String>("discrete")?.map(|name| name.parse::<DiscreteFamily>().map_err(raised));
     let family = family.transpose()?.unwrap_or_default().with_delta(choices.get("delta")?).map_err(raised)?;
     let aim = choices.get::<String>("measure")?.map(|name| name.parse().map_err(raised)).transpose()?;
     Ok(Sampling {
         strategy: strategy.unwrap_or(usual.strategy),
+        own,
         discrete: family,
-        k: choices.get("k")?,
+        k: choices.whole("k")?,
         epsilon: choices.get("epsilon")?,
         aim,
-        skip: choices.get("skip")?,
-        seed: choices.get("seed")?,
-        batch: choices.get("batch")?,
-        budget: choices.get("budget")?.unwrap_or(usual.budget),
+        skip: choices.whole("skip")?,
+        seed: choices.whole("seed")?,
+        batch: choices.whole("batch")?,
+        budget: choices.whole("budget")?.unwrap_or(usual.budget),
         stop_at_first: choices.get("stop_at_first")?.unwrap_or(false),
     })
 }
@@ -178,6 +196,14 @@ impl<'py> Choices<'_, 'py> {
             let found = value.repr().map(|text| text.to_string()).unwrap_or_default();
             raised(format!("{name} is {found}: {}", why.value(value.py())))
         })
+    }
+
+    /// Returns a choice that is a whole number from 0 on.
+    fn whole<T: TryFrom<u64>>(&self, name: &str) -> PyResult<Option<T>> {
+        let Some(value) = self.get::<Bound<PyAny>>(name)? else { return Ok(None) };
+        let found = value.repr()?;
+        let flaw = |_| raised(format!("{name} is {found}, expected a whole number from 0 on"));
+        whole(&value).map(Some).map_err(flaw)
     }
 
     /// Returns the entries of a choice that is a dictionary.

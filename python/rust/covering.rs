@@ -1,10 +1,12 @@
 //! Covering arrays of discrete parameters.
 
 use crate::detached::{STOP, detached};
-use crate::error::raised;
+use crate::error::{raised, warn};
 use crate::measures::duration;
 use crate::space::Space;
 use crate::test_table::{Tests, tests_of};
+use crate::whole::{maybe_whole, whole};
+use paracosm::capped_strength;
 use paracosm::coverage::Deadline;
 use paracosm::generators::Request;
 use paracosm::generators::covering::{self, CoveringRequest};
@@ -29,31 +31,29 @@ pub struct CoveringArray {
 /// A group of discrete parameters, and its strength.
 type Group = (Vec<usize>, usize);
 
-/// Makes a covering array for a space of discrete parameters: few tests that contain every valid combination of values of any k parameters.
+/// Makes a covering array for the discrete parameters of a space: few tests that contain every valid combination of values of any k of these parameters.
+/// The tests have no values of continuous parameters, and keep the constraints between discrete parameters.
 ///
 /// strengths: groups of parameters with a higher strength, such as {("lanes", "weather", "surface"): 3}.
 /// optimise: the seconds of a search for a smaller array. After Ctrl-C, `KeyboardInterrupt` is raised.
 /// existing: tests that the array keeps; they come first.
 ///
-/// Raises `Error` if the space has continuous parameters, or if k is out of range.
+/// Raises `Error` if the space has no discrete parameter, or if k is out of range.
 #[pyfunction]
 #[pyo3(signature = (space, k = None, *, strengths = None, seed = 0, optimise = None, existing = None))]
 pub fn covering_array<'py>(
     py: Python<'py>,
     space: &Bound<'py, Space>,
-    k: Option<usize>,
+    #[pyo3(from_py_with = maybe_whole)] k: Option<usize>,
     strengths: Option<&Bound<'py, PyDict>>,
-    seed: u64,
+    #[pyo3(from_py_with = whole)] seed: u64,
     optimise: Option<f64>,
     existing: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, CoveringArray>> {
     let space = space.get();
-    if space.inner.dims() > 0 {
-        return Err(raised(
-            "a covering array has discrete parameters alone, and this space has continuous parameters: use sample",
-        ));
-    }
+    warn(py, capped_strength(k, &space.inner))?;
     let k = strength(space, k)?;
+    let space = &Space { inner: space.inner.discrete_part(), demand: space.demand.clone() };
     let groups = strengths.map(|groups| groups_of(groups, space)).transpose()?.unwrap_or_default();
     let existing = existing.map(|tests| tests_of(tests, Some(space))).transpose()?;
     let existing = existing.map(|set| set.points).unwrap_or_default();

@@ -1,6 +1,8 @@
 //! Long work beside the interpreter: other threads of Python run meanwhile, and Ctrl-C ends the work.
 
 use crate::busy;
+use crate::ending::{self, Work};
+use crate::threads::{STACK, with_threads};
 use paracosm::campaign::Threads;
 use pyo3::{PyResult, Python};
 use std::panic;
@@ -13,13 +15,10 @@ use std::time::Duration;
 pub static STOP: AtomicBool = AtomicBool::new(false);
 
 /// The time between two looks at the signals of Python.
-const LOOK: Duration = Duration::from_millis(50);
+pub const LOOK: Duration = Duration::from_millis(50);
 
 /// The time for which a function of Python may go on after Ctrl-C.
 const PATIENCE: Duration = Duration::from_secs(1);
-
-/// The stack of the thread that works: as large as that of a main thread.
-const STACK: usize = 8 << 20;
 
 /// Does some work without the lock of the interpreter. If Python receives a signal with a handler that raises, such as Ctrl-C, the flag is
 /// set, and the exception of the handler is raised once the work has ended.
@@ -40,12 +39,13 @@ pub fn watched<T: Send>(
     watch: &mut (dyn FnMut(Python) -> PyResult<()> + Send),
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
+    let _work = Work::begin(py)?;
     stop.store(false, Ordering::Relaxed);
     py.detach(|| {
         thread::scope(|scope| {
             let (end, ended) = mpsc::channel::<()>();
             let worker = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || {
-                let result = work();
+                let result = with_threads(work);
                 drop(end);
                 result
             })?;
@@ -54,7 +54,9 @@ pub fn watched<T: Send>(
             while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 // The first exception counts.
                 if raised.is_none()
-                    && let Err(error) = Python::attach(|py| py.check_signals().and_then(|()| watch(py)))
+                    && let Err(error) = Python::attach(|py| {
+                        ending::check(py).and_then(|()| py.check_signals()).and_then(|()| watch(py))
+                    })
                 {
                     raised = Some(error);
                 }
@@ -70,7 +72,9 @@ pub fn watched<T: Send>(
                 }
             }
             let result = worker.join().unwrap_or_else(|payload| panic::resume_unwind(payload));
-            raised.map_or(Ok(result), Err)
+            // A signal may have come after the last look, and have ended the work.
+            let late = || Python::attach(|py| ending::check(py).and_then(|()| py.check_signals()));
+            raised.map_or_else(|| late().map(|()| result), Err)
         })
     })
 }

@@ -5,6 +5,7 @@ use crate::error::raised;
 use crate::sensors::welcome;
 use crate::system::in_words;
 use numpy::{PyArray1, PyArrayMethods};
+use paracosm::Log;
 use paracosm::campaign::StudyBuilder;
 use paracosm::engine::driver::{Driver, Fault, FaultKind};
 use paracosm::engine::{Briefing, Control, Observation};
@@ -36,17 +37,34 @@ pub fn given_to(
     (driver, name): (Bound<PyAny>, String),
     settings: Vec<(String, f64)>,
 ) -> PyResult<StudyBuilder> {
+    let make = maker(driver, &settings)?;
+    Ok(settings.iter().fold(study.own_driver(&name, make), |study, (name, value)| study.set_driver(name, *value)))
+}
+
+/// Gives a driver of Python to the campaign of a folder in which a driver of this name drove.
+///
+/// # Errors
+/// The driver has another name, cannot be copied, has no such setting, or describes impossible sensors.
+pub fn given_again(log: &Log, (driver, name): (Bound<PyAny>, String)) -> PyResult<Log> {
+    let settings = log.study().subject().scenario().map_err(raised)?.driver().changes();
+    log.with_own_driver(&name, maker(driver, &settings)?).map_err(raised)
+}
+
+/// Returns the function that makes a copy of a driver for each session.
+fn maker(
+    driver: Bound<PyAny>,
+    settings: &[(String, f64)],
+) -> PyResult<impl Fn() -> Box<dyn Driver> + Send + Sync + 'static> {
     let seed = settings.iter().find(|(name, _)| name == "seed").map_or(0, |(_, seed)| *seed as u64);
     // The campaign itself deals with the latency.
     let own: Vec<_> = settings.iter().filter(|(name, _)| name != "seed" && name != "latency").cloned().collect();
     // A driver that cannot begin is a mistake of the study, and not of its tests.
     session(&driver, &own, seed)?;
     let driver = Arc::new(driver.unbind());
-    let make = move || -> Box<dyn Driver> {
+    Ok(move || -> Box<dyn Driver> {
         let begun = Python::attach(|py| session(driver.bind(py), &own, seed).map_err(|error| in_words(py, &error)));
         begun.unwrap_or_else(|why| Box::new(Unable(why)))
-    };
-    Ok(settings.iter().fold(study.own_driver(&name, make), |study, (name, value)| study.set_driver(name, *value)))
+    })
 }
 
 /// Begins a session with a copy of a driver.
@@ -103,18 +121,26 @@ impl Answers for Inside {
             let asked = || -> PyResult<Control> {
                 let observation = observation(py, step, self.images.bind(py))?;
                 let control = busy::calling(py, || self.step.bind(py).call1((observation,)))?;
-                if !control.is_instance(Class::Control.get(py)?)? {
-                    let found = control.repr().map(|text| text.to_string()).unwrap_or_default();
-                    return Err(raised(format!("step returned {found}, expected a Control")));
-                }
-                Ok(Control {
-                    throttle: control.getattr(intern!(py, "throttle"))?.extract()?,
-                    steering: control.getattr(intern!(py, "steering"))?.extract()?,
-                })
+                control_of(py, &control)
             };
             asked().map_err(|error| fault(py, &error))
         })
     }
+}
+
+/// Reads the control that a driver of Python returns.
+///
+/// # Errors
+/// The object is no `Control`.
+pub fn control_of(py: Python, control: &Bound<PyAny>) -> PyResult<Control> {
+    if !control.is_instance(Class::Control.get(py)?)? {
+        let found = control.repr().map(|text| text.to_string()).unwrap_or_default();
+        return Err(raised(format!("step returned {found}, expected a Control")));
+    }
+    Ok(Control {
+        throttle: control.getattr(intern!(py, "throttle"))?.extract()?,
+        steering: control.getattr(intern!(py, "steering"))?.extract()?,
+    })
 }
 
 fn fault(py: Python, error: &PyErr) -> Fault {
@@ -183,7 +209,15 @@ fn briefing<'py>(py: Python<'py>, reset: &message::Reset) -> PyResult<Bound<'py,
     Class::Briefing.get(py)?.call1((reset.cruise_speed, vehicle))
 }
 
-fn observation<'py>(py: Python<'py>, step: message::Step, images: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
+/// Makes the observation of a moment, and keeps the last image of each camera in `images`.
+///
+/// # Errors
+/// Python raises an error.
+pub fn observation<'py>(
+    py: Python<'py>,
+    step: message::Step,
+    images: &Bound<'py, PyDict>,
+) -> PyResult<Bound<'py, PyAny>> {
     let pictures = step.images.iter().map(|image| picture(py, image)).collect::<PyResult<Vec<_>>>()?;
     for picture in &pictures {
         images.set_item(picture.getattr("camera")?, picture.getattr("pixels")?)?;

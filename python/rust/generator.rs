@@ -7,7 +7,9 @@ use crate::error::raised;
 use crate::measures::duration;
 use crate::space::{Space, cube};
 use crate::test_table::{Tests, tests_of};
+use crate::threads::with_threads;
 use crate::value::is_truth;
+use crate::whole::{maybe_whole, whole};
 use paracosm::campaign::TestSet;
 use paracosm::coverage::Deadline;
 use paracosm::generators::{DiscreteFamily, Request, Strategy};
@@ -38,8 +40,7 @@ impl Target {
             let Space { inner, demand } = space.get();
             return Ok(Self { space: Space { inner: inner.clone(), demand: demand.clone() }, is_cube: false });
         }
-        let dims =
-            space.extract::<usize>().map_err(|_| raised("expected a Space, or a number of dimensions from 1 on"))?;
+        let dims = whole(space).map_err(|_| raised("expected a Space, or a number of dimensions from 1 on"))?;
         Ok(Self { space: cube(dims)?.into(), is_cube: true })
     }
 
@@ -118,11 +119,11 @@ fn family(name: &str, delta: Option<f64>) -> PyResult<DiscreteFamily> {
 pub fn sample<'py>(
     py: Python<'py>,
     space: &Bound<'py, PyAny>,
-    n: Option<usize>,
+    #[pyo3(from_py_with = maybe_whole)] n: Option<usize>,
     method: &str,
-    seed: Option<u64>,
-    skip: Option<u64>,
-    k: Option<usize>,
+    #[pyo3(from_py_with = maybe_whole)] seed: Option<u64>,
+    #[pyo3(from_py_with = maybe_whole)] skip: Option<u64>,
+    #[pyo3(from_py_with = maybe_whole)] k: Option<usize>,
     epsilon: Option<f64>,
     measure: Option<String>,
     discrete: &str,
@@ -200,10 +201,10 @@ impl Generator {
         py: Python,
         space: &Bound<PyAny>,
         method: &str,
-        budget: usize,
-        seed: Option<u64>,
-        skip: Option<u64>,
-        k: Option<usize>,
+        #[pyo3(from_py_with = whole)] budget: usize,
+        #[pyo3(from_py_with = maybe_whole)] seed: Option<u64>,
+        #[pyo3(from_py_with = maybe_whole)] skip: Option<u64>,
+        #[pyo3(from_py_with = maybe_whole)] k: Option<usize>,
         epsilon: Option<f64>,
         measure: Option<String>,
         discrete: &str,
@@ -226,9 +227,9 @@ impl Generator {
 
     /// Returns at most `n` new tests. There are none once the strategy has nothing more to propose.
     #[pyo3(signature = (n = 1))]
-    fn ask<'py>(&self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn ask<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] n: usize) -> PyResult<Bound<'py, PyAny>> {
         TestSet::check_size(n, self.target.space.inner.coordinates().count()).map_err(raised)?;
-        let points = py.detach(|| self.inner.lock().unwrap_or_else(PoisonError::into_inner).ask(n));
+        let points = py.detach(|| with_threads(|| self.inner.lock().unwrap_or_else(PoisonError::into_inner).ask(n)));
         self.target.tests(py, points)
     }
 
@@ -241,7 +242,8 @@ impl Generator {
             let (tests, found) = (points.len(), robustness.len());
             return Err(raised(format!("found {found} values of robustness, expected {tests}, one for each test")));
         }
-        py.detach(|| self.inner.lock().unwrap_or_else(PoisonError::into_inner).tell(&points, &robustness));
+        let tell = || self.inner.lock().unwrap_or_else(PoisonError::into_inner).tell(&points, &robustness);
+        py.detach(|| with_threads(tell));
         Ok(())
     }
 

@@ -6,6 +6,7 @@ use crate::error::raised;
 use crate::json::to_dict;
 use crate::space::Space;
 use crate::test_table::tests_of;
+use crate::whole::maybe_whole;
 use paracosm::analysis::{Coverage, Limit};
 use paracosm::coverage::Measure;
 use paracosm::coverage::measure::Computation;
@@ -51,7 +52,7 @@ pub fn coverage<'py>(
     py: Python<'py>,
     tests: &Bound<'py, PyAny>,
     space: Option<&Bound<'py, Space>>,
-    k: Option<usize>,
+    #[pyo3(from_py_with = maybe_whole)] k: Option<usize>,
     measures: Option<Vec<String>>,
     time_limit: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -69,7 +70,7 @@ pub fn measure<'py>(
     name: &str,
     tests: &Bound<'py, PyAny>,
     space: Option<&Bound<'py, Space>>,
-    k: Option<usize>,
+    #[pyo3(from_py_with = maybe_whole)] k: Option<usize>,
     time_limit: Option<f64>,
 ) -> PyResult<Bracket> {
     let measure: Measure = name.parse().map_err(raised)?;

@@ -1,23 +1,25 @@
 //! `Report`: the results of a campaign; and `Trial`: a test that can be run again.
 
 use crate::detached::detached;
+use crate::driver::{given_again, of_python};
 use crate::error::raised;
+use crate::failure_map::FailureMap;
 use crate::formula::Trace;
 use crate::inquiries;
 use crate::json::to_dict;
-use crate::table::Table;
-use crate::trials;
+use crate::notebook::{self, counts};
+use crate::threads::with_threads;
+use crate::trials::Trials;
 use crate::value::to_python;
+use crate::whole::{at_once, maybe_whole, whole};
 use crate::world::catalogue;
-use base64::Engine;
-use base64::prelude::BASE64_STANDARD as STANDARD;
 use paracosm::campaign::{Error as LibraryError, Supervision, Trust, Worker};
 use paracosm::oracles::Verdict;
 use paracosm::report::html::Runs;
 use paracosm::{Beside, Log};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -53,16 +55,27 @@ impl Report {
 /// Reads the results of a campaign from its folder.
 ///
 /// A campaign may run a command of its own as driver or system. Its tests are only run again with `trust=True`, because the folder may be that of a
-/// stranger.
+/// stranger. A driver that was an object of Python is not in the folder: give the driver again (`driver=Mine()`) to run tests again.
 #[pyfunction]
-#[pyo3(signature = (folder, *, trust = false))]
-pub fn load(py: Python, folder: PathBuf, trust: bool) -> PyResult<Report> {
+#[pyo3(signature = (folder, *, trust = false, driver = None))]
+pub fn load(py: Python, folder: PathBuf, trust: bool, driver: Option<&Bound<PyAny>>) -> PyResult<Report> {
     let trust = if trust { Trust::all() } else { Trust::NOTHING };
-    let read = py.detach(|| {
-        let log = Log::read(&folder, &catalogue().trusting(&trust))?.trusting(&trust);
-        paracosm::Report::read(log, &folder)
+    let driver = driver.map(|driver| {
+        let own = of_python(driver)?;
+        own.ok_or_else(|| {
+            raised("driver: found the name of a driver, expected the Driver or the function that drove in the campaign")
+        })
     });
-    Ok(Report::new(read.map_err(raised)?, folder))
+    let driver = driver.transpose()?;
+    let mut log = py
+        .detach(|| with_threads(|| Log::read(&folder, &catalogue().trusting(&trust))))
+        .map_err(raised)?
+        .trusting(&trust);
+    if let Some(driver) = driver {
+        log = given_again(&log, driver)?;
+    }
+    let report = py.detach(|| with_threads(|| paracosm::Report::read(log, &folder))).map_err(raised)?;
+    Ok(Report::new(report, folder))
 }
 
 #[pymethods]
@@ -82,10 +95,10 @@ impl Report {
         Ok(dict)
     }
 
-    /// The tests with their verdicts, robustness and metrics, as in `trials.csv`.
+    /// The tests with their verdicts, robustness and metrics: a table with the columns of `trials.csv`, whose rows are the lines of `trials.jsonl`.
     #[getter]
-    fn trials(&self) -> Table {
-        trials::table(self.log())
+    fn trials<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, Trials>> {
+        Bound::new(py, Trials::new(self.log()))
     }
 
     /// The tests that violate a requirement.
@@ -106,6 +119,13 @@ impl Report {
     #[getter]
     fn coverage<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.inner.report.coverage)
+    }
+
+    /// The doubts about the programs of the campaign in words, which its tests do not show. For example, a test ended in an error, and had a result
+    /// when it ran again.
+    #[getter]
+    fn doubts(&self) -> Vec<String> {
+        self.inner.report.doubts.clone()
     }
 
     /// The failure modes, with the keys of `modes.json`.
@@ -133,7 +153,7 @@ impl Report {
         &self,
         py: Python<'py>,
         drivers: Option<Vec<String>>,
-        executor: Option<NonZeroUsize>,
+        #[pyo3(from_py_with = at_once)] executor: Option<NonZeroUsize>,
     ) -> PyResult<Bound<'py, PyAny>> {
         inquiries::blame(py, self.log(), drivers, executor)
     }
@@ -143,6 +163,26 @@ impl Report {
     #[pyo3(signature = (after, /))]
     fn diff<'py>(&self, py: Python<'py>, after: &Self) -> PyResult<Bound<'py, PyAny>> {
         inquiries::difference(py, self.log(), after.log())
+    }
+
+    /// Estimates how much each open parameter matters: Sobol indices, with the keys of `paracosm-fuzz sensitivity --format json`. Without a budget,
+    /// the model of the campaign's failures is asked, and no test runs; with one, up to so many tests run.
+    #[pyo3(signature = (*, budget = None, seed = 0, executor = None))]
+    fn sensitivity<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = maybe_whole)] budget: Option<usize>,
+        #[pyo3(from_py_with = whole)] seed: u64,
+        #[pyo3(from_py_with = at_once)] executor: Option<NonZeroUsize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        inquiries::sensitivity(py, self.log(), budget, seed, executor)
+    }
+
+    /// Draws the map of the campaign over two continuous parameters. Without names, they are the two that separate failing tests from passing tests
+    /// best. `show` is "failures", or "severity" for the speeds of impacts.
+    #[pyo3(signature = (x = None, y = None, *, show = "failures"))]
+    fn map(&self, py: Python, x: Option<&str>, y: Option<&str>, show: &str) -> PyResult<FailureMap> {
+        py.detach(|| with_threads(|| FailureMap::of(self.log(), &self.inner.folder, [x, y], show)))
     }
 
     /// Writes the report page, one HTML file with runs to play. `max_mb` is its greatest size.
@@ -175,21 +215,21 @@ impl Report {
             .ok_or_else(|| PyIndexError::new_err(format!("test {index} of a campaign with {len} tests")))
     }
 
-    fn __repr__(&self) -> String {
-        let summary = &self.inner.report.summary;
-        let counts = Verdict::ALL.iter().map(|verdict| (summary.count(*verdict), verdict));
-        let counts: Vec<String> =
-            counts.filter(|(count, _)| *count > 0).map(|(count, verdict)| format!("{count} {verdict}")).collect();
-        format!("Report({}: {}, in {})", self.log().study().title(), counts.join(", "), self.inner.folder.display())
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let trials: Vec<TrialView> = (0..self.__len__()).map(|index| self.trial_at(index)).collect();
+        Ok(PyList::new(py, trials.into_iter().map(|trial| Bound::new(py, trial)).collect::<PyResult<Vec<_>>>()?)?
+            .try_iter()?
+            .into_any())
     }
 
-    /// Returns the verdicts and the failure map, for notebooks.
+    fn __repr__(&self) -> String {
+        let Results { report, folder } = &*self.inner;
+        format!("Report({}: {}, in {})", report.log.study().title(), counts(report), folder.display())
+    }
+
+    /// Returns the verdicts, the doubts, the failure map and the failure modes, for notebooks.
     fn _repr_html_(&self) -> String {
-        // As an image, because a file of a stranger's folder may hold a script.
-        let map = std::fs::read(self.inner.folder.join("failure-map.svg")).map(|svg| STANDARD.encode(svg));
-        let map = map.map(|svg| format!("<img src=\"data:image/svg+xml;base64,{svg}\">")).unwrap_or_default();
-        let words = self.__repr__().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-        format!("<p>{words}</p>{map}")
+        notebook::page(&self.inner.report, &self.inner.folder)
     }
 }
 
@@ -247,6 +287,19 @@ impl TrialView {
         self.trial().error()
     }
 
+    /// The metrics of the run, such as the distance that the car has travelled: numbers, words and truths.
+    #[getter]
+    fn metrics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let line: serde_json::Value = serde_json::from_str(&self.trial().as_line()).map_err(raised)?;
+        to_dict(py, &line["metrics"])
+    }
+
+    /// The number of ticks of the run.
+    #[getter]
+    fn ticks(&self) -> usize {
+        self.trial().ticks
+    }
+
     /// The hash of the trace; `None` if the test has no trace.
     #[getter]
     fn trace_hash(&self) -> Option<&str> {
@@ -256,7 +309,12 @@ impl TrialView {
     /// Finds the simplest test near this failing test that still fails, with the keys of `paracosm-fuzz shrink --format json`. `same_mode=True` keeps
     /// the failure mode, and `budget` is the greatest number of tests to run.
     #[pyo3(signature = (*, same_mode = false, budget = None))]
-    fn shrink<'py>(&self, py: Python<'py>, same_mode: bool, budget: Option<usize>) -> PyResult<Bound<'py, PyAny>> {
+    fn shrink<'py>(
+        &self,
+        py: Python<'py>,
+        same_mode: bool,
+        #[pyo3(from_py_with = maybe_whole)] budget: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         inquiries::shrink(py, &self.results.report.log, self.trial(), same_mode, budget)
     }
 

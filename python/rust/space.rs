@@ -1,12 +1,13 @@
 //! `Space`: the parameters of tests, from dictionaries of Python or from files.
 
 use crate::error::raised;
-use crate::value::value_of;
+use crate::value::{to_python, value_of};
+use crate::whole::whole;
 use paracosm::campaign::{SpaceFile, TestSet};
 use paracosm::coverage::PointSet;
 use paracosm::space::constraint::Constraint;
 use paracosm::space::demand::Demand;
-use paracosm::space::{Distribution, Domain, Parameter};
+use paracosm::space::{Distribution, Domain, Parameter, Point, Value};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 use std::path::PathBuf;
@@ -48,7 +49,7 @@ impl Space {
     /// Makes the unit cube: `dims` parameters `x1`, `x2` and so on, each in [0, 1].
     #[classmethod]
     #[pyo3(signature = (dims, /))]
-    fn cube(_: &Bound<PyType>, dims: usize) -> PyResult<Self> {
+    fn cube(_: &Bound<PyType>, #[pyo3(from_py_with = whole)] dims: usize) -> PyResult<Self> {
         Ok(cube(dims)?.into())
     }
 
@@ -109,6 +110,31 @@ impl Space {
         Ok(serde_json::from_str::<paracosm::space::Space>(text).map_err(raised)?.into())
     }
 
+    /// Returns the test at a point of the unit cube with a coordinate for each coordinate of the space, in its order; `None` if the test breaks a
+    /// constraint.
+    fn _test<'py>(&self, py: Python<'py>, point: Vec<f64>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let levels = levels_of(&self.inner);
+        if point.len() != levels.len() {
+            return Err(raised(format!("found {} coordinates, expected {}", point.len(), levels.len())));
+        }
+        let test = test_at(&levels, &point);
+        if !self.inner.allows(&test) {
+            return Ok(None);
+        }
+        let dict = PyDict::new(py);
+        for (name, value) in self.inner.decode(&test).iter() {
+            let of_choice = self.inner.parameter(name).is_ok_and(|parameter| parameter.levels().is_some());
+            dict.set_item(name, to_python(py, value, of_choice)?)?;
+        }
+        Ok(Some(dict))
+    }
+
+    /// The number of coordinates of a test.
+    #[getter]
+    fn _coordinates(&self) -> usize {
+        self.inner.coordinates().count()
+    }
+
     fn __len__(&self) -> usize {
         self.inner.parameters().len()
     }
@@ -131,6 +157,27 @@ pub fn cube(dims: usize) -> PyResult<paracosm::space::Space> {
     PointSet::new(dims, [[0.0; 0]; 0]).map_err(raised)?;
     TestSet::check_size(1, dims).map_err(raised)?;
     Ok(paracosm::space::Space::unit_cube(dims))
+}
+
+/// Returns the number of levels of each coordinate of a space; 0 for a continuous coordinate.
+pub fn levels_of(space: &paracosm::space::Space) -> Vec<usize> {
+    space.coordinates().map(|coordinate| coordinate.parameter.levels().map_or(0, <[Value]>::len)).collect()
+}
+
+/// The greatest coordinate of a test: the right border of the unit cube belongs to no test.
+const LAST: f64 = 1.0 - f64::EPSILON / 2.0;
+
+/// Returns the test at a point of the unit cube with its borders. The coordinate of a choice is divided into parts of the same width, one for each
+/// level.
+pub fn test_at(levels: &[usize], point: &[f64]) -> Point {
+    let mut test = Point { continuous: Vec::new(), discrete: Vec::new() };
+    for (u, levels) in point.iter().zip(levels) {
+        match levels {
+            0 => test.continuous.push(u.min(LAST)),
+            levels => test.discrete.push(((u * *levels as f64) as usize).min(levels - 1)),
+        }
+    }
+    test
 }
 
 /// Reads a parameter: an `Interval` or a `Choice` of the package, or a tuple or a list.

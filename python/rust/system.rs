@@ -8,7 +8,8 @@ use crate::value::{is_truth, to_python};
 use numpy::IntoPyArray;
 use paracosm::campaign::reasons::AnswerFlaw;
 use paracosm::campaign::{Answer, BlackBox};
-use paracosm::space::{Space, Values};
+use paracosm::space::{Space, Values, did_you_mean, nearest};
+use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 
@@ -102,5 +103,22 @@ pub fn in_words(py: Python, error: &PyErr) -> String {
         true => String::new(),
         false => error.get_type(py).name().map(|name| format!("{name}: ")).unwrap_or_default(),
     };
-    format!("{kind}{}{}", error.value(py), place().unwrap_or_default())
+    format!("{kind}{}{}{}", error.value(py), hints(py, error).unwrap_or_default(), place().unwrap_or_default())
+}
+
+/// Returns the notes of an exception, such as the name of a wrong argument, and the name that a wrong name resembles.
+fn hints(py: Python, error: &PyErr) -> PyResult<String> {
+    let value = error.value(py);
+    let mut hints = String::new();
+    for note in
+        value.getattr_opt("__notes__")?.map(|notes| notes.extract::<Vec<String>>()).transpose()?.into_iter().flatten()
+    {
+        hints += &format!(", {note}");
+    }
+    if error.is_instance_of::<PyAttributeError>(py) {
+        let wanted: String = value.getattr("name")?.extract()?;
+        let names: Vec<String> = value.getattr("obj")?.dir()?.extract()?;
+        hints += &did_you_mean(&nearest(&wanted, names.iter().map(String::as_str)));
+    }
+    Ok(hints)
 }

@@ -34,6 +34,17 @@ pub struct Table {
 }
 
 impl Column {
+    fn of_texts<'t>(texts: impl Iterator<Item = &'t str> + Clone) -> Self {
+        if let Ok(counts) = texts.clone().map(str::parse).collect() {
+            return Self::Counts(counts);
+        }
+        let number = |text: &str| if text.is_empty() { Ok(f64::NAN) } else { text.parse() };
+        match texts.clone().map(number).collect() {
+            Ok(numbers) => Self::Numbers(numbers),
+            Err(_) => Self::Words(texts.map(|text| (!text.is_empty()).then(|| text.to_owned())).collect()),
+        }
+    }
+
     fn len(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
@@ -84,12 +95,45 @@ impl Table {
         Self { columns, len }
     }
 
+    /// Makes a table of texts, whose first row has the names of the columns. A column of numbers becomes one; an empty text is a missing value.
+    pub fn of_texts(rows: Vec<Vec<String>>) -> Self {
+        let mut rows = rows.into_iter();
+        let names = rows.next().unwrap_or_default();
+        let rows: Vec<Vec<String>> = rows.collect();
+        let column = |at: usize| Column::of_texts(rows.iter().map(|row| row[at].as_str()));
+        let columns = names.into_iter().enumerate().map(|(at, name)| (name, column(at))).collect();
+        Self { columns, len: rows.len() }
+    }
+
     fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|(own, _)| own == name).map(|(_, column)| column)
     }
 
     fn names(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Returns the column of a name, or the row of an index.
+    ///
+    /// # Errors
+    /// There is no such column or row.
+    pub fn item<'py>(&self, py: Python<'py>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(name) = key.extract::<String>() {
+            let column = self.column(&name).ok_or_else(|| {
+                let meant = did_you_mean(&nearest(&name, self.names()));
+                let names = self.columns().join(", ");
+                PyKeyError::new_err(format!("no column is called `{name}`{meant}; the columns are {names}"))
+            })?;
+            return column.array(py);
+        }
+        let index =
+            key.extract::<isize>().map_err(|_| raised("expected the name of a column or the index of a row"))?;
+        let row = if index < 0 { index + self.len as isize } else { index };
+        let row = usize::try_from(row).ok().filter(|row| *row < self.len);
+        match row {
+            Some(row) => Ok(self.row(py, row)?.into_any()),
+            None => Err(PyIndexError::new_err(format!("row {index} of a table with {} rows", self.len))),
+        }
     }
 
     fn row<'py>(&self, py: Python<'py>, row: usize) -> PyResult<Bound<'py, PyDict>> {
@@ -112,22 +156,7 @@ impl Table {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        if let Ok(name) = key.extract::<String>() {
-            let column = self.column(&name).ok_or_else(|| {
-                let meant = did_you_mean(&nearest(&name, self.names()));
-                let names = self.columns().join(", ");
-                PyKeyError::new_err(format!("no column is called `{name}`{meant}; the columns are {names}"))
-            })?;
-            return column.array(py);
-        }
-        let index =
-            key.extract::<isize>().map_err(|_| raised("expected the name of a column or the index of a row"))?;
-        let row = if index < 0 { index + self.len as isize } else { index };
-        let row = usize::try_from(row).ok().filter(|row| *row < self.len);
-        match row {
-            Some(row) => Ok(self.row(py, row)?.into_any()),
-            None => Err(PyIndexError::new_err(format!("row {index} of a table with {} rows", self.len))),
-        }
+        self.item(py, key)
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -1,14 +1,57 @@
-//! The trials of a campaign as a table, with the columns of `trials.csv`.
+//! The trials of a campaign: a table with the columns of `trials.csv`, whose rows are the lines of `trials.jsonl`.
 
+use crate::json::to_dict;
 use crate::table::{Column, Table};
 use crate::test_table::columns;
-use paracosm::Log;
 use paracosm::campaign::Metric;
 use paracosm::report::TrialTable;
 use paracosm::space::{Record, Values};
+use paracosm::{Log, Trial};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+/// The trials of a campaign, in the order of their indices.
+///
+/// `trials["speed"]` is a column of `trials.csv`, and `to_pandas()` and `to_polars()` make data frames of these columns. `trials[3]` and `for trial in trials` give
+/// dictionaries with the keys of a line of `trials.jsonl`, such as `trial["test"]["speed"]`.
+#[pyclass(frozen, extends = Table, module = "paracosm")]
+pub struct Trials {
+    lines: Vec<String>,
+}
+
+impl Trials {
+    /// Makes the table of the trials in a log.
+    pub fn new(log: &Log) -> PyClassInitializer<Self> {
+        let lines = log.trials().iter().map(Trial::as_line).collect();
+        PyClassInitializer::from(table(log)).add_subclass(Self { lines })
+    }
+
+    fn trial<'py>(&self, py: Python<'py>, line: &str) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &serde_json::from_str::<serde_json::Value>(line).expect("a line of the log is JSON"))
+    }
+}
+
+#[pymethods]
+impl Trials {
+    fn __getitem__<'py>(slf: &Bound<'py, Self>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let lines = &slf.get().lines;
+        let index =
+            key.extract::<isize>().ok().map(|index| if index < 0 { index + lines.len() as isize } else { index });
+        match index.and_then(|index| lines.get(usize::try_from(index).ok()?)) {
+            Some(line) => slf.get().trial(slf.py(), line),
+            // A name, or an index without a trial.
+            None => slf.as_super().get().item(slf.py(), key),
+        }
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let trials = self.lines.iter().map(|line| self.trial(py, line)).collect::<PyResult<Vec<_>>>()?;
+        Ok(PyList::new(py, trials)?.try_iter()?.into_any())
+    }
+}
 
 /// Returns a row for each trial.
-pub fn table(log: &Log) -> Table {
+fn table(log: &Log) -> Table {
     let (names, trials) = (TrialTable(log), log.trials());
     let tests: Vec<Values> = trials.iter().map(|trial| trial.test.clone()).collect();
     let mut all = vec![("index".to_owned(), Column::Counts(trials.iter().map(|trial| trial.index as i64).collect()))];

@@ -39,6 +39,11 @@ WRONG = [
     (lambda: pc.sample(10, 10**9), "do not fit in memory"),
     (lambda: pc.sample(3, 5, method="haltom"), "did you mean `halton`?"),
     (lambda: pc.sample(3, 5, method="bayes"), "use Generator(space, \"bayes\")"),
+    (lambda: pc.sample(3, -2), "found -2, expected a whole number from 0 on"),
+    (lambda: pc.sample(3, 10**30), "expected a whole number up to 18446744073709551615"),
+    (lambda: pc.Study("cut-in", budget=-1), "budget is -1, expected a whole number from 0 on"),
+    (lambda: pc.Study("cut-in", seed=True), "seed is True, expected a whole number from 0 on"),
+    (lambda: pc.Study("cut-in").likelihood(seed=-1), "found -1, expected a whole number from 0 on"),
     (lambda: pc.sample(3, 0), "a budget must be at least 1"),
     (lambda: pc.sample(3, 5, existing=[[0.5, 0.5]], method="greedy"), "the points have 2 coordinates, expected 3"),
     (lambda: pc.Generator(2, "bayes").tell([[0.5, 0.5]], [1, 2]), "found 2 values of robustness, expected 1"),
@@ -60,7 +65,7 @@ WRONG = [
     (lambda: pc.Generator(2, "bayes").tell([[0.5, 0.5]], [False]), "found a truth as a robustness"),
     (lambda: pc.coverage(pc.sample(SPACE, 3), pc.Space({"speed": (0.5, 10), "lanes": [2, 4, 6]}, ["lanes > 2"])), "belong to another space"),
     (lambda: pc.Space.read("/no/such/file.toml"), "cannot read /no/such/file.toml"),
-    (lambda: pc.covering_array(SPACE), "this space has continuous parameters"),
+    (lambda: pc.covering_array(pc.Space({"a": (0, 1)}), k=1), "k is 1"),
     (lambda: pc.covering_array(pc.Space({"a": [1, 2]}), k=2), "k is 2"),
     (lambda: pc.plan(SPACE, epsilon=2), "epsilon is 2"),
     (lambda: pc.Formula("always (x <"), "column 12: found the end"),
@@ -78,6 +83,12 @@ def test_bad_input_is_an_exception_that_says_what_was_expected(call, words):
         call()
     assert words in str(caught.value)
     assert isinstance(caught.value, ValueError)
+
+
+def test_what_is_no_whole_number_is_an_error_of_python():
+    for found in (2.5, True, "two"):
+        with pytest.raises(TypeError, match=f"found {found!r}, expected a whole number"):
+            pc.sample(3, found)
 
 
 def test_a_name_that_does_not_exist_is_an_error_of_python():

@@ -117,9 +117,30 @@ class Needy(pc.Driver):
     def __init__(self, network: str) -> None: ...
 
 
+class OddPeriod(pc.Driver):
+    period = "x"  # type: ignore[assignment]
+
+
+class OddSettings(pc.Driver):
+    settings = ["gain"]  # type: ignore[assignment]
+
+
+class NoNumber(pc.Driver):
+    settings = {"gain": float("nan")}
+
+
+class OddOthers(pc.Driver):
+    others = "no"  # type: ignore[assignment]
+
+
 @pytest.mark.parametrize(
     ("driver", "settings", "message"),
     [
+        (Locked, {}, "Locked cannot be copied, and each session has its own copy"),
+        (OddPeriod, {}, "period of the driver is 'x', expected a number of seconds"),
+        (OddSettings, {}, "settings of the driver is ['gain'], expected a dictionary"),
+        (NoNumber, {}, "`gain` is nan, expected a number"),
+        (OddOthers, {}, "others of the driver is 'no', expected True or False"),
         (Cautious(), {"gian": 0.1}, "Cautious has no setting `gian` (did you mean `gain`?)"),
         (Cautious(), {"gain": float("nan")}, "gain"),
         (Locked(), {}, "cannot be copied"),
@@ -154,3 +175,29 @@ def test_ctrl_c_ends_a_step_that_never_returns(interrupted, tmp_path):
     """
     assert "KeyboardInterrupt" in interrupted(script, "stuck")
     assert len(pc.load(tmp_path / "out")) == 0
+
+
+def test_a_campaign_of_a_folder_gets_its_driver_again(tmp_path):
+    class Coasting(pc.Driver):
+        def step(self, observation: pc.Observation) -> pc.Control:
+            return pc.Control(0.0, 0.0)
+
+    pc.Study("cut-in", driver=Coasting, driver_settings={"latency": 0.1}, budget=2).run(tmp_path / "out")
+    with pytest.raises(pc.Error, match="the program that ran the campaign made this driver"):
+        pc.load(tmp_path / "out")[0].replay()
+    assert len(pc.load(tmp_path / "out", driver=Coasting)[0].replay()["time"]) > 1
+    with pytest.raises(pc.Error, match="found the driver `lambda`, expected `Coasting`|expected `Coasting`"):
+        pc.load(tmp_path / "out", driver=lambda observation: pc.Control(0.0, 0.0))
+    with pytest.raises(pc.Error, match="found the name of a driver"):
+        pc.load(tmp_path / "out", driver="aeb")
+
+
+def test_sensors_that_are_no_dictionary_are_an_error():
+    class Blind(pc.Driver):
+        cameras = None
+
+        def step(self, observation: pc.Observation) -> pc.Control:
+            return pc.Control(0.0, 0.0)
+
+    with pytest.raises(pc.Error, match="cameras of the driver is None, expected a dictionary"):
+        pc.Study("cut-in", driver=Blind, budget=2)

@@ -127,6 +127,19 @@ def _number(part):
     return part
 
 
+def test_a_covering_array_covers_the_discrete_parameters_of_a_mixed_space():
+    choices = {"lanes": pc.Choice([2, 4, 6]), "sky": pc.Choice(["clear", "rain"])}
+    rules = ["lanes > 2 or sky == 'clear'", "lanes > 2 or speed < 5"]
+    space = pc.Space({"speed": pc.Interval(0.5, 10, unit="m/s"), **choices}, constraints=rules)
+    array = pc.covering_array(space, k=2)
+    assert list(array) == list(pc.covering_array(pc.Space(choices, constraints=rules[:1]), k=2))
+    assert array.columns == ["lanes", "sky"] and len(array) == 5
+    with pytest.warns(UserWarning, match="k is 3, but only 2 parameters are discrete"):
+        assert pc.covering_array(space, k=3).k == 2
+    with pytest.warns(UserWarning, match="k is 3, but only 2 parameters are discrete"):
+        pc.plan(space, k=3, epsilon=0.5)
+
+
 def test_a_covering_array_has_the_rows_of_the_program(cover, tmp_path: Path):
     model = tmp_path / "model.pict"
     model.write_text("A: 1, 2, 3\nB: x, y, z\nC: on, off\nD: 1, 2, 3, 4\nIF [A] = 1 THEN [C] = \"on\";\n")

@@ -452,6 +452,56 @@ def test_the_file_that_a_folder_names_runs_only_with_trust(fuzz, tmp_path):
     assert "it ran" in fuzz("replay", "paracosm-out", "1", "--trust").stdout
 
 
+def test_shards_of_a_scenario_in_a_file_are_merged_with_trust_alone(fuzz, tmp_path):
+    (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING))
+    for number in (1, 2):
+        fuzz("crossing.py", "--budget", "10", "--shard", f"{number}/2", "--out", f"part-{number}")
+    refused = fuzz("merge", "whole", "part-1", "part-2")
+    assert refused.returncode == 2 and "--trust" in refused.stderr
+    assert not (tmp_path / "whole").exists(), "a folder that merge cannot complete is in the way of the next merge"
+    assert fuzz("merge", "whole", "part-1", "part-2", "--trust").returncode == 0
+    fuzz("crossing.py", "--budget", "10", "--out", "one")
+    whole, one = (json.loads((tmp_path / name / "modes.json").read_text()) for name in ("whole", "one"))
+    assert whole == one
+    assert (tmp_path / "whole" / "trials.jsonl").read_bytes() == (tmp_path / "one" / "trials.jsonl").read_bytes()
+
+
+@pytest.mark.parametrize("name", ["night: rain", "two\nlines"])
+def test_a_name_that_no_command_could_give_is_refused(name):
+    with pytest.raises(pc.Error, match="the name of the scenario is"):
+        pc.scenario(name=name)(lambda s: None)
+
+
+def test_roads_of_a_file_are_roads_of_a_scenario(fuzz, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert fuzz("cut-in", "--budget", "2", "--out", "logged", "-q").returncode == 0
+    assert fuzz("export", "logged", "1", "--out", "written", "-q").returncode == 0
+    file = next(Path("written").glob("*.xodr"))
+    roads = pc.RoadNetwork.read(file)
+    road = roads.elements[0]
+
+    @pc.scenario
+    def on_a_file(s: pc.Scenario) -> None:
+        speed = s.interval("speed", 5.0, 15.0)
+        streets = s.place(roads)
+        car = s.place(pc.AutonomousVehicle(streets.on_lane(road, -1, 10.0)).speed(10.0))
+        s.require("slow", pc.always(car.speed() < speed))
+
+    study = pc.Study(on_a_file, budget=4)
+    report = study.run("out")
+    assert report.verdicts["error"] == 0 and report.verdicts["invalid"] == 0
+    assert report.verdicts["fail"] > 0 and report.verdicts["pass"] > 0
+    # The roads belong to the campaign: other roads are noticed.
+    named = json.loads(Path("out/campaign.json").read_text())["scenario_files"]
+    assert named.count("+") == 1
+    file.write_text(file.read_text().replace("</OpenDRIVE>", "<!-- changed -->\n</OpenDRIVE>"))
+    roads = pc.RoadNetwork.read(file)
+    with pytest.raises(pc.Error, match="another campaign|different campaign|has changed"):
+        pc.Study(on_a_file, budget=4).run("out", resume=True)
+    with pytest.raises(pc.Error, match="nowhere.xodr"):
+        pc.RoadNetwork.read("nowhere.xodr")
+
+
 def test_a_file_that_has_changed_is_noticed(fuzz, tmp_path):
     (tmp_path / "crossing.py").write_text(textwrap.dedent(CROSSING))
     fuzz("crossing.py", "--budget", "5")
@@ -460,6 +510,8 @@ def test_a_file_that_has_changed_is_noticed(fuzz, tmp_path):
     assert resumed.returncode == 2 and "scenario_files" in resumed.stderr
     replayed = fuzz("replay", "paracosm-out", "1", "--trust")
     assert replayed.returncode == 2 and "trace hash: " in replayed.stderr and ", logged " in replayed.stderr
+    shares = fuzz("sensitivity", "paracosm-out", "--budget", "64", "--trust")
+    assert "has another trace than in the log" in shares.stdout and "the shares describe the present scenario and driver" in shares.stdout
 
 
 @pytest.mark.parametrize(
@@ -604,3 +656,189 @@ def test_the_lanes_of_a_path_follow_each_other():
     assert loop.path([("side 1", 1), ("tee 2", "three", "two", 1)]).length > 60.0
     with pytest.raises(pc.Error, match="lane 2 of the path does not begin where lane 1 ends"):
         loop.path([("side 1", 1), ("side 3", 1)])
+
+
+def test_objects_that_are_not_placed_can_stand_outside_of_the_function(tmp_path):
+    road = pc.RoadSegment(300.0).friction(0.5)
+    place = pc.Pose(5.0, 0.0)
+    car = pc.AutonomousVehicle(place).speed(10.0)
+    other = pc.Mover("other", "van", pc.Path.straight(pc.Pose(60.0, 0.0), pc.Pose(200.0, 0.0))).speed(4.0).offset(0.5)
+    fog = pc.Environment(fog=0.3, sun=(0.5, 1.0))
+
+    def world(s):
+        s.interval("v", 1.0, 2.0)
+        s.place(road)
+        under_test = s.place(car)
+        s.place(other)
+        s.place(fog)
+        s.require("x", pc.never(under_test.collides()))
+
+    verdicts, errors = errors_of(world, tmp_path / "run")
+    assert errors == [] and verdicts["error"] == 0
+
+
+@pytest.mark.parametrize("use", ["stream", "statement", "monitor", "handle"])
+def test_what_belongs_to_one_world_cannot_stand_outside_of_the_function(tmp_path, use):
+    kept: dict[str, Any] = {}
+    outside = {"stream": pc.Stream.time(), "statement": pc.never(pc.Stream.time() > 100.0)}
+
+    def world(s):
+        s.interval("v", 1.0, 2.0)
+        road, car = street(s)
+        if use == "stream":
+            s.require("x", pc.never((outside["stream"] + car.speed()) > 100.0))
+        if use == "statement":
+            s.require("x", outside["statement"])
+        if use == "monitor":
+            s.monitor(kept.setdefault("monitor", pc.Monitor.no_collision(car)))
+        if use == "handle":
+            kept.setdefault("road", road).on_lane(1, 10.0)
+
+    if use in ("stream", "statement"):
+        with pytest.raises(pc.Error, match="outside of the function of the scenario"):
+            errors_of(world, tmp_path / "run")
+    else:
+        with pytest.raises(pc.Error, match="belongs to the world of an earlier test"):
+            declared(world)
+
+
+def test_the_collector_of_python_may_drop_handles_in_any_thread(tmp_path):
+    program = """
+        import gc, threading
+        import paracosm as pc
+
+        @pc.scenario
+        def world(s):
+            speed = s.interval("v", 1.0, 2.0)
+            road = s.place(pc.RoadSegment(300.0))
+            car = s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(10.0))
+            cycle = {"car": car, "speed": speed, "slow": car.speed() < 100.0}
+            cycle["self"] = cycle
+            s.require("x", pc.always(cycle["slow"]))
+
+        gc.disable()
+        print(pc.Study(world, budget=40).run("run", executor=2).verdicts["pass"])
+        threading.Thread(target=gc.collect).start()
+    """
+    (tmp_path / "cycles.py").write_text(textwrap.dedent(program))
+    ran = subprocess.run([sys.executable, "-W", "ignore:no effect", "cycles.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, "40\n", "")
+
+
+def test_a_requirement_that_a_later_test_does_not_state_is_no_pass(tmp_path):
+    tests = iter(range(1000))
+
+    def world(s):
+        s.interval("v", 1.0, 2.0)
+        _, car = street(s)
+        if next(tests) < 3:
+            s.require("slow", pc.never(car.speed() > 100.0))
+        s.require("forward", pc.never(car.speed() < -1.0))
+
+    verdicts, errors = errors_of(world, tmp_path / "run")
+    assert verdicts["error"] >= 3 and verdicts["error"] == len(errors)
+    assert all("one side only: slow" in error for error in errors)
+
+
+def test_a_name_of_any_length_is_described(fuzz, tmp_path):
+    name = "v" * 70_000
+    (tmp_path / "long.py").write_text(textwrap.dedent(CROSSING).replace('"speed"', f'"{name}"'))
+    described = fuzz("describe", "long.py")
+    assert described.returncode == 0 and name in described.stdout
+
+
+HELPER = """
+    import functools
+    import paracosm as pc
+
+    def slowly(build):
+        def slow(s):
+            build(s)
+        return slow
+
+    def of_speed(speed):
+        def world(s):
+            s.interval("v", 1.0, 2.0)
+            road = s.place(pc.RoadSegment(300.0))
+            s.place(pc.AutonomousVehicle(road.on_lane(1, 10.0)).speed(speed))
+        return world
+
+    class World:
+        '''A world of an object.'''
+        def __call__(self, s):
+            of_speed(5.0)(s)
+
+    def with_speed(s, speed):
+        of_speed(speed)(s)
+"""
+
+
+def test_partial_functions_objects_and_decorated_functions_are_scenarios_of_the_file_that_names_them(fuzz, tmp_path):
+    (tmp_path / "helper.py").write_text(textwrap.dedent(HELPER))
+    scenarios = """
+        import functools
+        import paracosm as pc
+        from helper import World, of_speed, slowly, with_speed
+
+        @pc.scenario
+        @slowly
+        def decorated(s):
+            of_speed(4.0)(s)
+
+        fast = pc.scenario(name="fast")(of_speed(9.0))
+        partial = pc.scenario(functools.partial(with_speed, speed=3.0))
+        called = pc.scenario(World())
+    """
+    (tmp_path / "several.py").write_text(textwrap.dedent(scenarios))
+    found = fuzz("describe", "several.py:nothing")
+    assert "several.py has 4" in found.stderr or "the file has slow, fast, with-speed, World" in found.stderr
+    ran = fuzz("run", "several.py:World", "--budget", "2", "--out", "out")
+    assert ran.returncode == 0, ran.stderr
+    assert json.loads((tmp_path / "out" / "campaign.json").read_text())["scenario"] == "several.py:World"
+
+
+def test_two_scenarios_of_a_file_need_two_names(fuzz, tmp_path):
+    (tmp_path / "helper.py").write_text(textwrap.dedent(HELPER))
+    twice = "import paracosm as pc\nfrom helper import of_speed\none = pc.scenario(of_speed(1.0))\nother = pc.scenario(of_speed(2.0))\n"
+    (tmp_path / "twice.py").write_text(twice)
+    found = fuzz("describe", "twice.py")
+    assert found.returncode == 2 and "twice.py has two scenarios called `world`" in found.stderr
+
+
+def test_a_scenario_of_a_notebook_cannot_take_a_name_of_the_catalogue():
+    space: dict[str, Any] = {"pc": pc}
+    with pytest.raises(pc.Error, match="the catalogue has a scenario `cut-in`"):
+        exec("@pc.scenario\ndef cut_in(s): pass", space)
+
+
+@pytest.mark.parametrize(
+    ("use", "message"),
+    [
+        (lambda s, speed: speed**2, "streams have no `**`: write `a * a`"),
+        (lambda s, speed: speed % 2, "streams have no `%`"),
+        (lambda s, speed: max(speed, 3.0), "`a.max(b)`"),
+        (lambda s, speed: speed + 10**400, "an integer that is too large"),
+        (lambda s, speed: s.choice("c", "abc"), "the values of parameter `c` are 'abc', expected a list"),
+        (lambda s, speed: s.intervall("c", 1, 2), "did you mean `interval`?"),
+        (lambda s, speed: pc.RoadSegment(10).lanes(2.5), "while processing 'lanes'"),
+    ],
+)
+def test_a_wrong_word_or_type_is_an_error_that_says_what_to_write(use, message):
+    def world(s):
+        s.interval("v", 1.0, 2.0)
+        _, car = street(s)
+        use(s, car.speed())
+
+    with pytest.raises(pc.Error) as error:
+        declared(world)
+    assert message in str(error.value)
+
+
+def test_what_a_function_of_a_stream_raises_is_the_error_of_the_test(tmp_path):
+    def world(s):
+        s.interval("v", 1.0, 2.0)
+        _, car = street(s)
+        s.require("x", pc.never(car.speed().map(lambda speed: 1 / 0) > 3.0))
+
+    _, errors = errors_of(world, tmp_path / "run")
+    assert errors and all(error.startswith("ZeroDivisionError: division by zero (test_scenarios.py, line") for error in errors)

@@ -64,6 +64,66 @@ def test_a_report_has_the_columns_of_the_table_of_trials(report):
                 assert float(cell) == value, name
 
 
+def test_the_rows_of_the_trials_are_the_lines_of_the_log(report):
+    lines = [json.loads(line) for line in (report.folder / "trials.jsonl").read_text().splitlines()]
+    for line in lines:
+        del line["study"]
+    trials = report.trials
+    assert list(trials) == lines == [trials[index] for index in range(60)] and trials[-1] == lines[-1]
+    assert [trial.index for trial in report] == list(range(60))
+    assert [(trial.metrics, trial.ticks) for trial in report] == [(line["metrics"], line["ticks"]) for line in lines]
+    with pytest.raises(IndexError):
+        trials[60]
+    with pytest.raises(KeyError, match="did you mean `speed`"):
+        trials["sped"]
+
+
+def test_the_documentation_of_a_study_names_all_choices():
+    with pytest.raises(pc.Error, match="the choices are (.*)$") as error:
+        pc.Study(nothing=1)  # type: ignore[call-arg]
+    choices = str(error.value).rpartition("the choices are ")[2].split(", ")
+    assert len(choices) > 20 and [name for name in choices if f"`{name}`" not in (pc.Study.__doc__ or "")] == []
+
+
+def test_a_study_runs_or_extends_the_tests_of_a_file(fuzz, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tests.csv").write_text("speed,distance\n2.0,20.0\n4.0,18.0\n")
+    study = pc.Study("pedestrian-crossing", driver="aeb", budget=8)
+    for option in ("tests", "extend"):
+        report = study.run(option, **{option: "tests.csv"})
+        budget = ("--budget", "8") if option == "extend" else ()
+        there = fuzz("--driver", "aeb", *budget, f"--{option}", "tests.csv", "--out", f"{option}-there")
+        assert there.returncode == 0, there.stderr
+        assert (tmp_path / option / "trials.jsonl").read_bytes() == (tmp_path / f"{option}-there" / "trials.jsonl").read_bytes()
+        assert len(report) == {"tests": 2, "extend": 8}[option]
+    with pytest.raises(pc.Error, match="tests and extend exclude each other"):
+        study.run(tmp_path / "both", tests=tmp_path / "tests.csv", extend=tmp_path / "tests.csv")
+    with pytest.raises(pc.Error, match="no column"):
+        (tmp_path / "other.csv").write_text("sped\n1\n")
+        study.run(tmp_path / "other", tests=tmp_path / "other.csv")
+
+
+def test_a_file_of_openscenario_has_an_ego_a_duration_and_ranges(fuzz, tmp_path):
+    assert fuzz("cut-in", "--budget", "2", "--out", "logged", "-q").returncode == 0
+    assert fuzz("export", "logged", "1", "--out", "written", "--ego-as", "controller").returncode == 0
+    scenario = next((tmp_path / "written").glob("*.xosc"))
+    pc.Study(scenario, duration=3.0).run(tmp_path / "short")
+    assert json.loads((tmp_path / "short" / "campaign.json").read_text())["fixed"]["run_duration"] == 3.0
+    with pytest.raises(pc.Error, match="Nobody"):
+        pc.Study(scenario, ego="Nobody").run(tmp_path / "nobody")
+    with pytest.raises(pc.Error, match="no open range with a step"):
+        pc.Study(scenario, continuous=True)
+    with pytest.raises(pc.Error, match="no.glb"):
+        pc.Study("cut-in", models={"car": "no.glb"}, budget=2).run(tmp_path / "models")
+
+
+def test_notes_of_the_programs_are_warnings(tmp_path):
+    with pytest.warns(UserWarning, match="spec-1: .* counts at the beginning of a run alone"):
+        pc.Study("cut-in", spec="car.speed < 50", budget=2).run(tmp_path / "out")
+    with pytest.warns(UserWarning, match="no effect: fog"):
+        pc.Study("cut-in", driver="cruise", open=["fog"], budget=2).run(tmp_path / "fog")
+
+
 def test_a_failure_is_replayed_as_arrays(report):
     failing = report.failures
     assert failing and all(trial.verdict == "fail" for trial in failing)
@@ -124,6 +184,8 @@ def test_a_question_that_has_no_answer_is_an_exception(report, call, words):
 def test_a_report_shows_itself_in_a_notebook_and_as_a_page(report, tmp_path):
     shown = report._repr_html_()
     assert "data:image/svg+xml;base64," in shown and "<svg" not in shown and "pedestrian-crossing" in shown
+    modes = report.modes["modes"]
+    assert modes and all(f"such as test {mode['representative']}: {mode['words']}" in shown for mode in modes)
     report.page(tmp_path / "report.html", max_mb=2)
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert page.lstrip().lower().startswith("<!doctype html>") and len(page) < 2e6

@@ -2,6 +2,7 @@
 
 use crate::write_up::as_text;
 use paracosm_campaign::{Artefact, Error, Log, Metric, Trial};
+use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 use std::hash::Hash;
 
@@ -38,15 +39,12 @@ impl Artefact for TrialTable<'_> {
 fn csv(table: &TrialTable) -> Vec<u8> {
     let (study, trials) = (table.0.study(), table.0.trials());
     let (ids, metrics) = (table.requirements(), table.metrics());
-    let mut csv = csv::Writer::from_writer(Vec::new());
     let parameters = study.space().coordinates().map(|coordinate| coordinate.name());
     let requirements = ids.iter().map(|id| format!("robustness.{id}"));
     let header = ["index".to_owned()].into_iter().chain(parameters).chain(["verdict".to_owned()]);
     let header = header.chain(requirements).chain(metrics.iter().map(|name| as_text(&format!("metric.{name}"))));
     let header = header.chain(["ticks", "trace_hash", "error"].map(str::to_owned));
-    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
-    write(header.collect());
-    for trial in trials {
+    let row = |trial: &Trial| {
         let measured: BTreeMap<String, Metric> = trial.metrics().into_iter().collect();
         let mut row = vec![trial.index.to_string()];
         row.extend(trial.test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string));
@@ -58,8 +56,20 @@ fn csv(table: &TrialTable) -> Vec<u8> {
         row.push(trial.ticks.to_string());
         row.push(trial.trace_hash.clone().unwrap_or_default());
         row.push(as_text(trial.error().unwrap_or_default()));
-        write(row);
-    }
+        row
+    };
+    let parts = trials.par_chunks(TOGETHER).map(|trials| written(trials.iter().map(row)));
+    let parts: Vec<Vec<u8>> = parts.collect();
+    [written([header.collect()]), parts.concat()].concat()
+}
+
+/// The number of rows that a thread writes together.
+const TOGETHER: usize = 4096;
+
+/// Writes rows of one length.
+fn written(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8> {
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    rows.into_iter().for_each(|row| csv.write_record(row).expect("rows of one length fit into memory"));
     csv.into_inner().expect("memory does not fail to flush")
 }
 

@@ -113,6 +113,15 @@ impl Space {
         Self { parameters: (1..=dims).map(axis).collect(), constraints: Vec::new(), levels: Levels::of(dims) }
     }
 
+    /// Returns the space of the discrete parameters, with the constraints that mention no other parameter.
+    pub fn discrete_part(&self) -> Self {
+        let discrete = self.parameters.iter().filter(|parameter| parameter.levels().is_some()).cloned().collect();
+        let part = Self::new(discrete).expect("some parameters of a space are a space");
+        let own =
+            |part: Self, constraint: &Constraint| part.clone().with_constraints([constraint.text()]).unwrap_or(part);
+        self.constraints.iter().fold(part, own)
+    }
+
     /// Returns the parameters of the space in their order.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters

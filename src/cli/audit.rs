@@ -9,6 +9,7 @@ use super::progress::bar;
 use super::replay::draw;
 use super::subject::Subject;
 use super::{Failure, Status, Verbosity, on_interrupt, print, usage};
+use crate::notes::notes_before;
 use crate::standards::openscenario::value_sets;
 use clap::Args;
 use paracosm_analysis::audit::{
@@ -135,7 +136,7 @@ impl Options {
             audit = audit.mutants(Screen::of(&study, self.mutants, self.screen, self.seed, &runs)?);
         }
         let audit = audit.runs(runs);
-        self.subject.note_before(&study, verbosity)?;
+        notes_before(&study)?.iter().for_each(|note| verbosity.note(note));
         let (mut folder, mut tried) = AuditFolder::open(&self.out, &audit, self.resume)?;
         let bar = bar(verbosity, self.mutants);
         bar.inc(tried.len() as u64);

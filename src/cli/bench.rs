@@ -8,6 +8,7 @@ use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, program};
 use crate::generators::Strategy;
 use crate::generators::functions::Function;
+use crate::notes::notes_before;
 use crate::space::{did_you_mean, nearest};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -191,7 +192,7 @@ impl Options {
 
     fn study(&self, subject: &Subject, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Study, Error> {
         let study = subject.study(catalogue, verbosity)?.build()?;
-        subject.note_before(&study, verbosity)?;
+        notes_before(&study)?.iter().for_each(|note| verbosity.note(note));
         Ok(study)
     }
 

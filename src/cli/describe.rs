@@ -6,6 +6,7 @@ use super::subject::Subject;
 use super::{Failure, Status, Verbosity, print};
 use crate::engine::{self, signal::SignalAbout};
 use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup};
+use crate::notes::unjudged;
 use crate::oracles::signal;
 use crate::space::{Domain, Value};
 use crate::standards::opendrive;
@@ -37,7 +38,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
         let study = self.subject.study(catalogue, verbosity)?.maybe_one_test().build()?;
-        self.subject.note_unjudged(&study, verbosity);
+        unjudged(&study).iter().for_each(|note| verbosity.note(note));
         let program = study.program()?;
         let declaration = program.declare()?;
         if let Some(file) = &self.draw {

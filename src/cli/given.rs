@@ -1,19 +1,11 @@
 //! Strategies on the command line that are sets of points in files: `mine=folder/*.csv`.
 
 use super::usage;
-use crate::generators::{Look, MarkShape, PointSets, Strategy};
+use crate::generators::{Look, PointSets, Strategy};
 use crate::space::Point;
 use paracosm_campaign::{Error, TestSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
-
-/// The looks of such strategies in figures, one after the other.
-const LOOKS: [Look; 4] = [
-    Look::hollow(0x00_0000, MarkShape::Square),
-    Look::hollow(0x77_3399, MarkShape::Diamond),
-    Look::hollow(0x99_6600, MarkShape::Tip),
-    Look::hollow(0x66_6666, MarkShape::Triangle),
-];
 
 /// Reads the strategies of a list. `strategy` reads the name of a strategy that comes with the software. `targets` has the names of the
 /// continuous coordinates of each target: if a file names its columns, the columns take the order of these names.
@@ -25,7 +17,7 @@ pub(super) fn strategies(
     targets: &[Vec<String>],
     strategy: impl Fn(&str) -> Result<Strategy, Error>,
 ) -> Result<Vec<Strategy>, Error> {
-    let mut looks = LOOKS.into_iter().cycle();
+    let mut looks = Look::OTHERS.into_iter().cycle();
     let mut one = |name: &String| match name.split_once('=') {
         None => strategy(name),
         Some((name, _)) if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c)) => {

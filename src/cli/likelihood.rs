@@ -6,6 +6,7 @@ use super::progress::bar;
 use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, perceiver, print};
+use crate::notes::notes_before;
 use crate::space::{Distribution, Domain, Parameter, Record};
 use clap::Args;
 use paracosm_analysis::likelihood::{Likelihood, Method, Question, of_study};
@@ -123,7 +124,7 @@ impl Options {
             study = study.distribute(name, distribution);
         }
         let study = study.build()?;
-        self.subject.note_before(&study, verbosity)?;
+        notes_before(&study)?.iter().for_each(|note| verbosity.note(note));
         Ok(study)
     }
 }

@@ -3,7 +3,7 @@
 mod markdown;
 mod standards;
 
-use super::output::{digits, domain_words, json, value_words};
+use super::output::{column, digits, domain_words, json, value_words};
 use super::{Failure, Status, print};
 use crate::campaign::study::ListedDriver;
 use crate::engine::driver::Setting;
@@ -103,7 +103,7 @@ fn table(lists: &Lists, kinds: &[ListKind]) -> Result<String, Failure> {
             | ListKind::Opendrive
             | ListKind::Openscenario => {
                 let named = named(lists, *kind);
-                let width = named.iter().map(|(name, _)| name.len() + 1).max().unwrap_or_default().max(22);
+                let width = column(named.iter().map(|(name, _)| name.len() + 1).max().unwrap_or_default().max(22));
                 for (name, about) in named {
                     writeln!(text, "  {name:<width$}{about}")?;
                 }
@@ -163,7 +163,7 @@ const COLUMNS: [usize; 3] = [20, 12, 6];
 /// Returns the widths of the columns for this scenario.
 fn widths(declaration: &Declaration) -> [usize; 3] {
     let longest = |of: &dyn Fn(&Declared) -> usize| declaration.parameters.iter().map(of).max().unwrap_or(0);
-    let width = |i: usize| COLUMNS[i].max(1 + longest(&|declared| scenario_words(declared)[i].chars().count()));
+    let width = |i: usize| column(COLUMNS[i].max(1 + longest(&|declared| scenario_words(declared)[i].chars().count())));
     [0, 1, 2].map(width)
 }
 

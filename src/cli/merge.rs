@@ -40,14 +40,15 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Status, Failure> {
-        let log = merge(&self.out, &self.shards, catalogue, &self.trust.trust())?;
+        let (folder, log) = merge(&self.out, &self.shards, catalogue, &self.trust.trust())?;
+        let (study, extension) = (log.study().clone(), log.extension().cloned());
         let supervision = verbosity.supervision();
         on_interrupt(supervision.stop.clone());
         let program = program::called();
-        let runner = Runner::new(log.study()).resuming().until(supervision).program(&program);
-        let runner = log.extension().into_iter().fold(runner, Runner::extending);
+        let runner = Runner::new(&study).until(supervision).program(&program);
+        let runner = extension.iter().fold(runner, Runner::extending);
         let runner = if self.junit { runner.with_junit() } else { runner };
-        let report = runner.run_into(&self.out, &mut [])?;
+        let report = runner.complete(folder, log.into_trials())?;
         let printed = report::Printed { report: &report, out: &self.out, program: &program, locate: false };
         print(&match self.form.format {
             Format::Table => printed.table(),

@@ -1,9 +1,9 @@
 //! `paracosm-fuzz monitor`: evaluates formulas on a trace, sample by sample.
 
 use super::output::{Format, FormatOption, Table, digits, json, plural};
-use super::subject::note_at_begin;
 use super::usage;
 use super::{Failure, Status, Verbosity, print};
+use crate::notes::only_at_begin;
 use crate::oracles::{Cause, Evaluation, Formula, Monitor, Semantics, Trace, Truth};
 use clap::Args;
 use paracosm_campaign::files::Lines;
@@ -70,7 +70,7 @@ impl Options {
         for (i, text) in self.spec.iter().enumerate() {
             let formula = text.parse().map_err(|error| usage(format!("--spec {text}: {error}")))?;
             let id = format!("spec-{}", i + 1);
-            note_at_begin(&id, Some(&formula), verbosity);
+            only_at_begin(&id, Some(&formula)).iter().for_each(|note| verbosity.note(note));
             asked.push(Asked { id, formula, monitor: None, decided_at: None });
         }
         let source: Box<dyn Read> = if self.trace.as_os_str() == "-" {

@@ -81,7 +81,7 @@ impl Table {
             Line::Text(_) => 0,
             Line::Row(label, _) => label.chars().count() + 1,
         });
-        let width = labels.fold(LABEL, usize::max);
+        let width = column(labels.fold(LABEL, usize::max));
         let mut text = String::new();
         for line in &self.lines {
             let _ = match line {
@@ -239,6 +239,14 @@ pub(super) fn domain_words(domain: &Domain) -> String {
         Domain::Interval { lo, hi } => format!("{lo}..{hi}"),
         Domain::Choice(levels) => levels.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
     }
+}
+
+/// The widest column of a table. A longer cell stands out of its column.
+const WIDEST: usize = 100;
+
+/// Returns the width of a column for a longest cell.
+pub fn column(longest: usize) -> usize {
+    longest.min(WIDEST)
 }
 
 /// Prints a value of a parameter, its numbers with five digits. A long list is shortened to its first values and its

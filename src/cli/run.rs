@@ -10,6 +10,7 @@ use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, program, report};
 use crate::generators::{GeneratorError, Purpose, Strategy};
+use crate::notes::notes_before;
 use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
@@ -215,7 +216,7 @@ impl Options {
         let study = prepare(self.subject.study(catalogue, verbosity)?)?.sampling(self.sampling()?);
         let study = self.reference.iter().fold(study, |study, name| study.reference(name)).maybe_one_test().build()?;
         note_one_test(&study, verbosity);
-        self.subject.note_before(&study, verbosity)?;
+        notes_before(&study)?.iter().for_each(|note| verbosity.note(note));
         let file = self.tests.as_ref().or(self.extend.as_ref());
         let extension = file.map(|path| Extension::read(path, &study)).transpose()?;
         let study = match extension.as_ref().filter(|_| study.runs_given_tests()) {
@@ -289,6 +290,7 @@ impl Options {
         let Sampling { seed, skip, k, epsilon, .. } = self.sampling;
         let strategy = self.strategy()?;
         Ok(paracosm_campaign::Sampling {
+            own: None,
             strategy,
             discrete: self.sampling.family()?,
             k,

@@ -4,22 +4,20 @@ use super::Verbosity;
 use super::arguments::{REQUIRED, TESTED};
 use super::system::System;
 use super::usage;
-use crate::campaign;
 use crate::engine::vehicle::VehicleModel;
-use crate::oracles::{Formula, Semantics};
-use crate::space::{Domain, Value, did_you_mean, nearest};
+use crate::oracles::Semantics;
+use crate::space::{Domain, Value};
 use crate::standards::openscenario::{DURATION, EGO};
 use clap::Args;
-use paracosm_analysis::effects::{foreseen, foreseen_fixed};
 use paracosm_campaign::study::Variation;
-use paracosm_campaign::{Catalogue, Error, StatedRequirement, Study, StudyBuilder};
+use paracosm_campaign::{Catalogue, Error, Study, StudyBuilder};
 use std::path::Path;
 use std::path::PathBuf;
 
 /// The options of the system under test and its world.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Subject {
-    /// A scenario, or a file of one (.xosc)
+    /// A scenario, or a file of one (.xosc, .py)
     ///
     /// `paracosm-fuzz list scenarios` shows all scenarios.
     #[arg(default_value = "pedestrian-crossing")]
@@ -179,54 +177,6 @@ impl Subject {
             (None, None) => study,
         };
         self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
-    }
-
-    /// Prints the notes on the study before its tests: the remarks on the worlds, and the requirements that are not judged.
-    pub fn note_before(&self, study: &Study, verbosity: Verbosity) -> Result<(), Error> {
-        study.notes()?.iter().for_each(|note| verbosity.note(note));
-        let unread = foreseen(study)?;
-        if !unread.is_empty() {
-            let (names, driver) = (unread.join(", "), study.subject().scenario()?.driver().name());
-            verbosity.note(format_args!("no effect: {names}: read by neither the world nor the driver `{driver}`"));
-        }
-        let changed = foreseen_fixed(study)?;
-        if !changed.is_empty() {
-            let (names, driver) = (changed.join(", "), study.subject().scenario()?.driver().name());
-            verbosity.note(format_args!(
-                "no effect: the given values of {names}: read by neither the world nor the driver `{driver}`"
-            ));
-        }
-        if study.requirements().is_empty() {
-            verbosity.note("there is no requirement, so every test passes; --spec or --requirements states one");
-        }
-        self.note_unjudged(study, verbosity);
-        for requirement in study.given() {
-            note_at_begin(&requirement.id, requirement.formula.as_ref(), verbosity);
-        }
-        Ok(())
-    }
-
-    /// Prints a note for each requirement of a file that is not judged, because its name may be misspelled.
-    pub fn note_unjudged(&self, study: &Study, verbosity: Verbosity) {
-        if self.requirements.is_none() || matches!(study.subject(), campaign::Subject::System(_)) {
-            return;
-        }
-        let (judged, unjudged): (Vec<_>, Vec<_>) = study.requirements().iter().partition(|r| r.formula.is_some());
-        for StatedRequirement { id, .. } in unjudged {
-            let meant = did_you_mean(&nearest(id, judged.iter().map(|requirement| requirement.id.as_str())));
-            verbosity.note(format_args!(
-                "requirement `{id}` is not judged: it has no formula, and the scenario has no requirement of this name{meant}"
-            ));
-        }
-    }
-}
-
-/// Notes the part of a formula that counts at the beginning of a run alone.
-pub(super) fn note_at_begin(id: &str, formula: Option<&Formula>, verbosity: Verbosity) {
-    if let Some(part) = formula.and_then(Formula::only_at_begin) {
-        verbosity.note(format_args!(
-            "{id}: `{part}` counts at the beginning of a run alone; `always {part}` is about the whole run"
-        ));
     }
 }
 

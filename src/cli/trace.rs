@@ -1,7 +1,7 @@
 //! `paracosm-fuzz trace`: shows each requirement with its tests, and what is untested.
 
 use super::draw::{FileKind, Target};
-use super::output::{Format, FormatOption, Table, digits, json, plural};
+use super::output::{Format, FormatOption, Table, column, digits, json, plural};
 use super::trust::read_results;
 use super::{Failure, Status, Verbosity, odd, print};
 use clap::Args;
@@ -62,7 +62,7 @@ fn table(study: &Study, traceability: &Traceability, effects: Option<&Effects>) 
     let broke = if *broken > 0 { format!(", {broken} of them broke or could not be built") } else { String::new() };
     table.heading(&format!("{title}: {}{broke}", plural(*tests, "test")));
     let rows: Vec<[String; 8]> = [HEADER.map(str::to_owned)].into_iter().chain(requirements.iter().map(row)).collect();
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let width = |index: usize| column(rows.iter().map(|row| row[index].chars().count()).max().unwrap_or(0));
     let widths: [usize; 8] = std::array::from_fn(width);
     for row in &rows {
         let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();

@@ -15,7 +15,7 @@ use crate::xml::ReadError;
 use paracosm_engine::road::{LaneId, LaneKind, Path, RoadError, RoadNetwork, RoutePosition, grid_city};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{
-    AutonomousVehicle, Environment, EnvironmentCars, Monitor, Pose, Program, Roadside, Scenario, Weather,
+    AutonomousVehicle, Environment, EnvironmentCars, FilesRead, Monitor, Pose, Program, Roadside, Scenario, Weather,
 };
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
@@ -63,7 +63,7 @@ pub fn map_traffic() -> Program {
     Program::of("map-traffic", about, move |s| build(&known, s)).of_files([ROADS.to_owned()], move |test| {
         let file = test.get(ROADS)?.to_string();
         let read = if file == TOWN { None } else { read(&reads, &file).ok() }?;
-        Some(format!("{:032x}", xxh3_128(read.text.as_bytes())))
+        Some(FilesRead { hash: format!("{:032x}", xxh3_128(read.text.as_bytes())), paths: vec![file.into()] })
     })
 }
 

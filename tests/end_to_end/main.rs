@@ -39,6 +39,7 @@ mod mcap;
 mod mixed_space;
 mod monitor;
 mod networks;
+mod optimise;
 #[cfg(unix)]
 mod outputs;
 mod page;
@@ -51,6 +52,7 @@ mod points;
 mod python;
 mod python_package;
 mod races;
+mod records;
 mod reference_drivers;
 mod repeat;
 mod requirements;

@@ -153,6 +153,7 @@ fn a_page_shows_what_changed_since_a_baseline() {
     let Some(seen) = seen(&page, "look") else { return };
     let text = seen["text"].as_str().unwrap();
     assert!(text.contains("new failures: 1") && text.contains("mended: 7"), "{text}");
+    assert!(text.contains("Since pedestrian-crossing, driver aeb: 1 new failure, 7 mended, "), "{text}");
 }
 
 /// The findings of a page by their labels.
@@ -162,6 +163,20 @@ pub fn findings(page: &Path) -> Vec<Value> {
         print(json.dumps(json.loads(gzip.decompress(base64.b64decode(part)))['findings']))";
     let output = Command::new("python3").args(["-c", script]).arg(page).output().expect("python3 starts");
     serde_json::from_slice(&succeeds(output).stdout).expect("JSON")
+}
+
+#[test]
+fn a_page_gives_no_sensitivity_to_a_parameter_without_effect() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--open", "fog", "--driver", "aeb", "--budget", "100", "--out", "out", "-q"]));
+    let all = findings(&report(dir.path(), &[]));
+    let sensitivity = all.iter().find(|finding| finding["label"] == "sensitivity").unwrap();
+    let rows: Vec<&str> =
+        sensitivity["table"]["rows"].as_array().unwrap().iter().map(|row| row[0].as_str().unwrap()).collect();
+    assert!(!rows.is_empty() && !rows.contains(&"fog"), "{rows:?}");
+    let says = "Left out, because they had no effect: fog. The model gives fog a total share of ";
+    let lines = sensitivity["lines"].as_array().unwrap();
+    assert!(lines.iter().any(|line| line.as_str().unwrap().starts_with(says)), "{lines:?}");
 }
 
 #[test]
@@ -267,6 +282,8 @@ fn an_infinite_robustness_and_a_single_parameter_are_shown() {
     assert_eq!(seen["errors"], Value::Array(Vec::new()));
     let text = seen["text"].as_str().unwrap();
     assert!(text.contains("infinite in test"), "{text}");
+    let says = "There is no failure map: a map needs two open continuous parameters, and this study has one.";
+    assert!(text.contains(says), "{text}");
 }
 
 /// The sources of the page's program and its build, which the repository has. Without npm they cannot be compared.

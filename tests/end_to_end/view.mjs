@@ -1,5 +1,5 @@
 // Opens the page of a viewer in a browser, uses it, and prints what it saw as JSON. Arguments: the folder of playwright-core, the browser, the
-// address, and `use` or `follow`.
+// address, and `use`, `maps` or `follow`.
 import { createRequire } from "node:module";
 
 const [modules, browserPath, address, task] = process.argv.slice(2);
@@ -14,14 +14,13 @@ await page.goto(address);
 await page.waitForSelector("main[data-ready]", { timeout: 30000 });
 seen.headline = await page.textContent(".headline");
 
-/** The outcome of the new test that the dialog shows, once it is another one than before. */
+/** The outcome of the new test that the dialog shows, once it is another one than before. It is read at one moment: a slider that is dragged runs many tests. */
 async function outcome(before) {
-  await page.waitForFunction((old) => (document.querySelector("dialog .values")?.textContent ?? old) !== old, before, { timeout: 20000 });
-  return {
-    verdict: await page.textContent("dialog h2"),
-    values: await page.textContent("dialog .values"),
-    hash: await page.textContent("dialog .hash"),
-  };
+  const shown = await page.waitForFunction((old) => {
+    const [verdict, values, hash] = ["h2", ".values", ".hash"].map((part) => document.querySelector(`dialog ${part}`)?.textContent);
+    return (values ?? old) !== old && { verdict, values, hash };
+  }, before, { timeout: 20000 });
+  return shown.jsonValue();
 }
 
 /** Clicks an empty place of the map. */
@@ -108,6 +107,14 @@ if (task === "use") {
   for (let i = 0; i < 8; i++) await wheel(-600);
   await clickNowhere();
   seen.zoomed = (await outcome(seen.middle)).values;
+} else if (task === "maps") {
+  // The page has one map, and asks for the others.
+  const shade = () => page.waitForFunction(() => document.querySelector("#map .note").textContent.includes("Shade"), undefined, { timeout: 30000 }).then(() => true);
+  seen.shaded = [await shade()];
+  const shown = await page.locator("#x-axis, #y-axis").evaluateAll((axes) => axes.map(({ value }) => value));
+  const other = ["0", "1", "2", "3"].find((at) => !shown.includes(at));
+  await page.selectOption("#y-axis", other);
+  seen.shaded.push(await shade());
 } else {
   const tests = async () => Number((await page.textContent(".headline")).replaceAll(",", "").match(/(\d+) tests/)?.[1]);
   seen.counts = [await tests()];

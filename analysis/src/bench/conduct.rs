@@ -91,7 +91,7 @@ type Done<T> = Vec<(Point, T)>;
 /// A target together with the strategy that chooses its tests.
 trait Tested {
     type Outcome: Clone;
-    fn ask(&mut self, n: usize) -> Vec<Point>;
+    fn ask(&mut self, n: usize) -> Result<Vec<Point>, Error>;
     fn run(&mut self, index: usize, test: &Point) -> Result<Self::Outcome, Error>;
     fn tell(&mut self, tests: &[Point], outcomes: &[Self::Outcome]) -> Result<(), Error>;
 }
@@ -108,7 +108,7 @@ fn explore<T: Tested>(
     let mut known = BTreeMap::new();
     let mut idle = 0;
     while done.len() < budget && idle < MOST_IDLE {
-        let tests = tested.ask(batch.min(budget - done.len()));
+        let tests = tested.ask(batch.min(budget - done.len()))?;
         if tests.is_empty() {
             break;
         }
@@ -159,8 +159,8 @@ impl<'a> Studied<'a> {
 impl Tested for Studied<'_> {
     type Outcome = Trial;
 
-    fn ask(&mut self, n: usize) -> Vec<Point> {
-        self.steering.ask(n)
+    fn ask(&mut self, n: usize) -> Result<Vec<Point>, Error> {
+        Ok(self.steering.ask(n)?)
     }
 
     fn run(&mut self, index: usize, test: &Point) -> Result<Trial, Error> {
@@ -184,8 +184,8 @@ struct Computed {
 impl Tested for Computed {
     type Outcome = Option<f64>;
 
-    fn ask(&mut self, n: usize) -> Vec<Point> {
-        self.generator.ask(n)
+    fn ask(&mut self, n: usize) -> Result<Vec<Point>, Error> {
+        Ok(self.generator.ask(n))
     }
 
     fn run(&mut self, _: usize, test: &Point) -> Result<Option<f64>, Error> {
@@ -216,10 +216,11 @@ mod tests {
     impl Tested for Repeating {
         type Outcome = usize;
 
-        fn ask(&mut self, n: usize) -> Vec<Point> {
+        fn ask(&mut self, n: usize) -> Result<Vec<Point>, Error> {
             let rows = [self.asked, self.asked, self.asked + 1].map(|row| row.min(self.last));
             self.asked += 1;
-            rows.into_iter().take(n).map(|row| Point { continuous: vec![], discrete: vec![row] }).collect()
+            let test = |row| Point { continuous: vec![], discrete: vec![row] };
+            Ok(rows.into_iter().take(n).map(test).collect())
         }
 
         fn run(&mut self, _: usize, test: &Point) -> Result<usize, Error> {

@@ -4,6 +4,7 @@ use super::design::{Design, Factor, evaluated, explain, tests_within};
 use super::{Sensitivity, SensitivityFlaw, Source};
 use crate::failure_estimate::failure_model;
 use crate::likelihood::always_hold;
+use paracosm_campaign::reasons::OtherTrace;
 use paracosm_campaign::{Campaign, Error, Log, Problem, Scales, Trial};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Parameter, Point, Space, Values, plural};
@@ -38,6 +39,7 @@ pub fn of_tests(
     let factors = factors(space)?;
     let pairs = tests_within(budget, factors.len())? / (factors.len() + 2);
     let (mut done, mut undecided, mut problem): (usize, usize, Option<Problem>) = (0, 0, None);
+    let changed = changed(log, campaign)?;
     let evaluated = evaluated(&factors, pairs, seed, &mut |points| {
         let tests: Vec<Values> = points.iter().map(|point| space.decode(&space.at_quantiles(point))).collect();
         let mut results = Vec::with_capacity(tests.len());
@@ -56,7 +58,7 @@ pub fn of_tests(
         Ok(results)
     })?;
     let Design { explained, evaluations, pairs, left_out } = evaluated.explained(&factors, problem)?;
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = changed.into_iter().collect();
     if undecided > 0 {
         let tests = plural(undecided, "test");
         let most = Scales::MOST;
@@ -68,6 +70,16 @@ pub fn of_tests(
     }
     let [failure, robustness] = <[_; 2]>::try_from(explained).expect("every test gives both quantities");
     Ok(Sensitivity { source: Source::Tests, evaluations, pairs, failure, robustness: Some(robustness), notes })
+}
+
+/// Runs a test of the log again, and returns a note if it has another trace now: the new tests are then not about the system of the log.
+fn changed(log: &Log, campaign: &Campaign) -> Result<Option<String>, Error> {
+    let Some(logged) = log.trials().iter().find(|trial| trial.trace_hash.is_some()) else { return Ok(None) };
+    let now = campaign.run_test(&logged.test, logged.index)?;
+    let is_same = now.trace_hash == logged.trace_hash;
+    Ok((!is_same).then(|| {
+        format!("{}; the shares describe the present scenario and driver", OtherTrace { index: logged.index })
+    }))
 }
 
 /// Estimates the sensitivity of the study of a log from the model of its failures, without a test. The quantity is the

@@ -10,7 +10,7 @@ use paracosm_engine::Program;
 use paracosm_engine::driver::{Driver, find as find_driver};
 use paracosm_engine::sensor::Cameras;
 use paracosm_engine::vehicle::VehicleModel;
-use paracosm_generators::Strategy;
+use paracosm_generators::{OwnStrategy, Strategy};
 use paracosm_oracles::Semantics;
 #[cfg(feature = "camera")]
 use paracosm_perception::Perceiver;
@@ -315,6 +315,13 @@ impl StudyBuilder {
     /// Sets the strategy that chooses the tests.
     pub fn strategy(mut self, strategy: Strategy) -> Self {
         self.sampling.strategy = strategy;
+        self
+    }
+
+    /// Sets a strategy of the program, such as a search of another package.
+    pub fn own_strategy(mut self, strategy: OwnStrategy) -> Self {
+        self.sampling.strategy = Strategy::OWN;
+        self.sampling.own = Some(strategy);
         self
     }
 

@@ -129,6 +129,23 @@ pub enum DriverFlaw {
         /// The most similar name of a driver; `None` if no name is similar.
         nearest: Option<&'static str>,
     },
+    /// The driver of a study of a file was made by the program that ran the campaign.
+    #[error(
+        "no driver is called `{name}`: the program that ran the campaign made this driver, so give the driver again (in Python \
+         `load(folder, driver=..)`)"
+    )]
+    NotHere {
+        /// The name of the driver.
+        name: String,
+    },
+    /// A driver should take the place of another driver in a study.
+    #[error("found the driver `{found}`, expected `{expected}`, which drove in the campaign")]
+    Another {
+        /// The name of the given driver.
+        found: String,
+        /// The name of the driver of the study.
+        expected: String,
+    },
     /// The driver under test should be its own reference.
     #[error("--reference {name}: the driver under test avoids none of its own failures; name another driver")]
     OwnReference {
@@ -337,6 +354,18 @@ impl DriverChoice {
         Self::external(command, By::Command, self.settings.clone(), timeout)
     }
 
+    /// Returns the choice with the function that makes the driver, which a file does not have.
+    pub(super) fn made_by(
+        &self,
+        name: &str,
+        make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static,
+    ) -> Result<Self, DriverFlaw> {
+        if name != self.name {
+            return Err(DriverFlaw::Another { found: name.to_owned(), expected: self.name.clone() });
+        }
+        Ok(Self { source: Source::Own(Own(Arc::new(make))), ..self.clone() })
+    }
+
     /// Returns the name of the driver, or the address or the command of a driver in an external process.
     pub fn name(&self) -> &str {
         &self.name
@@ -353,7 +382,11 @@ impl DriverChoice {
             Source::Network(network) => network.driver(&self.name),
             Source::Engine => {
                 let built = driver::find(&self.name).and_then(|found: &Descriptor| found.build(&self.changes()));
-                Ok(built.map_err(DriverFlaw::from)?)
+                Ok(built.map_err(|error| match DriverFlaw::from(error) {
+                    // Only a study of a file can have such a driver.
+                    DriverFlaw::Unknown { name, nearest: None } => DriverFlaw::NotHere { name },
+                    flaw => flaw,
+                })?)
             }
             Source::External(_) => Err(DriverFlaw::InAProcess { driver: self.name.clone() }.into()),
         }
@@ -368,7 +401,8 @@ impl DriverChoice {
         Ok(())
     }
 
-    fn changes(&self) -> Vec<(String, f64)> {
+    /// Returns the settings that were changed, or that were given for a driver that is not of the engine.
+    pub fn changes(&self) -> Vec<(String, f64)> {
         self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect()
     }
 

@@ -310,6 +310,22 @@ impl Study {
         self.with_driver(&driver::Wish::own(name, make), &[])
     }
 
+    /// Returns a copy of the study in which the given function makes the driver. The file of a study has only the name and the settings of a
+    /// driver that a program made.
+    ///
+    /// # Errors
+    /// The driver of the study has another name, or the study is that of an external system.
+    pub fn with_own_driver(
+        &self,
+        name: &str,
+        make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static,
+    ) -> Result<Self, Error> {
+        let mut study = self.clone();
+        let simulation = study.subject.scenario_mut()?;
+        simulation.driver = simulation.driver.made_by(name, make)?;
+        Ok(study)
+    }
+
     fn with_driver(&self, wish: &driver::Wish, settings: &[(String, f64)]) -> Result<Self, Error> {
         let mut study = Self { references: Vec::new(), ..self.clone() };
         let simulation = study.subject.scenario_mut()?;

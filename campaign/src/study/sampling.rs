@@ -2,7 +2,7 @@
 
 use crate::Reason;
 use paracosm_coverage::Deadline;
-use paracosm_generators::{Aim, DiscreteFamily, Generator, Purpose, Request, Strategy};
+use paracosm_generators::{Aim, DiscreteFamily, Generator, OwnStrategy, Purpose, Request, Strategy};
 use paracosm_space::{Point, Space};
 use std::fmt;
 use thiserror::Error;
@@ -24,6 +24,8 @@ const ADAPTIVE_BATCH: usize = 16;
 pub struct Sampling {
     /// The strategy that proposes tests.
     pub strategy: Strategy,
+    /// The strategy of the program, for [`Strategy::OWN`].
+    pub own: Option<OwnStrategy>,
     /// The method that makes the rows of discrete values, for example a covering array.
     pub discrete: DiscreteFamily,
     /// The number of parameters whose combinations of values are covered; `None` means two.
@@ -51,6 +53,7 @@ impl Default for Sampling {
     fn default() -> Self {
         Self {
             strategy: Strategy::usual(Purpose::Cover),
+            own: None,
             discrete: DiscreteFamily::default(),
             k: None,
             epsilon: None,
@@ -68,8 +71,8 @@ impl Default for Sampling {
 impl fmt::Display for Sampling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.seed {
-            Some(seed) => write!(f, "{} (seed {seed})", self.strategy),
-            None => write!(f, "{}", self.strategy),
+            Some(seed) => write!(f, "{} (seed {seed})", self.strategy_name()),
+            None => write!(f, "{}", self.strategy_name()),
         }
     }
 }
@@ -97,6 +100,11 @@ impl Sampling {
         }
     }
 
+    /// Returns the name of the strategy, or of the strategy of the program.
+    pub fn strategy_name(&self) -> &str {
+        self.own.as_ref().map_or(self.strategy.name(), OwnStrategy::name)
+    }
+
     /// Returns the number of tests that the strategy proposes at a time; `None` if the study does not set the number.
     pub fn batch_size(&self) -> Option<usize> {
         self.batch.or_else(|| self.strategy.is_adaptive().then_some(ADAPTIVE_BATCH))
@@ -111,7 +119,7 @@ impl Sampling {
     }
 
     /// Returns the request from which a strategy makes a generator of tests in a space, in addition to existing tests.
-    pub fn request<'a>(&self, space: &'a Space, existing: &'a [Point]) -> Request<'a> {
+    pub fn request<'a>(&'a self, space: &'a Space, existing: &'a [Point]) -> Request<'a> {
         Request {
             space,
             budget: self.budget,
@@ -123,6 +131,7 @@ impl Sampling {
             // A campaign has to propose the same tests when it is resumed.
             deadline: Deadline::never(),
             groups: &[],
+            own: self.own.as_ref(),
             rows: None,
             aim: self.aim,
             existing,

@@ -119,7 +119,9 @@ impl Simulation {
     /// Makes the simulation of a program with nominal values and the driver `aeb`. Also returns its open parameters and
     /// its requirements.
     pub(super) fn new(program: Program) -> Result<(Self, Space, Vec<StatedRequirement>), Error> {
-        let Declaration { parameters, requirements, duration, dt, .. } = program.declare()?;
+        let declaration = program.declare()?;
+        let program = program.keeping(&declaration);
+        let Declaration { parameters, requirements, duration, dt, .. } = declaration;
         let (open, closed): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|declared| declared.open);
         let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
         let simulation = Self {
@@ -198,6 +200,9 @@ impl Simulation {
         };
         // If the scenario cannot be declared, the first test reports the reason.
         let declared = self.program().ok().and_then(|program| program.declare().ok());
+        if let (Source::Here(program), Some(declaration)) = (&mut self.program, &declared) {
+            *program = program.keeping(declaration);
+        }
         for declared in declared.into_iter().flat_map(|declaration| declaration.parameters) {
             let name = &declared.parameter.name;
             if !declared.open && self.fixed.get(name).is_none() && open.parameter(name).is_err() {

@@ -7,6 +7,7 @@ pub(crate) use line::Line;
 pub use metric::{Metric, UnknownWord};
 
 use paracosm_engine::driver::FaultKind;
+use paracosm_engine::stream::GivenUp;
 use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation, panic_message};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::{Record, Values};
@@ -61,9 +62,13 @@ impl Problem {
         Self { kind, message: message.into() }
     }
 
-    /// Makes the problem that the run or the perceiver panicked.
+    /// Makes the problem that the run or the perceiver panicked, or that a function of a stream gave up.
     pub(crate) fn panicked(who: &str, panic: &(dyn Any + Send)) -> Self {
-        Self::new(ProblemKind::Panic, format!("the {who} panicked: {}", panic_message(panic)))
+        let message = match panic.downcast_ref() {
+            Some(GivenUp(reason)) => reason.clone(),
+            None => format!("the {who} panicked: {}", panic_message(panic)),
+        };
+        Self::new(ProblemKind::Panic, message)
     }
 
     /// Makes the problem that a system did not answer in time.

@@ -182,6 +182,16 @@ impl Run {
         self.trace.signals()
     }
 
+    /// Returns the trace so far. It is empty once the run is over, because the outcome has it then.
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    /// Returns the requirements of the scenario on the run.
+    pub fn requirements(&self) -> &[Requirement] {
+        &self.requirements
+    }
+
     /// Simulates until the run needs a control or is over.
     ///
     /// # Panics

@@ -13,6 +13,7 @@ use super::{MOST_ROBUSTNESS, normal};
 use crate::seeded::{Purpose, seeded};
 use paracosm_space::{Point, Space};
 use rand::Rng;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// The greatest number of tests that the model sees.
@@ -105,14 +106,13 @@ impl FailureModel {
 
     /// Returns the probability of failure for each of the given tests.
     pub fn probabilities(&self, tests: &[Point]) -> Vec<f64> {
-        let mut probabilities = Vec::with_capacity(tests.len());
-        for tests in tests.chunks(TOGETHER) {
+        let probabilities = tests.par_chunks(TOGETHER).flat_map_iter(|tests| {
             let places = tests.iter().map(|test| place(&self.axes, test)).collect();
             let posterior = self.verdicts.process.posterior(places);
             let one = |index| self.verdicts.failure(posterior.mean(index), posterior.deviation(index));
-            probabilities.extend((0..tests.len()).map(one));
-        }
-        probabilities
+            (0..tests.len()).map(one).collect::<Vec<_>>()
+        });
+        probabilities.collect()
     }
 
     /// Estimates the share of failing tests in each of several groups of tests. All groups have the same size; the
@@ -132,8 +132,7 @@ impl FailureModel {
             return Vec::new();
         }
         let beliefs = self.beliefs(samples, all / samples);
-        let mut shares = Vec::with_capacity(groups.len());
-        for groups in groups.chunks((TOGETHER / all).max(1)) {
+        let shares = groups.par_chunks((TOGETHER / all).max(1)).flat_map_iter(|groups| {
             let places = |tests: Range<usize>| -> Vec<Vec<f64>> {
                 let tests = groups.iter().flat_map(|group| &group[tests.clone()]);
                 tests.map(|(test, _)| place(&self.axes, test)).collect()
@@ -141,15 +140,15 @@ impl FailureModel {
             let posterior = self.verdicts.process.posterior(places(0..all));
             let believed: Vec<Posterior> =
                 beliefs.iter().map(|belief| belief.process.posterior(places(belief.tests.clone()))).collect();
-            for (index, tests) in groups.iter().enumerate() {
+            let share = |(index, tests): (usize, &Vec<(Point, f64)>)| {
                 let failure = |i| self.verdicts.failure(posterior.mean(i), posterior.deviation(i));
                 let failures: Vec<f64> = (index * all..(index + 1) * all).map(failure).collect();
                 let weights: Vec<f64> = tests.iter().map(|(_, weight)| *weight).collect();
-                let group = Group::new(&failures, &weights, samples);
-                shares.push(self.share(&group, index, &beliefs, &believed));
-            }
-        }
-        shares
+                self.share(&Group::new(&failures, &weights, samples), index, &beliefs, &believed)
+            };
+            groups.iter().enumerate().map(share).collect::<Vec<_>>()
+        });
+        shares.collect()
     }
 
     /// Processes with plausible lengths, each for one sample of `size` tests.

@@ -149,7 +149,11 @@ impl Generator for Keeping {
         let mut refused = 0;
         while kept.len() < n && !self.is_exhausted {
             let proposed = self.inner.ask(n - kept.len());
-            self.is_exhausted = proposed.is_empty();
+            if proposed.is_empty() {
+                // A strategy may wait for the results of what it has proposed.
+                self.is_exhausted = kept.is_empty();
+                break;
+            }
             let mut bad = Vec::new();
             for mut point in proposed {
                 if let Some(moved) = self.moved.as_ref().filter(|_| !self.rows.contains(&point.discrete)) {
@@ -173,6 +177,10 @@ impl Generator for Keeping {
 
     fn tell(&mut self, tests: &[Point], robustness: &[Option<f64>]) {
         self.inner.tell(tests, robustness);
+    }
+
+    fn failure(&self) -> Option<String> {
+        self.inner.failure()
     }
 }
 

@@ -27,6 +27,14 @@ pub struct Look {
 }
 
 impl Look {
+    /// The looks of strategies of other programs, one after the other.
+    pub const OTHERS: [Self; 4] = [
+        Self::hollow(0x00_0000, MarkShape::Square),
+        Self::hollow(0x77_3399, MarkShape::Diamond),
+        Self::hollow(0x99_6600, MarkShape::Tip),
+        Self::hollow(0x66_6666, MarkShape::Triangle),
+    ];
+
     /// Makes a look with filled marks and a colour such as `0xd5_5e00`.
     pub const fn filled(colour: u32, shape: MarkShape) -> Self {
         Self { colour: ((colour >> 16) as u8, (colour >> 8) as u8, colour as u8), shape, filled: true }

@@ -2,8 +2,10 @@
 
 use super::building::Building;
 use super::ego::class_of;
+use super::handle::Handle;
 use super::operand::Operand;
 use super::place::{Path, Pose};
+use super::recipe::{Quantity, Recipe};
 use super::stream::Stream;
 use super::wire::each;
 use crate::error::raised;
@@ -11,6 +13,7 @@ use paracosm::engine::object::{Body, VehicleKind};
 use paracosm::engine::{self, Place};
 use paracosm::space::{did_you_mean, nearest};
 use pyo3::prelude::*;
+use std::cell::RefCell;
 
 /// A person on foot, who is not placed yet and stands at a pose.
 #[pyclass(frozen, module = "paracosm")]
@@ -48,55 +51,48 @@ impl Pedestrian {
     /// # Errors
     /// The scenario has noted a mistake.
     pub fn place(&self, building: &Building) -> PyResult<Walker> {
-        let inner = building.with(|scenario| self.inner.clone().place(scenario))?;
-        Ok(Walker { building: building.clone(), inner })
+        let walker = building.with(|scenario| self.inner.clone().place(scenario))?;
+        Ok(Walker(Handle::new(building, walker)))
     }
 }
 
 /// A pedestrian in the world.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct Walker {
-    building: Building,
-    inner: engine::Walker,
-}
+#[pyclass(frozen, module = "paracosm")]
+pub struct Walker(Handle<engine::Walker>);
 
 #[pymethods]
 impl Walker {
     /// Lets the pedestrian walk straight to `target` with a speed in m/s, and stop there. The pedestrian stands while the speed is absent.
     fn walk(&self, target: &Pose, speed: &Bound<PyAny>) -> PyResult<Walk> {
         let speed = Operand::numbers(speed, "speed")?;
-        let inner = self.building.with(|_| self.inner.walk(target.inner, speed))?;
-        Ok(Walk { building: self.building.clone(), inner: std::cell::RefCell::new(Some(inner)) })
+        self.0.made(|walker| RefCell::new(Some(walker.walk(target.inner, speed)))).map(Walk)
     }
 
     /// Returns the position of the pedestrian.
-    fn position(&self) -> Stream {
-        Stream::of(&self.building, self.inner.position())
+    fn position(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Walker::position)
     }
 
     /// Returns the distance that the pedestrian still has to walk, in metres.
-    fn remaining(&self) -> Stream {
-        Stream::of(&self.building, self.inner.remaining())
+    fn remaining(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Walker::remaining)
     }
 
     /// Returns a stream that is true while the pedestrian stands at the target.
-    fn arrived(&self) -> Stream {
-        Stream::of(&self.building, self.inner.arrived())
+    fn arrived(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Walker::arrived)
     }
 }
 
 /// The walk of a pedestrian, which can begin and end by events.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct Walk {
-    building: Building,
-    inner: std::cell::RefCell<Option<engine::Walk>>,
-}
+#[pyclass(frozen, module = "paracosm")]
+pub struct Walk(Handle<RefCell<Option<engine::Walk>>>);
 
 impl Walk {
     fn changed(&self, change: impl FnOnce(engine::Walk) -> engine::Walk) -> PyResult<()> {
-        self.building.with(|_| {
-            let walk = self.inner.take();
-            *self.inner.borrow_mut() = walk.map(change);
+        self.0.with(|own| {
+            let walk = own.take();
+            *own.borrow_mut() = walk.map(change);
         })
     }
 }
@@ -106,126 +102,130 @@ impl Walk {
     /// Lets the walk begin at the first tick at which `event` occurs.
     fn skip_until<'py>(slf: Bound<'py, Self>, event: &Stream) -> PyResult<Bound<'py, Self>> {
         let event = event.wire()?;
-        slf.try_borrow()?.changed(|walk| each!(&event, event => walk.skip_until(event)))?;
+        slf.get().changed(|walk| each!(&event, event => walk.skip_until(event)))?;
         Ok(slf)
     }
 
     /// Lets the walk end at the first tick at which `event` occurs.
     fn take_until<'py>(slf: Bound<'py, Self>, event: &Stream) -> PyResult<Bound<'py, Self>> {
         let event = event.wire()?;
-        slf.try_borrow()?.changed(|walk| each!(&event, event => walk.take_until(event)))?;
+        slf.get().changed(|walk| each!(&event, event => walk.take_until(event)))?;
         Ok(slf)
     }
 }
 
 /// Something that moves along a path, and does not react to others. `body` is a kind ("car", "van", "truck", "bus", "motorcycle", "bicycle",
 /// "adult", "child"), or a class with length, width and height in metres. It stands still until it gets a speed.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct Mover {
-    inner: engine::Mover,
-}
+#[pyclass(frozen, module = "paracosm")]
+pub struct Mover(Recipe<engine::Mover>);
 
 #[pymethods]
 impl Mover {
     #[new]
     fn new(name: &str, body: &Bound<PyAny>, path: &Path) -> PyResult<Self> {
-        Ok(Self { inner: engine::Mover::new(name, body_of(body)?, path.inner.clone()) })
+        let (name, body, path) = (name.to_owned(), body_of(body)?, path.inner.clone());
+        Ok(Self(Recipe::new(move || engine::Mover::new(&name, body, path.clone()))))
     }
 
     /// Makes a passenger car called "other".
     #[staticmethod]
     fn car(path: &Path) -> Self {
-        Self { inner: engine::Mover::car(path.inner.clone()) }
+        Self::on(path, engine::Mover::car)
     }
 
     /// Makes a lorry called "truck".
     #[staticmethod]
     fn truck(path: &Path) -> Self {
-        Self { inner: engine::Mover::truck(path.inner.clone()) }
+        Self::on(path, engine::Mover::truck)
     }
 
     /// Makes a bicycle called "bicycle".
     #[staticmethod]
     fn bicycle(path: &Path) -> Self {
-        Self { inner: engine::Mover::bicycle(path.inner.clone()) }
+        Self::on(path, engine::Mover::bicycle)
     }
 
     /// Returns the object with another name for traces and requirements.
     fn named(&self, name: &str) -> Self {
-        Self { inner: self.inner.clone().named(name) }
+        let name = name.to_owned();
+        Self(self.0.then(move |mover| Ok(mover.named(&name))))
     }
 
     /// Returns the object with the start of its middle, in metres along the path.
     fn starting(&self, at: f64) -> Self {
-        Self { inner: self.inner.clone().starting(at) }
+        Self(self.0.then(move |mover| Ok(mover.starting(at))))
     }
 
     /// Returns the object with a speed along the path in m/s: a number or a stream from 0 on.
     fn speed(&self, speed: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: self.inner.clone().speed(Operand::numbers(speed, "speed")?) })
+        let speed = Quantity::of(speed, "speed")?;
+        Ok(Self(self.0.then(move |mover| Ok(mover.speed(speed.stream()?)))))
     }
 
     /// Returns the object with a distance to the left of the path in metres: a number or a stream, for example for a change of lanes.
     fn offset(&self, offset: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: self.inner.clone().offset(Operand::numbers(offset, "offset")?) })
+        let offset = Quantity::of(offset, "offset")?;
+        Ok(Self(self.0.then(move |mover| Ok(mover.offset(offset.stream()?)))))
     }
 }
 
 impl Mover {
+    fn on(path: &Path, make: impl Fn(engine::road::Path) -> engine::Mover + Send + Sync + 'static) -> Self {
+        let path = path.inner.clone();
+        Self(Recipe::new(move || make(path.clone())))
+    }
+
     /// Places the object in a scenario.
     ///
     /// # Errors
     /// The scenario has noted a mistake.
     pub fn place(&self, building: &Building) -> PyResult<Actor> {
-        let inner = building.with(|scenario| self.inner.clone().place(scenario))?;
-        Ok(Actor { building: building.clone(), inner })
+        let mover = self.0.make()?;
+        Ok(Actor(Handle::new(building, building.with(|scenario| mover.place(scenario))?)))
     }
 }
 
 /// Something in the world that moves along a path.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct Actor {
-    building: Building,
-    inner: engine::Actor,
-}
+#[pyclass(frozen, module = "paracosm")]
+pub struct Actor(Handle<engine::Actor>);
 
 #[pymethods]
 impl Actor {
     /// Gives the object another speed in m/s.
     fn drive(&self, speed: &Bound<PyAny>) -> PyResult<()> {
         let speed = Operand::numbers(speed, "speed")?;
-        self.building.with(|_| self.inner.drive(speed))
+        self.0.with(|actor| actor.drive(speed))
     }
 
     /// Gives the object another distance to the left of the path in metres.
     fn shift(&self, offset: &Bound<PyAny>) -> PyResult<()> {
         let offset = Operand::numbers(offset, "offset")?;
-        self.building.with(|_| self.inner.shift(offset))
+        self.0.with(|actor| actor.shift(offset))
     }
 
     /// Returns the position of the object's middle.
-    fn position(&self) -> Stream {
-        Stream::of(&self.building, self.inner.position())
+    fn position(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Actor::position)
     }
 
     /// Returns the speed of the object in m/s.
-    fn speed(&self) -> Stream {
-        Stream::of(&self.building, self.inner.speed())
+    fn speed(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Actor::speed)
     }
 
     /// Returns the distance that the object has travelled along the path, in metres.
-    fn travelled(&self) -> Stream {
-        Stream::of(&self.building, self.inner.travelled())
+    fn travelled(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Actor::travelled)
     }
 
     /// Returns the distance from the object to the end of its path, in metres.
-    fn remaining(&self) -> Stream {
-        Stream::of(&self.building, self.inner.remaining())
+    fn remaining(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Actor::remaining)
     }
 
     /// Returns a stream that is true while the object stands at the end of its path.
-    fn arrived(&self) -> Stream {
-        Stream::of(&self.building, self.inner.arrived())
+    fn arrived(&self) -> PyResult<Stream> {
+        self.0.stream(engine::Actor::arrived)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::error::raised;
 use crate::system::in_words;
 use crate::value::is_truth;
 use nalgebra::Vector2;
-use paracosm::engine::stream;
+use paracosm::engine::stream::{self, GivenUp};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::panic;
@@ -132,7 +132,7 @@ impl Called {
             busy::calling(py, || call(py, function))
                 .map_err(|error| format!("{}{}", in_words(py, &error), place_of(function)))
         });
-        answered.unwrap_or_else(|why| panic::resume_unwind(Box::new(why)))
+        answered.unwrap_or_else(|why| panic::resume_unwind(Box::new(GivenUp(why))))
     }
 }
 

@@ -7,7 +7,7 @@ use super::wire::each;
 use pyo3::prelude::*;
 
 /// A call of a function of Python at every tick at which a stream has a value.
-#[pyclass(frozen, unsendable, module = "paracosm")]
+#[pyclass(frozen, module = "paracosm")]
 pub struct Effect {
     pub stream: Stream,
     pub called: Called,

@@ -6,14 +6,12 @@ use super::wire::Wire;
 use nalgebra::Vector2;
 use paracosm::engine;
 use pyo3::prelude::*;
-use std::rc::Rc;
 
 /// A stream that is announced.
-#[derive(Clone)]
 pub enum Forward {
-    Number(Rc<engine::Forward<f64>>),
-    Truth(Rc<engine::Forward<bool>>),
-    Vector(Rc<engine::Forward<Vector2<f64>>>),
+    Number(engine::Forward<f64>),
+    Truth(engine::Forward<bool>),
+    Vector(engine::Forward<Vector2<f64>>),
 }
 
 /// Announces a stream in a scenario.
@@ -22,9 +20,9 @@ pub enum Forward {
 /// The scenario is complete.
 pub fn announced(building: &Building, name: &str, kind: Kind) -> PyResult<Forward> {
     building.with(|scenario| match kind {
-        Kind::Number => Forward::Number(Rc::new(scenario.forward(name))),
-        Kind::Truth => Forward::Truth(Rc::new(scenario.forward(name))),
-        Kind::Vector => Forward::Vector(Rc::new(scenario.forward(name))),
+        Kind::Number => Forward::Number(scenario.forward(name)),
+        Kind::Truth => Forward::Truth(scenario.forward(name)),
+        Kind::Vector => Forward::Vector(scenario.forward(name)),
     })
 }
 
@@ -32,9 +30,9 @@ impl Forward {
     /// Returns the stream.
     pub fn wire(&self) -> Wire {
         match self {
-            Self::Number(forward) => (***forward).clone().into(),
-            Self::Truth(forward) => (***forward).clone().into(),
-            Self::Vector(forward) => (***forward).clone().into(),
+            Self::Number(forward) => (**forward).clone().into(),
+            Self::Truth(forward) => (**forward).clone().into(),
+            Self::Vector(forward) => (**forward).clone().into(),
         }
     }
 

@@ -1,13 +1,18 @@
 //! Roads, intersections and roundabouts that are not placed yet, alone or joined to a `Composite`.
 
 use super::building::Building;
-use super::operand::Operand;
+use super::handle::Handle;
 use super::place::Path;
+use super::recipe::Quantity;
 use super::road::Road;
 use super::streets::Streets;
 use crate::error::raised;
+use crate::whole::whole;
 use paracosm::engine::{self, Place, road};
+use paracosm::standards::opendrive::Map;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Parts of a network of roads, joined at their points. It is not placed yet.
@@ -50,17 +55,17 @@ impl Composite {
     ///
     /// Raises `Error` if the parts do not fit together.
     fn build(&self) -> PyResult<RoadNetwork> {
-        Ok(RoadNetwork { inner: self.inner.clone().build().map_err(raised)? })
+        Ok(RoadNetwork { inner: self.inner.clone().build().map_err(raised)?, file: None })
     }
 }
 
 /// A straight road of a length in metres, which is not placed yet. It begins at the origin and leads along x. Its points are "one" (the start) and
 /// "two" (the end).
-#[pyclass(frozen, unsendable, module = "paracosm")]
+#[pyclass(frozen, module = "paracosm")]
 #[derive(Clone)]
 pub struct RoadSegment {
     inner: engine::RoadSegment,
-    friction: Option<engine::Stream<f64>>,
+    friction: Option<Quantity>,
 }
 
 impl RoadSegment {
@@ -74,11 +79,12 @@ impl RoadSegment {
     /// The scenario has noted a mistake.
     pub fn place(&self, building: &Building) -> PyResult<Road> {
         let road = self.inner.clone();
-        let inner = building.with(|scenario| match self.friction.clone() {
+        let friction = self.friction.as_ref().map(Quantity::stream).transpose()?;
+        let road = building.with(|scenario| match friction {
             Some(friction) => road.friction(friction).place(scenario),
             None => road.place(scenario),
         })?;
-        Ok(Road::of(building, inner))
+        Ok(Road(Handle::new(building, road)))
     }
 
     /// Returns the road as a part of a network.
@@ -127,7 +133,7 @@ impl RoadSegment {
 
     /// Returns the road with a friction coefficient between tyre and road: a number or a stream.
     fn friction(&self, friction: &Bound<PyAny>) -> PyResult<Self> {
-        Ok(Self { inner: self.inner.clone(), friction: Some(Operand::numbers(friction, "friction")?) })
+        Ok(Self { inner: self.inner.clone(), friction: Some(Quantity::of(friction, "friction")?) })
     }
 
     /// Joins the point `child_point` of another part to the point `point` of this road.
@@ -142,7 +148,7 @@ fn part(found: &Bound<PyAny>) -> PyResult<road::Composite> {
         return Ok(composite.get().inner.clone());
     }
     if let Ok(road) = found.cast::<RoadSegment>() {
-        return Ok(road.try_borrow()?.composite());
+        return Ok(road.get().composite());
     }
     if let Ok(tee) = found.cast::<TIntersection>() {
         return Ok(tee.get().inner.clone().into());
@@ -238,7 +244,12 @@ element!(
 /// Raises `Error` if there are fewer than two rows or columns.
 #[pyfunction]
 #[pyo3(signature = (rows, columns, block, lanes = 2))]
-pub fn grid_city(rows: usize, columns: usize, block: f64, lanes: i32) -> PyResult<Composite> {
+pub fn grid_city(
+    #[pyo3(from_py_with = whole)] rows: usize,
+    #[pyo3(from_py_with = whole)] columns: usize,
+    block: f64,
+    lanes: i32,
+) -> PyResult<Composite> {
     if rows < 2 || columns < 2 {
         return Err(raised(format!("a grid has at least two rows and two columns, found {rows} and {columns}")));
     }
@@ -249,10 +260,32 @@ pub fn grid_city(rows: usize, columns: usize, block: f64, lanes: i32) -> PyResul
 #[pyclass(frozen, module = "paracosm")]
 pub struct RoadNetwork {
     inner: Arc<road::RoadNetwork>,
+    /// The file that has the roads, with its hash; `None` for roads of a program.
+    file: Option<(PathBuf, String)>,
 }
 
 #[pymethods]
 impl RoadNetwork {
+    /// Reads the roads of a file of ASAM OpenDRIVE. The elements have the ids of the file, and lanes their numbers. Read a file once, outside of the
+    /// function of the scenario.
+    ///
+    /// Raises `Error` if the file cannot be read, is not valid, or has an element that is not supported.
+    #[staticmethod]
+    fn read(py: Python, file: PathBuf) -> PyResult<Self> {
+        let map = Map::read(&file).map_err(raised)?;
+        let inner = map.network().map_err(|error| raised(format!("{}: {error}", file.display())))?;
+        let hash = py.import("paracosm._scenarios")?.call_method1("_hash", (&file,))?.extract()?;
+        Ok(Self { inner, file: Some((file, hash)) })
+    }
+
+    /// Says how to read the file again from a pickle.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (PathBuf,))> {
+        let Some((file, _)) = &self.file else {
+            return Err(PyTypeError::new_err("cannot pickle a RoadNetwork that does not come from a file"));
+        };
+        Ok((py.get_type::<Self>().getattr("read")?, (file.clone(),)))
+    }
+
     /// The names of the roads, junctions and roundabouts.
     #[getter]
     fn elements(&self) -> Vec<&str> {
@@ -296,11 +329,15 @@ impl RoadNetwork {
 /// The scenario has noted a mistake.
 pub fn placed(found: &Bound<PyAny>, building: &Building) -> PyResult<Option<Streets>> {
     let inner = match found.cast::<RoadNetwork>() {
-        Ok(network) => building.with(|scenario| network.get().inner.clone().place(scenario))?,
+        Ok(network) => {
+            let RoadNetwork { inner, file } = network.get();
+            file.iter().cloned().for_each(|file| building.reads(file));
+            building.with(|scenario| inner.clone().place(scenario))?
+        }
         Err(_) => match part(found) {
             Ok(parts) => building.with(|scenario| parts.place(scenario))?,
             Err(_) => return Ok(None),
         },
     };
-    Ok(Some(Streets { building: building.clone(), inner }))
+    Ok(Some(Streets(Handle::new(building, inner))))
 }

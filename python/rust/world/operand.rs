@@ -9,6 +9,7 @@ use crate::value::is_truth;
 use nalgebra::Vector2;
 use paracosm::engine;
 use pyo3::prelude::*;
+use pyo3::types::PyInt;
 
 /// A value that stands for a stream: a stream, a number, or a truth.
 pub struct Operand {
@@ -24,7 +25,7 @@ impl Operand {
     /// The object is none of these; `place` begins the message.
     pub fn of(found: &Bound<PyAny>, place: &str) -> PyResult<Self> {
         if let Ok(stream) = found.cast::<Stream>() {
-            let stream = stream.try_borrow()?;
+            let stream = stream.get();
             return Ok(Self { building: stream.building.clone(), wire: stream.wire()?, extent: stream.extent });
         }
         let constant = |wire| Ok(Self { building: None, wire, extent: Extent::ONE });
@@ -36,6 +37,9 @@ impl Operand {
         }
         if let Ok([x, y]) = found.extract::<[f64; 2]>() {
             return constant(Wire::Vector(engine::Stream::constant(Vector2::new(x, y))));
+        }
+        if found.is_instance_of::<PyInt>() {
+            return Err(raised(format!("{place}: found an integer that is too large for a number")));
         }
         if found.is_callable() {
             let name = found.getattr("__name__").map(|name| name.to_string()).unwrap_or_default();

@@ -9,6 +9,7 @@ use super::stream::{Origin, Stream};
 use super::temporal::Temporal;
 use super::wire::{Sign, Wire, both, each};
 use crate::error::raised;
+use crate::whole::whole;
 use nalgebra::Vector2;
 use paracosm::engine;
 use pyo3::basic::CompareOp;
@@ -24,7 +25,7 @@ impl Stream {
     fn joined(&self, other: Operand, join: impl FnOnce(Wire, Wire) -> PyResult<Wire>) -> PyResult<Self> {
         let wire = join(self.wire()?, other.wire)?;
         let (building, extent) = (self.building.clone().or(other.building), self.extent.with(other.extent));
-        Ok(Self { building, origin: Origin::Wire(wire), extent })
+        Ok(Self::sized(building, Origin::Wire(wire), extent))
     }
 
     /// Makes the stream of `&` or `|`. A statement on the right makes a statement, which is its own affair.
@@ -56,7 +57,7 @@ impl Stream {
     #[staticmethod]
     fn constant(value: &Bound<PyAny>) -> PyResult<Self> {
         let Operand { building, wire, extent } = Operand::of(value, "constant")?;
-        Ok(Self { building, origin: Origin::Wire(wire), extent })
+        Ok(Self::sized(building, Origin::Wire(wire), extent))
     }
 
     /// Makes the stream of the time since the beginning of the run, in seconds.
@@ -77,7 +78,7 @@ impl Stream {
         let (x, y) = (Operand::of(x, "x")?, Operand::of(y, "y")?);
         let (building, extent) = (x.building.or(y.building), x.extent.with(y.extent));
         let wire = engine::Stream::vector(x.wire.numbers("x")?, y.wire.numbers("y")?).into();
-        Ok(Self { building, origin: Origin::Wire(wire), extent })
+        Ok(Self::sized(building, Origin::Wire(wire), extent))
     }
 
     fn __add__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
@@ -167,10 +168,21 @@ impl Stream {
         })
     }
 
+    fn __pow__(&self, _other: &Bound<PyAny>, _modulo: Option<&Bound<PyAny>>) -> PyResult<Self> {
+        Err(raised(
+            "streams have no `**`: write `a * a` for a square and `a.sqrt()` for a root; `a.map(..)` calls a function of Python at every tick",
+        ))
+    }
+
+    fn __mod__(&self, _other: &Bound<PyAny>) -> PyResult<Self> {
+        Err(raised("streams have no `%`: `a.map(..)` calls a function of Python at every tick"))
+    }
+
     fn __bool__(&self) -> PyResult<bool> {
         Err(raised(
             "a stream is neither true nor false while the world is built: write `&`, `|` and `~` for `and`, `or` and `not`, \
-             `(a < b) & (b < c)` for `a < b < c`, and `parameter.value()` for a value that decides how the world is built",
+             `(a < b) & (b < c)` for `a < b < c`, `a.min(b)` and `a.max(b)` for `min(a, b)` and `max(a, b)`, and `parameter.value()` for a \
+             value that decides how the world is built",
         ))
     }
 
@@ -281,7 +293,7 @@ impl Stream {
     }
 
     /// Returns the first `count` values of the stream.
-    fn take(&self, count: usize) -> PyResult<Self> {
+    fn take(&self, #[pyo3(from_py_with = whole)] count: usize) -> PyResult<Self> {
         Ok(each!(self.wire()?, stream => self.made(stream.take(count))))
     }
 
@@ -368,7 +380,7 @@ impl Stream {
     ///
     /// Raises `Error` if the stream is no parameter, or if the parameter varies while the test runs.
     fn value<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        match (&self.origin, &self.building) {
+        match (self.origin()?, &self.building) {
             (Origin::Parameter(parameter), Some(building)) => parameter.value(py, building),
             _ => Err(raised(
                 "value: a stream has no value before the run; only a parameter has one, such as that of `s.interval(..)`",
@@ -380,14 +392,14 @@ impl Stream {
     ///
     /// Raises `Error` if the stream was not announced, or if the definition has values of another type.
     fn define(&self, definition: &Bound<PyAny>) -> PyResult<()> {
-        match &self.origin {
+        match self.origin()? {
             Origin::Forward(forward) => forward.define(Operand::of(definition, "define")?.wire),
             _ => Err(raised("define: the stream has a definition already; only a stream of `s.forward(..)` needs one")),
         }
     }
 
     fn __repr__(&self) -> PyResult<String> {
-        if let Origin::Parameter(Parameter::Word { name, .. }) = &self.origin {
+        if let Origin::Parameter(Parameter::Word { name, .. }) = self.origin()? {
             return Ok(format!("Stream({name}, a parameter of words)"));
         }
         Ok(each!(self.wire()?, stream => format!("Stream({stream:?})")))

@@ -8,7 +8,6 @@ use paracosm::space::{Domain, Shape, Value};
 use pyo3::prelude::*;
 
 /// A parameter of the library, by the type of its values.
-#[derive(Clone)]
 pub enum Parameter {
     Number { parameter: Param<f64>, is_choice: bool },
     Word { parameter: Param<Value>, name: String },

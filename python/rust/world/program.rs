@@ -1,6 +1,6 @@
 //! `Program`: a scenario that a function of Python builds.
 
-use super::building::Building;
+use super::building::{Building, Files};
 use super::scenario::Scenario;
 use crate::busy;
 use crate::error::raised;
@@ -28,6 +28,13 @@ pub fn catalogue() -> Catalogue {
         read: |file, part| read(file, part).map_err(|error| BrokenFile { error }.into()),
         tests: None,
     })
+}
+
+/// Returns the name of each scenario of the catalogue, and its description in one line.
+#[pyfunction]
+pub fn scenarios() -> Vec<(String, String)> {
+    let catalogue = paracosm::catalogue();
+    catalogue.programs().iter().map(|program| (program.name().to_owned(), program.about().to_owned())).collect()
 }
 
 /// Runs a file of Python, and returns one of its scenarios.
@@ -65,16 +72,23 @@ pub struct Program {
 impl Program {
     #[new]
     #[pyo3(signature = (function, name, about, hash = None))]
-    fn new(function: Py<PyAny>, name: String, about: String, hash: Option<String>) -> Self {
+    fn new(function: Py<PyAny>, name: String, about: String, hash: Option<String>) -> PyResult<Self> {
+        if paracosm::catalogue().programs().iter().any(|program| program.name() == name) {
+            return Err(raised(format!(
+                "the catalogue has a scenario `{name}`: give yours another name, `@scenario(name=\"..\")`"
+            )));
+        }
         let function = Arc::new(function);
         let own = Arc::clone(&function);
-        let mut inner = engine::Program::of(name, about, move |scenario| build(&own, scenario));
-        if let Some(hash) = hash.clone() {
-            inner = inner.of_files([], move |_| Some(hash.clone())).of_running_a_file();
+        let mut inner = engine::Program::of(name, about, move |scenario| build(&own, &Files::default(), scenario));
+        if hash.is_some() {
+            inner = inner.of_running_a_file();
         }
+        let (own, own_hash) = (Arc::clone(&function), hash.clone());
+        inner = inner.of_files([], move |_| files_read(&own, own_hash.as_deref()));
         let mut programs = PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner);
         programs.insert(inner.name().to_owned(), inner.clone());
-        Self { inner, function, hash }
+        Ok(Self { inner, function, hash })
     }
 
     /// The name: the file and the function, or the function alone if it stands in no file.
@@ -155,10 +169,22 @@ impl Program {
 /// The module of a function, and its name in the module.
 type Place<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 
+/// Returns the files that the world with nominal values reads, with the hash of the scenario's own file. The world is built for this.
+fn files_read(function: &Arc<Py<PyAny>>, own: Option<&str>) -> Option<engine::FilesRead> {
+    let files = Files::default();
+    let (function, read) = (Arc::clone(function), Arc::clone(&files));
+    // A world that cannot be built fails when a study builds it.
+    let _ = engine::Program::of("files", "", move |scenario| build(&function, &read, scenario)).declare();
+    let files = files.lock().unwrap_or_else(PoisonError::into_inner);
+    let hashes: Vec<&str> = own.into_iter().chain(files.values().map(String::as_str)).collect();
+    let paths = files.keys().cloned().collect();
+    (!hashes.is_empty()).then(|| engine::FilesRead { hash: hashes.join("+"), paths })
+}
+
 /// Calls the function with a scenario. What it raises is the failure of the scenario.
-fn build(function: &Py<PyAny>, scenario: &mut engine::Scenario) {
+fn build(function: &Py<PyAny>, files: &Files, scenario: &mut engine::Scenario) {
     let failure = Python::attach(|py| {
-        let built = Building::lent(scenario, |building| {
+        let built = Building::lent(scenario, files, |building| {
             let handle = Bound::new(py, Scenario::of(building))?;
             let returned = busy::calling(py, || function.bind(py).call1((handle,)))?;
             if returned.is_none() {

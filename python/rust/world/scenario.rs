@@ -22,7 +22,7 @@ use paracosm::space::{Domain, Value};
 use pyo3::prelude::*;
 
 /// A world under construction, which the function of a scenario gets. It declares parameters, places objects, and states requirements.
-#[pyclass(frozen, unsendable, module = "paracosm")]
+#[pyclass(frozen, module = "paracosm")]
 pub struct Scenario {
     building: Building,
 }
@@ -110,14 +110,14 @@ impl Scenario {
     fn choice(
         &self,
         name: &str,
-        values: Vec<Bound<PyAny>>,
+        values: &Bound<PyAny>,
         unit: Option<String>,
         default: Option<&Bound<PyAny>>,
         signal: Option<String>,
         incidental: bool,
         atmospheric: bool,
     ) -> PyResult<Stream> {
-        let parameter = Declared::open(paracosm::space::Parameter::new(name, levels(name, &values)?));
+        let parameter = Declared::open(paracosm::space::Parameter::new(name, levels(name, values)?));
         let default = given(default, name)?;
         let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
         self.parameter(parameter, said)
@@ -129,14 +129,14 @@ impl Scenario {
     fn nominal_choice(
         &self,
         name: &str,
-        values: Vec<Bound<PyAny>>,
+        values: &Bound<PyAny>,
         nominal: &Bound<PyAny>,
         unit: Option<String>,
         signal: Option<String>,
         incidental: bool,
         atmospheric: bool,
     ) -> PyResult<Stream> {
-        let parameter = paracosm::space::Parameter::new(name, levels(name, &values)?);
+        let parameter = paracosm::space::Parameter::new(name, levels(name, values)?);
         let parameter = Declared { open: false, ..Declared::open(parameter) };
         let default = given(Some(nominal), name)?;
         let said = Said { unit, default, signal, incidental, atmospheric, ..Said::default() };
@@ -147,22 +147,22 @@ impl Scenario {
     fn place<'py>(&self, py: Python<'py>, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let building = &self.building;
         if let Ok(road) = object.cast::<RoadSegment>() {
-            return Ok(Bound::new(py, road.try_borrow()?.place(building)?)?.into_any());
+            return Ok(Bound::new(py, road.get().place(building)?)?.into_any());
         }
         if let Ok(car) = object.cast::<AutonomousVehicle>() {
-            return Ok(Bound::new(py, car.try_borrow()?.place(building)?)?.into_any());
+            return Ok(Bound::new(py, car.get().place(building)?)?.into_any());
         }
         if let Ok(pedestrian) = object.cast::<Pedestrian>() {
             return Ok(Bound::new(py, pedestrian.get().place(building)?)?.into_any());
         }
         if let Ok(mover) = object.cast::<Mover>() {
-            return Ok(Bound::new(py, mover.try_borrow()?.place(building)?)?.into_any());
+            return Ok(Bound::new(py, mover.get().place(building)?)?.into_any());
         }
         if let Ok(cars) = object.cast::<EnvironmentCars>() {
-            return Ok(Bound::new(py, cars.try_borrow()?.place(building)?)?.into_any());
+            return Ok(Bound::new(py, cars.get().place(building)?)?.into_any());
         }
         if let Ok(environment) = object.cast::<Environment>() {
-            return Ok(Bound::new(py, environment.try_borrow()?.place(building)?)?.into_any());
+            return Ok(Bound::new(py, environment.get().place(building)?)?.into_any());
         }
         if let Ok(fixture) = object.cast::<Fixture>() {
             fixture.get().place(building)?;
@@ -173,7 +173,7 @@ impl Scenario {
             return Ok(py.None().into_bound(py));
         }
         if let Ok(effect) = object.cast::<Effect>() {
-            effect.try_borrow()?.place(building)?;
+            effect.get().place(building)?;
             return Ok(py.None().into_bound(py));
         }
         match placed(object, building)? {
@@ -204,7 +204,7 @@ impl Scenario {
                  `pc.eventually(..)`",
             ));
         }
-        let asked = statement(asked, "require")?.inner;
+        let asked = statement(asked, "require")?.inner.get()?.clone();
         let draft = self.building.with(|scenario| scenario.require(id, asked))?;
         self.stated(draft, (text, unit, scale));
         Ok(())
@@ -222,7 +222,7 @@ impl Scenario {
         let monitor = monitor.cast::<Monitor>().map_err(|_| {
             raised("monitor: expected a `pc.Monitor`, such as `pc.Monitor.no_collision(car)`; `s.require(\"id\", ..)` takes other statements")
         })?;
-        let monitor = monitor.try_borrow()?.inner.clone();
+        let monitor = monitor.get().inner()?;
         let draft = self.building.with(|scenario| scenario.monitor(monitor))?;
         self.stated(draft, (text, unit, scale));
         Ok(())
@@ -270,7 +270,11 @@ impl Scenario {
 }
 
 /// Makes the domain of a choice.
-fn levels(name: &str, values: &[Bound<PyAny>]) -> PyResult<Domain> {
+fn levels(name: &str, values: &Bound<PyAny>) -> PyResult<Domain> {
+    let Ok(values) = values.extract::<Vec<Bound<PyAny>>>() else {
+        let found = values.repr()?;
+        return Err(raised(format!("the values of parameter `{name}` are {found}, expected a list, such as [2, 4]")));
+    };
     if values.is_empty() {
         return Err(raised(format!("parameter `{name}` has no values, expected at least one")));
     }

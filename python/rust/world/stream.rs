@@ -3,13 +3,13 @@
 use super::building::Building;
 use super::extent::Extent;
 use super::forward::Forward;
+use super::held::Held;
 use super::parameter::Parameter;
 use super::wire::Wire;
 use crate::error::raised;
 use pyo3::prelude::*;
 
 /// The origin of a stream.
-#[derive(Clone)]
 pub enum Origin {
     Wire(Wire),
     Parameter(Parameter),
@@ -20,12 +20,12 @@ pub enum Origin {
 ///
 /// Operators make other streams: `+ - * /`, comparisons, and `& | ~` for "and", "or" and "not". They are nodes of the graph that a run
 /// evaluates, so a test runs no Python code. Only `map`, `filter`, `scan` and `for_each` with a function of Python call it at every tick.
-#[pyclass(frozen, unsendable, module = "paracosm")]
+#[pyclass(frozen, module = "paracosm")]
 #[derive(Clone)]
 pub struct Stream {
     /// The scenario that the stream belongs to; `None` if it belongs to none.
     pub building: Option<Building>,
-    pub origin: Origin,
+    pub origin: Held<Origin>,
     pub extent: Extent,
 }
 
@@ -37,7 +37,20 @@ impl Stream {
 
     /// Makes a stream that is made of no other.
     pub fn from_origin(building: Option<Building>, origin: Origin) -> Self {
-        Self { building, origin, extent: Extent::ONE }
+        Self::sized(building, origin, Extent::ONE)
+    }
+
+    /// Makes a stream with an extent.
+    pub fn sized(building: Option<Building>, origin: Origin, extent: Extent) -> Self {
+        Self { building, origin: Held::new(origin), extent }
+    }
+
+    /// Returns the origin.
+    ///
+    /// # Errors
+    /// The stream belongs to the world of another test.
+    pub fn origin(&self) -> PyResult<&Origin> {
+        self.origin.get()
     }
 
     /// Returns the stream of the library.
@@ -47,7 +60,7 @@ impl Stream {
     pub fn wire(&self) -> PyResult<Wire> {
         self.building.as_ref().map_or(Ok(()), Building::check)?;
         self.extent.check()?;
-        match &self.origin {
+        match self.origin()? {
             Origin::Wire(wire) => Ok(wire.clone()),
             Origin::Forward(forward) => Ok(forward.wire()),
             Origin::Parameter(Parameter::Number { parameter, .. }) => {
@@ -63,6 +76,6 @@ impl Stream {
 
     /// Makes a stream of the same scenario.
     pub fn made(&self, wire: impl Into<Wire>) -> Self {
-        Self { building: self.building.clone(), origin: Origin::Wire(wire.into()), extent: self.extent.next() }
+        Self::sized(self.building.clone(), Origin::Wire(wire.into()), self.extent.next())
     }
 }

@@ -1,6 +1,7 @@
 //! `Temporal`: statements about a whole run.
 
 use super::extent::Extent;
+use super::held::Held;
 use super::operand::Operand;
 use super::stream::Stream;
 use crate::error::raised;
@@ -10,9 +11,10 @@ use pyo3::prelude::*;
 
 /// A statement about a run, made of streams of truths by `always`, `eventually`, `never`, `historically`, `once` and `until`, and by `&`, `|`, `~`
 /// and `implies`. A comparison of streams keeps its distance to a violation as the robustness.
-#[pyclass(frozen, unsendable, module = "paracosm")]
+#[pyclass(frozen, module = "paracosm")]
+#[derive(Clone)]
 pub struct Temporal {
-    pub inner: engine::Temporal,
+    pub inner: Held<engine::Temporal>,
     extent: Extent,
 }
 
@@ -22,11 +24,10 @@ pub struct Temporal {
 /// The object is neither; `place` begins the message.
 pub fn statement(found: &Bound<PyAny>, place: &str) -> PyResult<Temporal> {
     if let Ok(temporal) = found.cast::<Temporal>() {
-        let temporal = temporal.try_borrow()?;
-        return Ok(Temporal { inner: temporal.inner.clone(), extent: temporal.extent });
+        return Ok(temporal.get().clone());
     }
     let operand = Operand::of(found, place)?;
-    Ok(Temporal { inner: operand.wire.truths(place)?.into(), extent: operand.extent })
+    Ok(Temporal { inner: Held::new(operand.wire.truths(place)?.into()), extent: operand.extent })
 }
 
 impl Temporal {
@@ -35,14 +36,14 @@ impl Temporal {
     /// # Errors
     /// The stream has values of another type.
     pub fn of_stream(stream: &Stream, place: &str) -> PyResult<Self> {
-        Ok(Self { inner: stream.wire()?.truths(place)?.into(), extent: stream.extent })
+        Ok(Self { inner: Held::new(stream.wire()?.truths(place)?.into()), extent: stream.extent })
     }
 
     /// Makes a statement of this statement alone.
     fn made(self, make: impl FnOnce(engine::Temporal) -> engine::Temporal) -> PyResult<Self> {
         let extent = self.extent.next();
         extent.check()?;
-        Ok(Self { inner: make(self.inner), extent })
+        Ok(Self { inner: Held::new(make(self.inner.get()?.clone())), extent })
     }
 
     /// Makes a statement of two statements.
@@ -53,11 +54,8 @@ impl Temporal {
     ) -> PyResult<Self> {
         let extent = self.extent.with(other.extent);
         extent.check()?;
-        Ok(Self { inner: join(self.inner, other.inner), extent })
-    }
-
-    fn copied(&self) -> Self {
-        Self { inner: self.inner.clone(), extent: self.extent }
+        let (own, other) = (self.inner.get()?.clone(), other.inner.get()?.clone());
+        Ok(Self { inner: Held::new(join(own, other)), extent })
     }
 }
 
@@ -80,23 +78,23 @@ fn interval(within: Option<Bound<PyAny>>) -> PyResult<Interval> {
 #[pymethods]
 impl Temporal {
     fn __and__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        self.copied().joined(statement(other, "`&`")?, engine::Temporal::and)
+        self.clone().joined(statement(other, "`&`")?, engine::Temporal::and)
     }
 
     fn __rand__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        statement(other, "`&`")?.joined(self.copied(), engine::Temporal::and)
+        statement(other, "`&`")?.joined(self.clone(), engine::Temporal::and)
     }
 
     fn __or__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        self.copied().joined(statement(other, "`|`")?, engine::Temporal::or)
+        self.clone().joined(statement(other, "`|`")?, engine::Temporal::or)
     }
 
     fn __ror__(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        statement(other, "`|`")?.joined(self.copied(), engine::Temporal::or)
+        statement(other, "`|`")?.joined(self.clone(), engine::Temporal::or)
     }
 
     fn __invert__(&self) -> PyResult<Self> {
-        self.copied().made(|holds| !holds)
+        self.clone().made(|holds| !holds)
     }
 
     fn __bool__(&self) -> PyResult<bool> {
@@ -107,7 +105,7 @@ impl Temporal {
 
     /// Returns the statement that `other` holds if this statement holds.
     pub fn implies(&self, other: &Bound<PyAny>) -> PyResult<Self> {
-        self.copied().joined(statement(other, "implies")?, engine::Temporal::implies)
+        self.clone().joined(statement(other, "implies")?, engine::Temporal::implies)
     }
 }
 

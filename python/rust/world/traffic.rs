@@ -2,11 +2,13 @@
 
 use super::actors::body_of;
 use super::building::Building;
+use super::handle::Handle;
 use super::operand::Operand;
 use super::place::Pose;
 use super::stream::Stream;
 use super::streets::{Streets, side_of};
 use crate::error::raised;
+use crate::whole::whole;
 use paracosm::engine::road::RoutePosition;
 use paracosm::engine::{self, Place};
 use pyo3::prelude::*;
@@ -27,7 +29,7 @@ impl TrafficCar {
         (road, lane, at): &OnRoad,
         make: fn(RoutePosition) -> engine::traffic::TrafficCar,
     ) -> PyResult<Self> {
-        let start = streets.building.with(|_| streets.inner.place_on(road, *lane, *at))?;
+        let start = streets.0.with(|streets| streets.place_on(road, *lane, *at))?;
         start.map(|start| Self { inner: make(start) }).ok_or_else(|| raised("the network of the roads cannot be built"))
     }
 }
@@ -74,17 +76,18 @@ impl TrafficCar {
     #[staticmethod]
     #[pyo3(signature = (streets, start, end, driven = 0.0))]
     fn following(streets: &Streets, start: OnRoad, end: OnRoad, driven: f64) -> PyResult<Self> {
-        let ends = streets
-            .building
-            .with(|_| [&start, &end].map(|(road, lane, at)| streets.inner.place_on(road, *lane, *at)))?;
-        let (Some(network), [Some(from), Some(to)]) = (streets.inner.network(), ends) else {
-            return Err(raised("the network of the roads cannot be built"));
-        };
-        let route = network.route(from, to, 0.0).ok_or_else(|| {
-            raised(format!("no route leads from lane {} of `{}` to lane {} of `{}`", start.1, start.0, end.1, end.0))
-        })?;
-        let route = if driven > 0.0 { network.rest_of(&route, driven) } else { route };
-        Ok(Self { inner: engine::traffic::TrafficCar::following(&route) })
+        streets.0.with(|streets| {
+            let ends = [&start, &end].map(|(road, lane, at)| streets.place_on(road, *lane, *at));
+            let (Some(network), [Some(from), Some(to)]) = (streets.network(), ends) else {
+                return Err(raised("the network of the roads cannot be built"));
+            };
+            let route = network.route(from, to, 0.0).ok_or_else(|| {
+                let [(from, lane, _), (to, other, _)] = [&start, &end];
+                raised(format!("no route leads from lane {lane} of `{from}` to lane {other} of `{to}`"))
+            })?;
+            let route = if driven > 0.0 { network.rest_of(&route, driven) } else { route };
+            Ok(Self { inner: engine::traffic::TrafficCar::following(&route) })
+        })?
     }
 
     /// Returns the car with another body. `body` has the same form as for `Mover`.
@@ -129,31 +132,33 @@ impl TrafficCar {
 }
 
 /// Cars that drive by themselves over the roads, and react to others. They are not placed yet.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct EnvironmentCars {
-    inner: engine::EnvironmentCars,
-}
+#[pyclass(frozen, module = "paracosm")]
+pub struct EnvironmentCars(Handle<engine::EnvironmentCars>);
 
 #[pymethods]
 impl EnvironmentCars {
     /// Makes a fleet of the given cars.
     #[staticmethod]
     #[pyo3(signature = (streets, cars, seed = 1))]
-    fn on(streets: &Streets, cars: Vec<PyRef<TrafficCar>>, seed: u64) -> Self {
+    fn on(streets: &Streets, cars: Vec<PyRef<TrafficCar>>, #[pyo3(from_py_with = whole)] seed: u64) -> PyResult<Self> {
         let cars = cars.iter().map(|car| car.inner.clone()).collect();
-        Self { inner: engine::EnvironmentCars::on(&streets.inner, cars).seed(seed) }
+        streets.0.made(|streets| engine::EnvironmentCars::on(streets, cars).seed(seed)).map(Self)
     }
 
     /// Makes `count` cars at random places of the roads; fewer if there is not enough room.
     #[staticmethod]
     #[pyo3(signature = (streets, count, seed = 1))]
-    fn scattered(streets: &Streets, count: usize, seed: u64) -> PyResult<Self> {
-        Ok(Self { inner: streets.building.with(|_| engine::EnvironmentCars::scattered(&streets.inner, count, seed))? })
+    fn scattered(
+        streets: &Streets,
+        #[pyo3(from_py_with = whole)] count: usize,
+        #[pyo3(from_py_with = whole)] seed: u64,
+    ) -> PyResult<Self> {
+        streets.0.made(|streets| engine::EnvironmentCars::scattered(streets, count, seed)).map(Self)
     }
 
     /// Removes all cars that would start less than `metres` from `place`, and returns the rest.
-    fn away_from(&self, place: &Pose, metres: f64) -> Self {
-        Self { inner: self.inner.clone().away_from(place.inner.position, metres) }
+    fn away_from(&self, place: &Pose, metres: f64) -> PyResult<Self> {
+        self.0.made(|cars| cars.clone().away_from(place.inner.position, metres)).map(Self)
     }
 }
 
@@ -163,49 +168,52 @@ impl EnvironmentCars {
     /// # Errors
     /// The scenario has noted a mistake.
     pub fn place(&self, building: &Building) -> PyResult<Fleet> {
-        let inner = building.with(|scenario| self.inner.clone().place(scenario))?;
-        Ok(Fleet { building: building.clone(), inner })
+        let cars = self.0.with(engine::EnvironmentCars::clone)?;
+        Ok(Fleet(Handle::new(building, building.with(|scenario| cars.place(scenario))?)))
     }
 }
 
 /// The cars in the world that drive by themselves. They are counted from 0.
-#[pyclass(frozen, unsendable, module = "paracosm")]
-pub struct Fleet {
-    building: Building,
-    inner: engine::Fleet,
-}
+#[pyclass(frozen, module = "paracosm")]
+pub struct Fleet(Handle<engine::Fleet>);
 
 #[pymethods]
 impl Fleet {
-    fn __len__(&self) -> usize {
-        self.inner.count()
+    fn __len__(&self) -> PyResult<usize> {
+        self.0.with(engine::Fleet::count)
     }
 
     /// Returns the position of a car.
-    fn position(&self, car: usize) -> PyResult<Stream> {
-        Ok(Stream::of(&self.building, self.building.with(|_| self.inner.position(car))?))
+    fn position(&self, #[pyo3(from_py_with = whole)] car: usize) -> PyResult<Stream> {
+        self.0.stream(|fleet| fleet.position(car))
     }
 
     /// Returns the speed of a car in m/s.
-    fn speed(&self, car: usize) -> PyResult<Stream> {
-        Ok(Stream::of(&self.building, self.building.with(|_| self.inner.speed(car))?))
+    fn speed(&self, #[pyo3(from_py_with = whole)] car: usize) -> PyResult<Stream> {
+        self.0.stream(|fleet| fleet.speed(car))
     }
 
     /// Gives a car a speed in m/s, from which it deviates only to avoid a collision. While the stream is absent, the car drives by its model.
-    fn drive(&self, car: usize, speed: &Bound<PyAny>) -> PyResult<()> {
+    fn drive(&self, #[pyo3(from_py_with = whole)] car: usize, speed: &Bound<PyAny>) -> PyResult<()> {
         let speed = Operand::numbers(speed, "speed")?;
-        self.building.with(|_| self.inner.drive(car, speed))
+        self.0.with(|fleet| fleet.drive(car, speed))
     }
 
     /// Sets the speed in m/s at which a car drives on a free road.
-    fn wish(&self, car: usize, speed: &Bound<PyAny>) -> PyResult<()> {
+    fn wish(&self, #[pyo3(from_py_with = whole)] car: usize, speed: &Bound<PyAny>) -> PyResult<()> {
         let speed = Operand::numbers(speed, "speed")?;
-        self.building.with(|_| self.inner.wish(car, speed))
+        self.0.with(|fleet| fleet.wish(car, speed))
     }
 
     /// Lets a car change to the next lane on a side, "left" or "right", within some seconds when `event` occurs.
-    fn change_lane(&self, car: usize, side: &str, seconds: f64, event: &Bound<PyAny>) -> PyResult<()> {
+    fn change_lane(
+        &self,
+        #[pyo3(from_py_with = whole)] car: usize,
+        side: &str,
+        seconds: f64,
+        event: &Bound<PyAny>,
+    ) -> PyResult<()> {
         let (side, event) = (side_of(side)?, Operand::of(event, "event")?.wire.truths("event")?);
-        self.building.with(|_| self.inner.change_lane(car, side, seconds, &event))
+        self.0.with(|fleet| fleet.change_lane(car, side, seconds, &event))
     }
 }

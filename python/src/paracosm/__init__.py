@@ -23,11 +23,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from . import fmi as fmi, gymnasium as gymnasium, optuna as optuna, qmc as qmc, ray as ray
     from ._core import (
         Actor,
         AutonomousVehicle,
         Bracket,
         Car,
+        Comparison,
         Composite,
         Conditions,
         CoveringArray,
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
         EnvironmentCars,
         Error,
         Evaluation,
+        FailureMap,
         Fixture,
         Fleet,
         Formula,
@@ -63,12 +66,14 @@ if TYPE_CHECKING:
         Table,
         Temporal,
         Tests,
+        Trials,
         Trace,
         TrafficCar,
         Trial,
         Walk,
         Walker,
         always,
+        compare,
         coverage,
         covering_array,
         eventually,
@@ -80,6 +85,7 @@ if TYPE_CHECKING:
         once,
         plan,
         sample,
+        scenarios,
         strategies,
         until,
     )
@@ -112,6 +118,7 @@ __all__ = [
     "Camera",
     "Car",
     "Choice",
+    "Comparison",
     "Composite",
     "Conditions",
     "Control",
@@ -125,6 +132,7 @@ __all__ = [
     "EnvironmentCars",
     "Error",
     "Evaluation",
+    "FailureMap",
     "Fix",
     "Fixture",
     "Fleet",
@@ -163,6 +171,7 @@ __all__ = [
     "Table",
     "Temporal",
     "Tests",
+    "Trials",
     "Trace",
     "TrafficCar",
     "Trial",
@@ -172,6 +181,7 @@ __all__ = [
     "Way",
     "always",
     "centered_discrepancy",
+    "compare",
     "coverage",
     "covering_array",
     "dispersion",
@@ -192,6 +202,7 @@ __all__ = [
     "plan",
     "sample",
     "scenario",
+    "scenarios",
     "serve",
     "star_discrepancy",
     "strategies",
@@ -204,7 +215,23 @@ __all__ = [
 _MODULES = ("driver", "observation", "perceiver", "sensors", "parameters", "_core", "_scenarios", "_falsify", "_measures")
 
 
+# The modules that work with other packages. Each is imported when its name is first used.
+_PARTS = ("fmi", "gymnasium", "optuna", "qmc", "ray")
+
+
+__version__: str
+
+
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("paracosm")
+    if name in _PARTS:
+        try:
+            return import_module(f".{name}", __name__)
+        except ModuleNotFoundError as missing:
+            raise AttributeError(f"paracosm.{name} needs the package {missing.name}: pip install 'paracosm[{name}]'") from missing
     if name in __all__:
         for module in _MODULES:
             found = getattr(import_module(f".{module}", __name__), name, None)
@@ -215,4 +242,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return __all__
+    return [*__all__, *_PARTS]

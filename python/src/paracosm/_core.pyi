@@ -28,6 +28,7 @@ __all__ = [
     "AutonomousVehicle",
     "Bracket",
     "Car",
+    "Comparison",
     "Composite",
     "Conditions",
     "CoveringArray",
@@ -35,8 +36,10 @@ __all__ = [
     "Effect",
     "Environment",
     "EnvironmentCars",
+    "Episode",
     "Error",
     "Evaluation",
+    "FailureMap",
     "Fixture",
     "Fleet",
     "Formula",
@@ -56,6 +59,7 @@ __all__ = [
     "Roundabout",
     "Scenario",
     "Space",
+    "Station",
     "Stream",
     "Streets",
     "Study",
@@ -63,12 +67,14 @@ __all__ = [
     "Table",
     "Temporal",
     "Tests",
+    "Trials",
     "Trace",
     "TrafficCar",
     "Trial",
     "Walk",
     "Walker",
     "always",
+    "compare",
     "cover",
     "coverage",
     "covering_array",
@@ -83,8 +89,11 @@ __all__ = [
     "once",
     "plan",
     "sample",
+    "scenario_files",
+    "scenarios",
     "strategies",
     "until",
+    "without_sampling",
 ]
 
 class Error(ValueError): ...
@@ -111,6 +120,9 @@ class Space:
     def __eq__(self, other: object, /) -> bool: ...
     @classmethod
     def _of_json(cls, text: str) -> Space: ...
+    def _test(self, point: Sequence[float]) -> dict[str, Any] | None: ...
+    @property
+    def _coordinates(self) -> int: ...
     def __reduce__(self) -> tuple[Any, tuple[str]]: ...
     def __len__(self) -> int: ...
 
@@ -126,6 +138,14 @@ class Table:
     def __arrow_c_stream__(self, requested_schema: object = None) -> object: ...
     def to_pandas(self) -> Any: ...
     def to_polars(self) -> Any: ...
+
+@final
+class Trials(Table):
+    @overload
+    def __getitem__(self, key: str, /) -> NDArray[Any]: ...
+    @overload
+    def __getitem__(self, key: int, /) -> dict[str, Any]: ...
+    def __iter__(self) -> Iterator[dict[str, Any]]: ...
 
 class Tests(Table):
     @property
@@ -222,7 +242,8 @@ class _Choices(TypedDict, total=False):
     spec: str | Sequence[str] | None
     dense: bool | None
     requirements: str | PathLike[str] | None
-    strategy: str | None
+    # A name, an object with `ask` and `tell`, an engine of scipy.stats.qmc, a sampler of Optuna, or a function that makes one.
+    strategy: object
     budget: int | None
     seed: int | None
     skip: int | None
@@ -240,6 +261,10 @@ class _ScenarioChoices(_Choices, total=False):
     driver_settings: Mapping[str, float] | None
     open: Mapping[str, _Domain | None] | Sequence[str] | None
     fix: Mapping[str, float | str | Sequence[float] | Sequence[str]] | None
+    continuous: bool | None
+    ego: str | None
+    duration: float | None
+    models: Mapping[str, FilePath] | None
     vehicle: str | None
     vehicle_settings: Mapping[str, float] | None
     references: Sequence[str] | None
@@ -280,13 +305,16 @@ class Study:
         self,
         folder: str | PathLike[str],
         *,
-        executor: int | None = None,
+        executor: object = None,
         resume: bool = False,
         locate: int | None = None,
         junit: bool = False,
-        progress: Callable[[int, int], object] | None = None,
+        progress: Callable[[int, int], object] | bool | None = None,
+        tests: FilePath | None = None,
+        extend: FilePath | None = None,
     ) -> Report: ...
     def __reduce__(self) -> tuple[Any, tuple[()]]: ...
+    def test(self, test: Mapping[str, Any]) -> dict[str, Any]: ...
     def likelihood(
         self,
         *,
@@ -294,6 +322,15 @@ class Study:
         budget: int = 1000,
         confidence: float = 0.95,
         seed: int = 0,
+        executor: object = None,
+    ) -> dict[str, Any]: ...
+    def audit(
+        self,
+        *suites: Any,
+        mutants: int = 200,
+        screen: int | None = None,
+        seed: int = 0,
+        time_limit: float | None = None,
         executor: int | None = None,
     ) -> dict[str, Any]: ...
 
@@ -304,13 +341,15 @@ class Report:
     @property
     def verdicts(self) -> dict[str, int]: ...
     @property
-    def trials(self) -> Table: ...
+    def trials(self) -> Trials: ...
     @property
     def failures(self) -> list[Trial]: ...
     @property
     def worst(self) -> Trial | None: ...
     @property
     def coverage(self) -> dict[str, Any]: ...
+    @property
+    def doubts(self) -> list[str]: ...
     @property
     def modes(self) -> dict[str, Any]: ...
     @property
@@ -319,9 +358,12 @@ class Report:
     def effects(self) -> dict[str, Any] | None: ...
     def blame(self, drivers: Sequence[str] | None = None, *, executor: int | None = None) -> dict[str, Any]: ...
     def diff(self, after: Report, /) -> dict[str, Any]: ...
+    def sensitivity(self, *, budget: int | None = None, seed: int = 0, executor: int | None = None) -> dict[str, Any]: ...
+    def map(self, x: str | None = None, y: str | None = None, *, show: Literal["failures", "severity"] = "failures") -> FailureMap: ...
     def page(self, path: str | PathLike[str], *, max_mb: float = 8.0) -> None: ...
     def __len__(self) -> int: ...
     def __getitem__(self, index: int, /) -> Trial: ...
+    def __iter__(self) -> Iterator[Trial]: ...
     def _repr_html_(self) -> str: ...
 
 @final
@@ -337,11 +379,81 @@ class Trial:
     @property
     def error(self) -> str | None: ...
     @property
+    def metrics(self) -> dict[str, float | str | bool | None]: ...
+    @property
+    def ticks(self) -> int: ...
+    @property
     def trace_hash(self) -> str | None: ...
     def shrink(self, *, same_mode: bool = False, budget: int | None = None) -> dict[str, Any]: ...
     def replay(self) -> Trace: ...
 
-def load(folder: str | PathLike[str], *, trust: bool = False) -> Report: ...
+@final
+class Episode:
+    def __new__(cls, study: Study, test: Mapping[str, Any], driver: Driver, seed: int) -> Episode: ...
+    def answer(self, control: Control) -> None: ...
+    def asked(self) -> Observation | None: ...
+    @property
+    def ticks(self) -> int: ...
+    @property
+    def potential(self) -> float: ...
+    @property
+    def outcome(self) -> dict[str, Any] | None: ...
+
+@final
+class FailureMap:
+    @property
+    def axes(self) -> tuple[str, str]: ...
+    @property
+    def failing(self) -> float | None: ...
+    @property
+    def decided(self) -> float | None: ...
+    @property
+    def estimate(self) -> Table: ...
+    def save(self, path: str | PathLike[str]) -> None: ...
+    def svg(self) -> str: ...
+    def _repr_png_(self) -> bytes: ...
+
+@final
+class Comparison:
+    @property
+    def summary(self) -> Table: ...
+    @property
+    def sets(self) -> Table: ...
+    @property
+    def slopes(self) -> Table: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def write(self, folder: str | PathLike[str]) -> None: ...
+
+def compare(
+    strategies: Sequence[object] | Mapping[str, object],
+    *,
+    dims: Sequence[int] = ...,
+    budgets: Sequence[int] = ...,
+    seeds: int | None = None,
+    seed: int = 1,
+    measures: Sequence[str] | None = None,
+    k: int = 2,
+    baseline: str | None = None,
+    time_limit: float | None = None,
+    executor: int | None = None,
+    progress: Callable[[int, int], object] | bool | None = None,
+) -> Comparison: ...
+def load(
+    folder: str | PathLike[str],
+    *,
+    trust: bool = False,
+    driver: Driver | type[Driver] | Callable[[Observation], Control] | None = None,
+) -> Report: ...
+def scenario_files(study: Study) -> list[FilePath]: ...
+def scenarios() -> list[tuple[str, str]]: ...
+def without_sampling(study: Study) -> Study: ...
+
+@final
+class Station:
+    def __new__(cls, study: Study) -> Station: ...
+    def run(self, first: int, tests: Sequence[str]) -> tuple[list[str], str]: ...
+
 def measures() -> list[tuple[str, str]]: ...
 def measure(
     name: str, tests: Any, space: Space | None = None, *, k: int | None = None, time_limit: float | None = None
@@ -589,6 +701,9 @@ class Composite:
 
 @final
 class RoadNetwork:
+    @staticmethod
+    def read(file: str | PathLike[str]) -> RoadNetwork: ...
+    def __reduce__(self) -> tuple[Any, tuple[FilePath]]: ...
     def path(self, lanes: Sequence[tuple[str, int] | tuple[str, str, str, int]]) -> Path: ...
     @property
     def elements(self) -> list[str]: ...

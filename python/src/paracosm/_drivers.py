@@ -2,8 +2,10 @@
 
 import copy
 import inspect
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
+from numbers import Real
 from typing import Any
 
 from ._core import Error
@@ -43,7 +45,15 @@ def as_driver(given: object) -> tuple[Driver, str] | None:
 
 def of_session(driver: Driver, settings: dict[str, float], seed: int) -> Driver:
     """Returns the driver for one session: a copy with its settings."""
-    own = copy.deepcopy(driver)
+    try:
+        own = copy.deepcopy(driver)
+    except Exception as error:
+        raise Error(f"driver: {type(driver).__name__} cannot be copied, and each session has its own copy: {type(error).__name__}: {error}") from None
+    if not isinstance(own.settings, Mapping):
+        raise Error(f"settings of the driver is {own.settings!r}, expected a dictionary with a number for each name")
+    for name, value in own.settings.items():
+        if not (_is_number(value) and math.isfinite(value)):
+            raise Error(f"settings of the driver: `{name}` is {value!r}, expected a number")
     try:
         configure(own, settings, seed)
     except ValueError as error:
@@ -53,8 +63,21 @@ def of_session(driver: Driver, settings: dict[str, float], seed: int) -> Driver:
 
 def described(driver: Driver) -> dict[str, Any]:
     """Returns what a driver says of itself and of its sensors."""
-    sensors = {kind: [_written(name, one) for name, one in getattr(driver, kind).items()] for kind in ("cameras", "lidars", "gnss", "imus")}
-    return {"period": float(driver.period), "others": bool(driver.others), **sensors}
+    sensors: dict[str, Any] = {}
+    for kind in ("cameras", "lidars", "gnss", "imus"):
+        named = getattr(driver, kind)
+        if not isinstance(named, Mapping):
+            raise Error(f"{kind} of the driver is {named!r}, expected a dictionary of sensors by their names")
+        sensors[kind] = [_written(name, one) for name, one in named.items()]
+    if not _is_number(driver.period):
+        raise Error(f"period of the driver is {driver.period!r}, expected a number of seconds")
+    if not isinstance(driver.others, bool):
+        raise Error(f"others of the driver is {driver.others!r}, expected True or False")
+    return {"period": float(driver.period), "others": driver.others, **sensors}
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def _written(name: str, sensor: Any) -> dict[str, Any]:

@@ -16,19 +16,19 @@ def falsify(
     space: Space | int,
     *,
     spec: str | Sequence[str] | None = None,
-    strategy: str = "auto",
+    strategy: object = "auto",
     budget: int = 300,
     seed: int | None = None,
     stop_at_first: bool = False,
-    executor: int = 1,
+    executor: object = 1,
     folder: str | PathLike[str] | None = None,
     **choices: Any,
 ) -> Report:
     """Searches the space for tests that violate a requirement of a function, and returns the report of the campaign.
 
     The function gets each test as a dictionary, or as an array if `space` is a number of dimensions. It returns a robustness (below 0 for a
-    failure), a dictionary with a robustness for each requirement, or a trace for `spec` to judge. `Study.of_function` says more. `executor` threads
-    call it at the same time. Without `folder`, the campaign lies in a temporary folder, which is removed when the process ends.
+    failure), a dictionary with a robustness for each requirement, or a trace for `spec` to judge. `Study.of_function` says more. `executor` is the number of threads
+    that call it at the same time, or an executor as for `Study.run`. Without `folder`, the campaign lies in a temporary folder, which is removed when the process ends.
     """
     study = Study.of_function(
         function, space, spec=spec, strategy=strategy, budget=budget, seed=seed, stop_at_first=stop_at_first, **choices

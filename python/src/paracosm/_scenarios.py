@@ -1,6 +1,7 @@
 """`scenario`: makes a scenario of a function."""
 
 import difflib
+import functools
 import hashlib
 import inspect
 import os
@@ -9,7 +10,8 @@ from collections.abc import Callable
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from typing import overload
+from types import FrameType
+from typing import Any, overload
 
 from ._core import Error, Program, Scenario
 
@@ -29,31 +31,51 @@ def scenario(
 ) -> Program | Callable[[_Build], Program]:
     """Makes a scenario of a function that builds a world: write `@scenario` above it.
 
-    The function gets a `Scenario`, and is called once for each test. It depends on the test alone, and returns nothing. `name` and `about` are the
+    The function gets a `Scenario`, and is called at least once for each test, and also when a study is made. It depends on the test alone, and returns nothing. `name` and `about` are the
     name and the description; without them, the scenario has the name of the function, with hyphens for underscores, and the first line of its documentation. In a file, the name begins
     with the path of the file, so that a folder of a campaign says where its scenario stands.
     """
+    place = _module_file(sys._getframe(1))
     if function is None:
-        return lambda function: _made(function, name, about)
-    return _made(function, name, about)
+        return lambda function: _made(function, name, about, place)
+    return _made(function, name, about, place)
 
 
-def _made(function: _Build, name: str | None, about: str | None) -> Program:
+def _made(function: _Build, name: str | None, about: str | None, place: Path | None) -> Program:
     if not callable(function):
         raise Error(f"found {function!r}, expected a function that gets a scenario")
-    own = name or getattr(function, "__name__", "scenario").replace("_", "-")
+    described = _described(function)
+    if name is not None and (":" in name or not name.isprintable()):
+        raise Error(f"the name of the scenario is {name!r}, expected printable text without `:`, which stands between a file and a scenario")
+    own = name or described.__name__.replace("_", "-")
     if about is None:
-        about = (inspect.getdoc(function) or "").partition("\n")[0].rstrip(".") or "a scenario of Python"
-    file = _file(function)
+        about = (inspect.getdoc(described) or "").partition("\n")[0].rstrip(".") or "a scenario of Python"
+    file = place or _file(described)
     if file is None:
         return Program(function, own, about)
     return Program(function, f"{_shown(file)}:{own}", about, _hash(file))
 
 
-def _file(function: _Build) -> Path | None:
-    """Returns the file of a function; `None` in a notebook or in an interpreter."""
-    code = getattr(inspect.unwrap(function), "__code__", None)
-    file = Path(getattr(code, "co_filename", ""))
+def _described(function: Any) -> Any:
+    """Returns what has the name and the documentation of a function: the function in a partial one, or the class of an object that can be called."""
+    while isinstance(function, functools.partial):
+        function = function.func
+    return function if hasattr(function, "__name__") else type(function)
+
+
+def _file(described: Any) -> Path | None:
+    """Returns the file of a function or of a class; `None` in a notebook or in an interpreter."""
+    call = described.__call__ if inspect.isclass(described) else described
+    return _python_file(getattr(getattr(inspect.unwrap(call), "__code__", None), "co_filename", ""))
+
+
+def _module_file(frame: FrameType) -> Path | None:
+    """Returns the file that a frame runs as a module or as a script: a decorator of another file may have made the function. Otherwise `None`."""
+    return _python_file(frame.f_code.co_filename) if frame.f_code.co_name == "<module>" else None
+
+
+def _python_file(name: str) -> Path | None:
+    file = Path(name)
     return file.resolve() if file.suffix == ".py" and file.is_file() else None
 
 
@@ -63,8 +85,8 @@ def _shown(file: Path) -> str:
     return str(file.relative_to(folder)) if file.is_relative_to(folder) else os.fspath(file)
 
 
-def _hash(file: Path) -> str:
-    return hashlib.blake2b(file.read_bytes(), digest_size=16).hexdigest()
+def _hash(file: str | os.PathLike[str]) -> str:
+    return hashlib.blake2b(Path(file).read_bytes(), digest_size=16).hexdigest()
 
 
 def _found(module: str, name: str) -> Program:
@@ -122,5 +144,10 @@ def _programs_of(file: Path) -> dict[str, Program]:
     except BaseException:
         del sys.modules[name]
         raise
-    programs = [found for found in vars(module).values() if isinstance(found, Program) and _file(found.function) == file]
-    return {program.name.rpartition(":")[2]: program for program in programs}
+    own = [found for found in vars(module).values() if isinstance(found, Program) and found.name.rpartition(":")[0] == _shown(file)]
+    programs: dict[str, Program] = {}
+    for program in own:
+        name = program.name.rpartition(":")[2]
+        if programs.setdefault(name, program) is not program:
+            raise Error(f"{_shown(file)} has two scenarios called `{name}`: give each its own name, `@scenario(name=\"..\")`")
+    return programs

@@ -7,7 +7,7 @@ import stat
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NoReturn
 
@@ -41,6 +41,9 @@ class Driver:
     """The settings with their default values. `--set driver.NAME=VALUE` and `driver_settings` change them for a session."""
     seed: int = 0
     """The seed of all random numbers of the driver. `--set driver.seed=N` sets it."""
+
+    files: Sequence[str | os.PathLike[str]] = ()
+    """The files that it reads. They travel with it to other machines."""
 
     def reset(self, briefing: Briefing) -> None:
         """Begins a new test: forget everything. `briefing` is a `Briefing`."""

@@ -1,5 +1,7 @@
-"""What a driver is told, and what it answers. SI units; "as seen from the car" means from the middle of its box: x ahead, y to
-the left."""
+"""What a driver is told, and what it answers.
+
+All units are SI units. "As seen from the car" means: from the middle of the box of the car, with x ahead and y to the left.
+"""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,17 +12,34 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Control:
-    """The control until the next step: `throttle` from -1 (full brakes) to 1 (full power), and `steering` from -1 (right) to 1 (left)."""
+    """The control of the car until the next step.
+
+    - throttle: from -1, full brakes, to 1, full power
+    - steering: from -1, the wheels turned to the right as far as they go, to 1, the wheels turned to the left
+    """
 
     throttle: float = 0.0
-    """From -1, full brakes, to 1, full power."""
     steering: float = 0.0
-    """From -1, the wheels turned to the right as far as they go, to 1, to the left."""
 
 
 @dataclass(frozen=True)
 class Vehicle:
-    """A car. Lengths in metres, masses in kg; `driver.proto` says what each is. Its axles stand evenly about its middle."""
+    """A car. The two axles have the same distance from the middle of the car.
+
+    - length, width, height: the size of the car in m
+    - wheelbase, track: the distances from front axle to rear axle, and from left wheel to right wheel, in m
+    - front_axle: the distance of the centre of gravity behind the front axle in m
+    - centre_of_gravity: the height of the centre of gravity above the road in m
+    - mass, yaw_inertia: the mass in kg, and the moment of inertia about the vertical axis in kg m^2
+    - wheel_radius, wheel_mass, wheel_inertia: the radius of a wheel in m, its mass in kg, and its moment of inertia about its axle in kg m^2
+    - ride_frequency: the frequency in Hz at which the body bounces on its springs
+    - damping_ratio: the damping of the springs; 1 is critical damping
+    - cornering_stiffness: the lateral force of a tyre divided by its load and its slip angle, for small slip angles, in 1/rad
+    - max_steering_angle, max_steering_rate: the greatest angle of the front wheels to either side in rad, and the greatest rate in rad/s
+    - max_acceleration: the greatest acceleration and deceleration by engine and brakes, without the limits of the road, in m/s^2
+    - switch_speed: the speed above which the engine gives constant power, in m/s
+    - max_speed: the top speed in m/s
+    """
 
     length: float
     width: float
@@ -46,7 +65,11 @@ class Vehicle:
 
 @dataclass(frozen=True)
 class Briefing:
-    """What a driver is told before a test: the speed to keep where nothing is in the way, in m/s, and its car."""
+    """What a driver is told before a test.
+
+    - cruise_speed: the speed to keep where nothing is in the way, in m/s
+    - vehicle: the car that the driver drives
+    """
 
     cruise_speed: float
     vehicle: Vehicle
@@ -54,63 +77,84 @@ class Briefing:
 
 @dataclass(frozen=True)
 class Way:
-    """The way that the car is to go."""
+    """The way that the car should go.
+
+    - offset: the distance of the car to the left of the way, in m
+    - heading: the angle of the car to the left of the way, in rad
+    - spacing: the distance along the way from one point of `ahead` to the next, in m
+    - ahead: (n, 3), float64: points of the way, the nearest first. Columns: x and y as seen from the car in m, and the curvature in 1/m, positive to
+      the left
+    """
 
     offset: float
-    """How far the car is to the left of it, in metres."""
     heading: float
-    """By how much the car points to the left of it, in radians."""
     spacing: float
-    """Metres along the way from one point ahead to the next."""
     ahead: NDArray[np.float64]
-    """Points ahead, the nearest first, (n, 3): x and y as seen from the car, and the curvature in 1/m, positive to the left."""
 
 
 @dataclass(frozen=True)
 class Body:
-    """Another body as it truly is, for drivers with `others = True`."""
+    """Another body at its true place, for drivers with `others = True`.
+
+    - id: the number of the body, the same in all steps of a test
+    - kind: car, van, truck, bus, motorcycle, bicycle, pedestrian, building, tree, sign or prop
+    - position: (2,), float64: the middle of the body as seen from the car, in m
+    - velocity: (2,), float64: the velocity over the ground along the same axes, in m/s
+    - heading: the angle of the body to the left of the heading of the car, in rad
+    - length, width: the size of the rectangle that the body covers of the ground, in m. Both are the diameter if it covers a disc
+    """
 
     id: int
     kind: str
-    """car, van, truck, bus, motorcycle, bicycle, pedestrian, building, tree, sign or prop."""
     position: NDArray[np.float64]
-    """(2,), metres, as seen from the car."""
     velocity: NDArray[np.float64]
-    """(2,), m/s over the ground, along the same axes."""
     heading: float
-    """Radians, from where the car points."""
     length: float
     width: float
-    """Of the rectangle, or twice the radius of the disc, that it covers of the ground."""
 
 
 @dataclass(frozen=True)
 class Picture:
-    """An image that has arrived."""
+    """An image of a camera.
+
+    - camera: the name of the camera
+    - number: the number of the image. The image k is due at k periods of the camera
+    - time: when the image was taken, in s since the test began
+    - pixels: (height, width, 3), uint8: the image in sRGB; read-only
+    """
 
     camera: str
     number: int
-    """The k-th image is due at k periods of the camera."""
     time: float
-    """When it was taken."""
     pixels: NDArray[np.uint8]
-    """(height, width, 3), uint8, sRGB, read-only."""
 
 
 @dataclass(frozen=True)
 class Scan:
-    """A turn of a LiDAR."""
+    """A turn of a LiDAR.
+
+    - sensor: the name of the LiDAR
+    - number: the number of the turn. The turn k is due at k periods of the LiDAR
+    - time: when the turn was measured, in s since the test began
+    - points: (n, 4), float32: x, y and z as seen from the sensor in m, and the intensity; read-only
+    """
 
     sensor: str
     number: int
     time: float
     points: NDArray[np.float32]
-    """(n, 4), float32: x, y, z as seen from the sensor, and the intensity; read-only."""
 
 
 @dataclass(frozen=True)
 class Fix:
-    """Where a satellite receiver says that it is in the plane of the world; no position and no velocity in an outage."""
+    """What a satellite receiver says about its place in the world.
+
+    - sensor: the name of the receiver
+    - number: the number of the fix. The fix k is due at k periods of the receiver
+    - time: when the fix was measured, in s since the test began
+    - position: (2,), float64: x and y in the world, in m; `None` in an outage
+    - velocity: (2,), float64: the velocity along the same axes, in m/s; `None` in an outage
+    """
 
     sensor: str
     number: int
@@ -121,7 +165,14 @@ class Fix:
 
 @dataclass(frozen=True)
 class Inertia:
-    """What the car feels of its own motion: its acceleration (2,) as seen from the car, and its yaw rate to the left."""
+    """What an inertial sensor measures of the motion of the car.
+
+    - sensor: the name of the sensor
+    - number: the number of the measurement. The measurement k is due at k periods of the sensor
+    - time: when it was measured, in s since the test began
+    - acceleration: (2,), float64: the acceleration as seen from the car, in m/s^2
+    - yaw_rate: the rate at which the car turns to the left, in rad/s
+    """
 
     sensor: str
     number: int
@@ -132,19 +183,27 @@ class Inertia:
 
 @dataclass(frozen=True)
 class Observation:
-    """A moment. Lists hold what has arrived since the last step, the earliest first."""
+    """A moment of a test. Lists hold what has arrived since the last step, the earliest first.
+
+    - time: the seconds since the test began
+    - speed: the speed of the car in m/s
+    - travelled: the way that the car has covered, in m
+    - odometry: x, y and heading of the car as seen from the place where it began, in m and rad
+    - way: the way that the car should go
+    - images: the last image of each camera from which one has arrived in this test: (height, width, 3), uint8, read-only
+    - pictures: the images that have arrived
+    - scans: the turns of LiDARs that have arrived
+    - fixes: the measurements of satellite receivers that have arrived
+    - inertia: the measurements of inertial sensors that have arrived
+    - others: the other bodies, for drivers with `others = True`
+    """
 
     time: float
-    """Seconds since the test began."""
     speed: float
-    """Of the car, in m/s."""
     travelled: float
-    """The way that the car has covered, in metres."""
     odometry: tuple[float, float, float]
-    """x, y and heading of the car as seen from where it began."""
     way: Way
     images: dict[str, NDArray[np.uint8]]
-    """The last image of each camera from which one has arrived in this test: (height, width, 3), uint8, read-only."""
     pictures: list[Picture] = field(default_factory=list)
     scans: list[Scan] = field(default_factory=list)
     fixes: list[Fix] = field(default_factory=list)

@@ -16,12 +16,15 @@ PROTOCOL = 1
 
 @dataclass(frozen=True)
 class Detection:
-    """A road user that a detector found, in pixels from the left upper corner of the image."""
+    """A road user that a detector found.
+
+    - name: the class, one of the `classes` of the perceiver
+    - score: the confidence of the detector, from 0 to 1
+    - left, top, width, height: the box, in pixels from the left upper corner of the image
+    """
 
     name: str
-    """The class, one of the `classes` of the perceiver."""
     score: float
-    """From 0 to 1."""
     left: float
     top: float
     width: float

@@ -23,9 +23,9 @@ pub fn write(compared: &Compared, folder: &Path) -> Result<(), Error> {
     write_pictures(folder, &figures::all(compared))
 }
 
-/// Returns a table with a row for every set of points. Plain sets have no seed. The columns of a measure that was not
-/// taken are empty.
-fn set_rows(compared: &Compared) -> Vec<Vec<String>> {
+/// Returns the rows of `sets.csv`: the names of the columns, and a row for every set of points. Plain sets have no seed. The columns of a
+/// measure that was not taken are empty.
+pub fn set_rows(compared: &Compared) -> Vec<Vec<String>> {
     let measures: Vec<Measure> =
         compared.comparison.all_measures().into_iter().filter(|m| *m != Measure::K_WISE).collect();
     let columns = measures.iter().flat_map(|m| ["lower", "upper"].map(|end| format!("{}_{end}", m.name())));
@@ -43,7 +43,8 @@ fn set_rows(compared: &Compared) -> Vec<Vec<String>> {
     rows
 }
 
-fn summary_rows(compared: &Compared) -> Vec<Vec<String>> {
+/// Returns the rows of `summary.csv`: the names of the columns, and a row for each measure, size and strategy.
+pub fn summary_rows(compared: &Compared) -> Vec<Vec<String>> {
     let header = [
         "measure",
         "d",
@@ -91,7 +92,8 @@ fn summary_rows(compared: &Compared) -> Vec<Vec<String>> {
     rows
 }
 
-fn slope_rows(compared: &Compared) -> Vec<Vec<String>> {
+/// Returns the rows of `slopes.csv`: the names of the columns, and a row for each measure, dimension and strategy.
+pub fn slope_rows(compared: &Compared) -> Vec<Vec<String>> {
     let header = ["measure", "d", "strategy", "budgets", "slope", "slope_low", "slope_high", "plain_slope"];
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     for slope in &compared.slopes {

@@ -5,5 +5,5 @@ mod files;
 mod latex;
 mod table;
 
-pub use files::write;
+pub use files::{set_rows, slope_rows, summary_rows, write};
 pub use table::table;

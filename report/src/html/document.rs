@@ -8,6 +8,8 @@ use crate::junit::{command_option, shell_word};
 use paracosm_analysis::estimate::Measured;
 use paracosm_analysis::failure_estimate::{Estimator, FailureEstimate, decided};
 use paracosm_analysis::{Growth, Judged, Summary};
+#[cfg(feature = "viewer")]
+use paracosm_campaign::Log;
 use paracosm_campaign::{Error, Number, Study};
 use paracosm_coverage::Measure;
 use paracosm_generators::FailingShare;
@@ -20,8 +22,8 @@ use serde_json::{Map, Value};
 /// The name of the format, with its version.
 const FORMAT: &str = "paracosm-report-1";
 
-/// The greatest number of maps with a probability. A map over two of many parameters takes some 3 s of a core.
-const MAPS: usize = 10;
+/// The greatest number of maps with a probability in a file. A map over two of many parameters takes some 3 s of a core.
+pub(super) const MAPS: usize = 10;
 
 /// The document of a page.
 #[derive(Debug, Serialize)]
@@ -103,7 +105,7 @@ struct Axis {
 
 /// The estimated probability of failure over two coordinates.
 #[derive(Debug, Serialize)]
-struct Grid {
+pub(crate) struct Grid {
     /// The positions of both coordinates.
     axes: [usize; 2],
     /// The number of places along both axes.
@@ -149,7 +151,8 @@ pub struct FindingTable {
 }
 
 impl Document {
-    pub fn of(page: &Page) -> Result<Self, Error> {
+    /// Makes the document with at most this number of maps.
+    pub fn of(page: &Page, most_maps: usize) -> Result<Self, Error> {
         let (log, study) = (page.log, page.log.study());
         let worst = |summary: &Summary| {
             let found = summary.worst(log.scales())?;
@@ -177,7 +180,7 @@ impl Document {
             requirements: summary.requirements().iter().map(|judged| stated(study, judged)).collect(),
             coordinates: coordinates.iter().map(described).collect(),
             axes,
-            maps: maps(page, axes)?,
+            maps: maps(page, axes, most_maps)?,
             hole: hole(page),
             without_effect: page
                 .effects
@@ -209,7 +212,7 @@ impl About {
         Self {
             title: study.title(),
             scenario: simulation.map(|simulation| simulation.scenario().to_owned()),
-            strategy: study.sampling().strategy.to_string(),
+            strategy: study.sampling().strategy_name().to_owned(),
             seed: study.sampling().seed,
             budget: study.sampling().budget,
             unfinished: page.unfinished,
@@ -257,7 +260,7 @@ fn hole(page: &Page) -> Option<Record<[f64; 2]>> {
 }
 
 /// Returns the estimates over pairs of coordinates; the pair that is shown first comes first, then pairs with one of its coordinates. The order does not depend on the threads.
-fn maps(page: &Page, first: Option<[usize; 2]>) -> Result<Vec<Grid>, Error> {
+fn maps(page: &Page, first: Option<[usize; 2]>, most: usize) -> Result<Vec<Grid>, Error> {
     let Some(first) = first else { return Ok(Vec::new()) };
     let coordinates: Vec<Coordinate> = page.log.study().space().coordinates().collect();
     let continuous: Vec<usize> =
@@ -266,13 +269,40 @@ fn maps(page: &Page, first: Option<[usize; 2]>) -> Result<Vec<Grid>, Error> {
     let mut pairs: Vec<[usize; 2]> = all.collect();
     // A stable sort: first the pair itself, then pairs with one of its coordinates.
     pairs.sort_by_key(|pair| 2 - pair.iter().filter(|at| first.contains(&continuous[**at])).count());
-    pairs.truncate(MAPS);
+    pairs.truncate(most);
     let estimator = Estimator::of(page.log)?;
     let grid = |pair: [usize; 2]| Some(Grid::of(&estimator.over(pair)?, pair.map(|at| continuous[at])));
     Ok(pairs.into_par_iter().filter_map(grid).collect())
 }
 
+/// The error that a map cannot have these axes.
+#[cfg(feature = "viewer")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a map needs two different continuous coordinates, found the coordinates {} and {}", .0[0], .0[1])]
+struct NoPair([usize; 2]);
+
+#[cfg(feature = "viewer")]
+impl paracosm_campaign::Reason for NoPair {}
+
 impl Grid {
+    /// Returns the estimate over two coordinates of a campaign, by their positions; `None` if there is no model of the failures.
+    ///
+    /// # Errors
+    /// A coordinate does not exist or is discrete, or both are the same; or no model can be fitted.
+    #[cfg(feature = "viewer")]
+    pub fn over(log: &Log, axes: [usize; 2]) -> Result<Option<Self>, Error> {
+        let continuous: Vec<usize> = (0..)
+            .zip(log.study().space().coordinates())
+            .filter_map(|(at, coordinate)| coordinate.parameter.levels().is_none().then_some(at))
+            .collect();
+        let place = |axis: usize| continuous.iter().position(|at| *at == axis).ok_or(NoPair(axes));
+        let pair = [place(axes[0])?, place(axes[1])?];
+        if pair[0] == pair[1] {
+            return Err(NoPair(axes).into());
+        }
+        Ok(Estimator::of(log)?.over(pair).map(|estimate| Self::of(&estimate, axes)))
+    }
+
     fn of(estimate: &FailureEstimate, axes: [usize; 2]) -> Self {
         let size = [estimate.x.len(), estimate.y.len()];
         let places = || (0..size[1]).flat_map(|j| (0..size[0]).map(move |i| estimate.at(i, j)));

@@ -19,7 +19,9 @@ pub use document::{Finding, FindingTable};
 pub(crate) use run::{Record, Recorder};
 pub use runs::Runs;
 
-use document::Document;
+#[cfg(feature = "viewer")]
+pub(crate) use document::Grid;
+use document::{Document, MAPS};
 use pack::{BUNDLE, base64, gzip};
 use paracosm_analysis::{Coverage, Effects, Growth, Modes, Plausible, Summary};
 use paracosm_campaign::{Log, Reason};
@@ -87,7 +89,7 @@ impl Page<'_> {
     /// A model of the failures cannot be fitted, or not even the results fit.
     pub fn html(&self, runs: &Runs, megabytes: f64) -> Result<String, paracosm_campaign::Error> {
         let most = (megabytes * 1e6) as usize;
-        let mut document = Document::of(self)?;
+        let mut document = Document::of(self, MAPS)?;
         let shell = BUNDLE.script.len() + BUNDLE.style.len() + base64(&gzip(&document.json())).len() + 4096;
         let room = most.checked_sub(shell).ok_or(TooSmall { least: shell as f64 / 1e6, most: megabytes })?;
         let tests = columns::pack(self, (room as f64 * TESTS) as usize);
@@ -114,7 +116,8 @@ impl Page<'_> {
     #[cfg(feature = "viewer")]
     pub fn served(&self) -> Result<String, paracosm_campaign::Error> {
         let tests = columns::pack(self, usize::MAX);
-        let mut document = Document::of(self)?;
+        // The page asks for further maps when somebody looks at them.
+        let mut document = Document::of(self, 1)?;
         (document.served, document.tests) = (true, tests.described);
         Ok(self.assemble(&document, &tests.text, &[]))
     }

@@ -9,6 +9,7 @@ use crate::margin;
 use paracosm_campaign::{Number, Study};
 use paracosm_engine::object::{Body, Class, Outline};
 use paracosm_engine::road::{Bounds, RoadNetwork};
+use paracosm_engine::signal::about;
 use paracosm_engine::{Pose, Run};
 use paracosm_oracles::Trace;
 use serde::Serialize;
@@ -65,6 +66,8 @@ struct Played {
 #[derive(Debug, Serialize)]
 struct Curve {
     name: String,
+    /// The unit of the values; empty if they have none, or if the signal is not one of the software.
+    unit: &'static str,
     values: Vec<Option<f32>>,
 }
 
@@ -172,6 +175,7 @@ fn signals(trace: &Trace, ticks: &[usize]) -> Vec<Curve> {
     let rows: Vec<&[f64]> = trace.rows().collect();
     let curve = |(column, name): (usize, &String)| Curve {
         name: name.clone(),
+        unit: about(name).map_or("", |about| about.unit),
         values: ticks.iter().map(|tick| rounded(rows[*tick][column])).collect(),
     };
     trace.signals().iter().enumerate().map(curve).collect()

@@ -5,12 +5,13 @@
 //! machine. Nothing is written: a new test is no test of the campaign.
 
 mod errand;
+mod question;
 mod server;
 mod wanted;
 
 pub use server::{Doorway, NoServer};
 
-use crate::html::{Record, Recorder};
+use crate::html::{Grid, Record, Recorder};
 use errand::Errand;
 use paracosm_campaign::cameras::VariedCameras;
 use paracosm_campaign::{Error, Folder, Log, Number, Study, Supervision, Trial, Worker};
@@ -55,6 +56,8 @@ enum Question {
     Page,
     /// The number of tests that the campaign has by now, and whether more may come.
     Progress,
+    /// The estimated probability of failure over two coordinates, by their positions.
+    Map([usize; 2]),
     /// The run of a test.
     Run(Wanted),
     /// A question that takes many runs.
@@ -139,6 +142,7 @@ impl Viewer<'_> {
                 let tests = (self.read)()?.trials().len();
                 Ok(json(&Progress { tests, unfinished: Folder::is_unfinished(self.folder, self.study, tests) }))
             }
+            Question::Map(axes) => Ok(json(&Grid::over(&(self.read)()?, *axes)?)),
             _ => (self.page)().map(Answer::Page),
         }
     }
@@ -228,7 +232,7 @@ impl Desks {
     /// Sends a question to its desk, and waits for the answer. Nobody waits any more once the future is dropped.
     async fn ask(&self, question: Question) -> Answer {
         let desk = match &question {
-            Question::Page | Question::Progress => &self.pages,
+            Question::Page | Question::Progress | Question::Map(_) => &self.pages,
             Question::Run(_) => &self.runs,
             Question::Errand(_) => &self.errands,
         };

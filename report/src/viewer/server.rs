@@ -138,26 +138,38 @@ async fn answer(State(desk): State<Arc<Desk>>, request: Request) -> Response<Bod
     let (parts, body) = request.into_parts();
     let rest = match desk.admitted(&parts.method, parts.uri.path(), &parts.headers) {
         Ok(rest) => rest,
-        Err(status) => return reply(status, TEXT, Vec::new()),
+        Err(status) => return reply(status, TEXT, refusal(status).into()),
     };
     let question = match (&parts.method, rest) {
         (&Method::GET, "") => Question::Page,
         (&Method::POST, "ask") => {
             let Ok(bytes) = to_bytes(body, LONGEST).await else {
-                return reply(StatusCode::PAYLOAD_TOO_LARGE, TEXT, Vec::new());
+                let why = format!("the question has more than {LONGEST} bytes");
+                return reply(StatusCode::PAYLOAD_TOO_LARGE, TEXT, why.into());
             };
-            match serde_json::from_slice(&bytes) {
+            match Question::read(&bytes) {
                 Ok(question) => question,
-                Err(error) => return reply(StatusCode::BAD_REQUEST, TEXT, error.to_string().into_bytes()),
+                Err(flaw) => return reply(StatusCode::BAD_REQUEST, TEXT, flaw.to_string().into()),
             }
         }
-        _ => return reply(StatusCode::NOT_FOUND, TEXT, Vec::new()),
+        _ => return reply(StatusCode::NOT_FOUND, TEXT, refusal(StatusCode::NOT_FOUND).into()),
     };
     match desk.desks.ask(question).await {
         Answer::Page(text) => reply(StatusCode::OK, HTML, text.into_bytes()),
         Answer::Json(text) => reply(StatusCode::OK, JSON, text.into_bytes()),
         Answer::Film(bytes) => reply(StatusCode::OK, MP4, bytes),
         Answer::Refused(why) => reply(StatusCode::UNPROCESSABLE_ENTITY, TEXT, why.into_bytes()),
+    }
+}
+
+/// Says why a request is refused.
+fn refusal(status: StatusCode) -> &'static str {
+    match status {
+        StatusCode::FORBIDDEN => "this is not the address of a page: open the address that `paracosm-fuzz view` prints",
+        StatusCode::METHOD_NOT_ALLOWED => "expected the method GET for the page, or POST for a question at `ask`",
+        _ => {
+            "nothing is here: the page is at the address that `paracosm-fuzz view` prints, and takes questions at `ask`"
+        }
     }
 }
 

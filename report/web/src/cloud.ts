@@ -1,7 +1,7 @@
 // Draws tests as marks over two parameters: each test as its mark, or as a few pixels if there are many tests.
 
 import { colour } from "./dom";
-import { mark, modeColour, verdictColour } from "./marks";
+import { mark, modeColour, sign, verdictColour } from "./marks";
 import type { Store } from "./store";
 
 /** With more tests in sight, a test is a few pixels. */
@@ -60,10 +60,15 @@ export function paintTests(context: CanvasRenderingContext2D, store: Store, clou
     const [px, py] = place(row);
     context.fillRect(px - 1, py - 1, 2, 2);
   }
+  context.font = "bold 11px system-ui, sans-serif";
+  [context.textAlign, context.textBaseline] = ["center", "middle"];
   for (const row of others) {
     const [px, py] = place(row);
+    const verdict = page.verdicts[tests.verdict[row]].name;
     context.fillStyle = verdictOf(row);
-    context.fillRect(px - 2, py - 2, 4, 4);
+    // A test that passes is a dot, and each other verdict has its sign.
+    if (verdict === "pass") context.fillRect(px - 2, py - 2, 4, 4);
+    else context.fillText(sign(verdict), px, py);
   }
   for (const row of failing) mark(context, cloud.byMode ? tests.mode[row] : 1, ...place(row), 4, modeOf(row));
   return false;

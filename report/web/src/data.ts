@@ -140,6 +140,8 @@ export interface Played {
 
 export interface Curve {
   name: string;
+  /** The unit of the values; empty if they have none. */
+  unit: string;
   values: (number | null)[];
 }
 

@@ -14,6 +14,8 @@ import type { Store } from "./store";
 import { reason, withUnit } from "./words";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4];
+/** The height of a plot in pixels: four plots fit beside the run on a small screen. */
+const HEIGHT = 100;
 /** The signals that are drawn first, if a run has them. */
 const FIRST = ["car.speed", "car.clearance"];
 
@@ -202,7 +204,8 @@ export class Film {
     const why = runs.why ? ` (${runs.why})` : "";
     // A system has no world to draw.
     const command = study.scenario === null ? "" : ` This command draws it: ${study.program} replay ${study.folder} ${index} --draw test-${index}.gif${study.trusting}`;
-    return `This page does not have the run of test ${index}${why}.${command}`;
+    const which = study.scenario === null ? "" : " It has the runs of failing tests and of a sample of the others.";
+    return `This page does not have the run of test ${index}${why}.${which}${command}`;
   }
 
   private play(run: Run, name: string, test: Wanted, begin = 0, isToPlay = true) {
@@ -304,10 +307,10 @@ export class Film {
     const all: uPlot[] = [];
     const element = h("div", { class: "plots" });
     const units = new Map(this.store().page.requirements.map(({ id, unit }) => [id, unit]));
-    const plot = (title: string, series: { label: string; values: (number | null)[]; stroke: string; dash?: number[] }[], zero: boolean) => {
+    const plot = (title: string, series: { label: string; values: (number | null)[]; stroke: string | (() => string); dash?: number[] }[], zero: boolean) => {
       const place = h("div", {});
       const made = new uPlot({
-        width: 400, height: 118, title,
+        width: 400, height: HEIGHT, title,
         legend: { show: false },
         cursor: { y: false, drag: { x: false, y: false } },
         scales: { x: { time: false } },
@@ -323,19 +326,19 @@ export class Film {
       });
       all.push(made);
       element.append(place);
-      new ResizeObserver(() => place.clientWidth > 0 && made.setSize({ width: place.clientWidth, height: 118 })).observe(place);
+      new ResizeObserver(() => place.clientWidth > 0 && made.setSize({ width: place.clientWidth, height: HEIGHT })).observe(place);
       return { made, place };
     };
     for (const { id, lower, upper, end } of run.robustness) {
       plot(`robustness of ${id}: ${end === null ? "undecided" : `${withUnit(end, units.get(id) ?? null)} at the end`}`, [
-        { label: "at most", values: upper, stroke: "#0072b2" },
-        { label: "at least", values: lower, stroke: "#0072b2", dash: [4, 4] },
+        { label: "at most", values: upper, stroke: () => colour("pass") },
+        { label: "at least", values: lower, stroke: () => colour("pass"), dash: [4, 4] },
       ], true);
     }
     const shown = new Map<string, { made: uPlot; place: HTMLElement }>();
     const toggle = (name: string, on: boolean) => {
       const signal = run.signals.find((signal) => signal.name === name);
-      if (on && signal) shown.set(name, plot(name, [{ label: name, values: signal.values, stroke: "#d55e00" }], false));
+      if (on && signal) shown.set(name, plot(signal.unit ? `${name} (${signal.unit})` : name, [{ label: name, values: signal.values, stroke: "#d55e00" }], false));
       else if (!on) {
         const old = shown.get(name);
         if (!old) return;

@@ -6,7 +6,8 @@ import { select } from "d3-selection";
 import { zoom, zoomIdentity, type ZoomTransform } from "d3-zoom";
 import { plain, type Grid } from "./data";
 import { colour, h, Sheet } from "./dom";
-import { pointed } from "./words";
+import { mapped } from "./server";
+import { pointed, reason } from "./words";
 import { Spots } from "./spots";
 import type { Store } from "./store";
 import { type Line, paintTests } from "./cloud";
@@ -57,6 +58,8 @@ export class MapView {
   private readonly tip = h("div", { class: "tip", hidden: true });
   private readonly note = h("p", { class: "note" });
   private readonly images = new Map<Grid, HTMLCanvasElement>();
+  /** What the viewer said of the pairs that the page did not have, by their positions; empty while it has not answered. */
+  private readonly asked = new Map<string, string>();
 
   /** `shown` are the axes that the map shows first, in place of the axes of the page. */
   constructor(private readonly store: Store, shown: [number, number] | null = null) {
@@ -137,7 +140,7 @@ export class MapView {
     const isWhole = page.coordinates.length === 2;
     const parts = [
       page.served ? "Click an empty place to run a test there." : null,
-      grid ? "Shade: estimated probability of failure." : this.store.page.maps.length > 0 ? "The page has no estimate for this pair." : null,
+      grid ? "Shade: estimated probability of failure." : this.withoutShade(),
       hole ? (isWhole ? "Dashed: the largest empty box, which was never tested." : "Dashed: the largest empty box; other parameters bound it, too.") : null,
       x === y ? "Both axes show the same parameter." : null,
       this.hasPixels && this.byMode && page.modes.modes.length > 1 ? "With so many tests, a failure mode is a colour; zoom in to see its marks." : null,
@@ -147,7 +150,35 @@ export class MapView {
 
   private grid(): Grid | null {
     const [x, y] = this.axes;
-    return this.store.page.maps.find(({ axes }) => (axes[0] === x && axes[1] === y) || (axes[0] === y && axes[1] === x)) ?? null;
+    const { page } = this.store;
+    const grid = page.maps.find(({ axes }) => (axes[0] === x && axes[1] === y) || (axes[0] === y && axes[1] === x)) ?? null;
+    // A viewer makes the other maps when somebody looks at them. Without a first map, it has no model of the failures.
+    if (!grid && page.served && x !== y && page.maps.length > 0) void this.ask([Math.min(x, y), Math.max(x, y)]);
+    return grid;
+  }
+
+  private async ask(pair: [number, number]) {
+    const { page } = this.store;
+    if (this.asked.has(String(pair))) return;
+    this.asked.set(String(pair), "");
+    try {
+      const grid = await mapped(pair);
+      if (grid) page.maps.push(grid);
+      this.asked.set(String(pair), "There is no estimate for this pair.");
+    } catch (error) {
+      this.asked.set(String(pair), `There is no estimate for this pair: ${reason(error)}.`);
+    }
+    this.sheet.draw();
+  }
+
+  /** Says why the map has no shade. */
+  private withoutShade(): string | null {
+    const { page } = this.store;
+    const [x, y] = this.axes;
+    if (x === y) return null;
+    if (page.maps.length === 0) return "There is no estimate of the probability of failure: it needs tests that fail and tests that pass.";
+    if (!page.served) return "The page has no estimate for this pair; `map` draws it.";
+    return this.asked.get([Math.min(x, y), Math.max(x, y)].join()) || "The estimate for this pair is being made.";
   }
 
   private hole(): [[number, number], [number, number]] | null {

@@ -14,6 +14,7 @@ export class Matrix {
   readonly element: HTMLElement;
   private readonly sheet: Sheet;
   private readonly note = h("p", { class: "note", "aria-live": "polite" });
+  private readonly legend = h("p", { class: "muted" });
   /** The rows of the tests that pass all filters. */
   private shown: number[] = [];
   private focused = 0;
@@ -35,8 +36,7 @@ export class Matrix {
       event.preventDefault();
     });
     const names = h("div", { class: "names" }, ...robustness.map(({ id }) => h("div", {}, id)));
-    const legend = h("p", { class: "muted" }, "Tall and orange: violated. Short and blue: holds. Nothing: undecided. A click plays the test.");
-    this.element = h("div", { class: "matrix" }, h("div", { class: "strips" }, names, canvas), legend, this.note);
+    this.element = h("div", { class: "matrix" }, h("div", { class: "strips" }, names, canvas), this.legend, this.note);
     store.onFilter(() => this.choose());
     this.choose();
   }
@@ -69,6 +69,8 @@ export class Matrix {
     if (count === 0) return;
     // A column is at least a pixel wide. With more tests than pixels it shows the worst result of its tests.
     const columns = Math.min(count, Math.floor(width));
+    const each = columns < count ? " A column stands for several tests, and shows the worst result of them." : "";
+    this.legend.textContent = `Tall and orange: violated. Short and blue: holds. Nothing: undecided.${each} A click plays the test.`;
     robustness.forEach(({ values }, line) => {
       const top = line * (ROW + GAP);
       context.fillStyle = colour("grid");

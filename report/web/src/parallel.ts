@@ -41,6 +41,7 @@ export class Parallel {
     this.element = h("div", { class: "parallel", id: "parallel" },
       h("div", { class: "controls" }, verdicts, h("button", { type: "button", class: "quiet", click: () => store.clear() }, "Remove all filters"), this.count),
       canvas,
+      h("p", { class: "muted" }, "Thick and orange: tests that fail. Thin and blue: the others."),
       h("details", {}, h("summary", {}, "Filter by numbers"), h("div", { class: "choices" }, ...rows)),
     );
     store.onFilter(() => {
@@ -116,7 +117,7 @@ export class Parallel {
     const fails = page.verdicts.findIndex(({ name }) => name === "fail");
     for (const isFailing of [false, true]) {
       context.strokeStyle = isFailing ? colour("fail") : colour("pass");
-      context.lineWidth = 1;
+      context.lineWidth = isFailing ? 1.8 : 0.8;
       const rows: number[] = [];
       for (let i = 0; i < tests.rows; i++) if (mask[i] && (tests.verdict[i] === fails) === isFailing) rows.push(i);
       if (rows.length > MOST_LINES && axes > 1) this.paintBins(context, rows);

@@ -134,12 +134,33 @@ export function requirements(store: Store): HTMLElement {
   return section("requirements", "Requirements", h("div", { class: "wide" }, h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows))));
 }
 
+/** The number of changed tests that are shown at once. */
+const FIRST = 12;
+
+/** What changed since the campaign before, in a line of the first screen that leads to the details. */
+export function changed(page: Document): HTMLElement | null {
+  const { changes } = page;
+  if (!changes) return null;
+  const { new_failures: added, mended, still_failing: still, titles } = changes;
+  return h("p", { class: "changed" }, `Since ${titles[0]}: ${plural(added.length, "new failure")}, ${mended.length} mended, ${still} still failing. `, h("a", { href: "#changes" }, "What changed"));
+}
+
+/** Says why there is no failure map; null if there is one. */
+export function withoutMap(page: Document): string | null {
+  if (page.axes !== null) return null;
+  const continuous = page.coordinates.filter(({ range }) => range).length;
+  if (continuous < 2) return `There is no failure map: a map needs two open continuous parameters, and this study has ${continuous === 0 ? "none" : "one"}.`;
+  return "There is no failure map: no test has a result.";
+}
+
 export function changes(store: Store): HTMLElement | null {
   const { changes } = store.page;
   if (!changes) return null;
   const { titles, tests, otherwise, unpaired, points, failing, still_failing: still, new_failures: added, mended, mcnemar_p: p } = changes;
   const alone = [0, 1].filter((at) => unpaired[at] > 0).map((at) => `${plural(unpaired[at], "test")} of ${titles[at]} (${at === 0 ? "before" : "after"})`);
-  const list = (label: string, all: typeof added) => [h("dt", {}, `${label}: ${all.length}`), h("dd", {}, ...all.slice(0, 12).map(({ index }) => h("button", { type: "button", class: "quiet", click: () => store.show(index[1]) }, `test ${index[1]}`)), all.length > 12 ? " ..." : null)];
+  const buttons = (all: typeof added) => all.map(({ index }) => h("button", { type: "button", class: "quiet", click: () => store.show(index[1]) }, `test ${index[1]}`));
+  const list = (label: string, all: typeof added) => [h("dt", {}, `${label}: ${all.length}`), h("dd", {}, ...buttons(all.slice(0, FIRST)),
+    all.length > FIRST ? h("details", {}, h("summary", {}, `${plural(all.length - FIRST, "more test")}`), ...buttons(all.slice(FIRST))) : null)];
   return section("changes", "What changed",
     h("p", {}, `Before (${titles[0]}): ${failing[0]} of ${plural(tests, "test")} fail. After (${titles[1]}): ${failing[1]} fail, ${still} of them in both. McNemar's test: p = ${digits(p)}.`),
     otherwise.length > 0 ? h("p", {}, `Also different: ${otherwise.join("; ")}.`) : null,
@@ -159,8 +180,8 @@ export function growth(page: Document): HTMLElement | null {
   if (sizes.length < 3) return null;
   const place = h("div", { class: "growth" });
   const curves = [
-    { label: "largest empty box, at most", values: leastSoFar(sizes.map(({ dispersion }) => dispersion && dispersion[1])), stroke: "#0072b2" },
-    { label: "combinations of values covered", values: sizes.map(({ k_wise: share }) => share), stroke: "#009e73", dash: [5, 4] },
+    { label: "largest empty box, at most", values: leastSoFar(sizes.map(({ dispersion }) => dispersion && dispersion[1])), stroke: () => colour("pass") },
+    { label: "combinations of values covered", values: sizes.map(({ k_wise: share }) => share), stroke: () => "#009e73", dash: [5, 4] },
   ].filter(({ values }) => values.some((value) => value !== null));
   if (curves.length === 0) return null;
   const plot = new uPlot({

@@ -1,6 +1,6 @@
 // Questions to the viewer, if a viewer serves the page: `paracosm-fuzz view`.
 
-import type { Real, Run } from "./data";
+import type { Grid, Real, Run } from "./data";
 
 /** A test that the viewer has run. */
 export interface Ran {
@@ -55,6 +55,9 @@ export const ran = (test: Wanted) => ask<Ran>({ run: test });
 
 /** The number of tests of the campaign by now, and whether more may come. */
 export const progress = () => ask<{ tests: number; unfinished: boolean }>("progress");
+
+/** The estimate over two coordinates, by their positions; null if there is none. */
+export const mapped = (axes: [number, number]) => ask<Grid | null>({ map: axes });
 
 export const shrunk = (test: Wanted, signal: AbortSignal) => ask<Simplest>({ shrink: test }, signal);
 

@@ -368,3 +368,13 @@ fn what_a_file_says_of_the_design_domain_is_no_matter_of_the_space() {
     assert!(!space.to_toml().contains("odd") && !serde_json::to_string(&space).unwrap().contains("odd"));
     assert!(Space::from_toml(&format!("{parameter}[ood]\n")).is_err());
 }
+
+#[test]
+fn the_discrete_part_of_a_space_keeps_the_constraints_between_its_parameters() {
+    let texts = ["lanes > 2 or weather == 'clear'", "lanes > 2 or speed < 5"];
+    let part = pedestrian().with_constraints(texts).unwrap().discrete_part();
+    let names: Vec<&str> = part.parameters().iter().map(|parameter| parameter.name.as_str()).collect();
+    assert_eq!(names, ["lanes", "weather"]);
+    assert_eq!(part.constraints().iter().map(Constraint::text).collect::<Vec<_>>(), texts[..1]);
+    assert!(interval(0.0, 1.0).unwrap().discrete_part().parameters().is_empty());
+}

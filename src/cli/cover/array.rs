@@ -1,6 +1,6 @@
 //! The covering array behind generated tests, with its size and the least size that any covering array can have.
 
-use super::{strength, time_limit};
+use super::{spinner, strength, time_limit};
 use crate::cli::interrupt::Interruptible;
 use crate::cli::output::plural;
 use crate::cli::{Strict, Verbosity, complain};
@@ -11,7 +11,6 @@ use crate::space::constraint::Constraint;
 use crate::space::demand::Demand;
 use crate::space::rules::Rules;
 use crate::space::{Coordinate, Space};
-use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_analysis::estimate::named_level;
 use paracosm_campaign::{Error, PartialRow};
 use std::collections::BTreeMap;
@@ -148,12 +147,4 @@ fn smaller(request: &CoveringRequest, array: CoveringArray, limit: Duration, ver
         complain(&"interrupted: this is the smallest array so far");
     }
     array
-}
-
-/// Makes a spinner with the time so far.
-fn spinner(message: String, verbosity: Verbosity) -> ProgressBar {
-    let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
-    bar.enable_steady_tick(Duration::from_millis(100));
-    let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("the template is one");
-    bar.with_style(style).with_message(message)
 }

@@ -7,6 +7,7 @@ use crate::cli::usage;
 use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::coverage::Bracket;
 use crate::generators::Request;
+use crate::notes::capped_strength;
 use crate::space::{Parameter, Space};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -115,7 +116,7 @@ impl Options {
         }
         tests.demand.groups.extend(strength::groups(&self.strength, &tests.space)?);
         if measures.contains(&Measure::K_WISE) {
-            strength::capped(self.k, &tests.space).into_iter().for_each(|note| verbosity.note(note));
+            capped_strength(self.k, &tests.space).into_iter().for_each(|note| verbosity.note(note));
         }
         if verbosity.verbose {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();

@@ -10,6 +10,7 @@ use crate::cli::usage;
 use crate::cli::{Failure, Strict, Verbosity, complain, output_error};
 use crate::coverage::Deadline;
 use crate::generators::{DiscreteFamily, Generator, Purpose, Request, Strategy};
+use crate::notes::capped_strength;
 use crate::space::demand::Demand;
 use crate::space::{Point, Space};
 use clap::{ArgGroup, Args};
@@ -127,7 +128,7 @@ impl Options {
             broken(&space, &existing, &path.display().to_string()).into_iter().for_each(|note| verbosity.note(note));
         }
         if strategy.has_rows(&request) {
-            strength::capped(self.sampling.k, &space).into_iter().for_each(|note| verbosity.note(note));
+            capped_strength(self.sampling.k, &space).into_iter().for_each(|note| verbosity.note(note));
         }
         let limit = time_limit("--time-limit", self.time_limit.unwrap_or(TIME_LIMIT))?;
         let uses_array =

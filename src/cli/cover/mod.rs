@@ -5,6 +5,7 @@ mod certificate;
 mod compare;
 mod estimate;
 mod generate;
+mod optimise;
 mod plan;
 mod reached;
 mod strength;
@@ -13,6 +14,7 @@ use super::{Failure, Verbosity};
 use crate::cli::usage;
 use crate::generators::Strategy;
 use clap::{Parser, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
 use paracosm_campaign::{Catalogue, Error};
 use std::time::Duration;
 
@@ -24,6 +26,7 @@ Examples:
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --dims 3 --extend points.csv --budget 20
   paracosm-cover generate --space MODEL.pict --k 3 --optimise 10 > tests.csv
+  paracosm-cover optimise --measure star --dims 2 --budget 100 --time 30 > points.csv
   paracosm-cover plan --dims 5 --epsilon 0.1
   paracosm-cover compare --strategies random,halton,greedy --out compared
 
@@ -56,6 +59,8 @@ enum Verb {
     Estimate(estimate::Options),
     /// Make tests: CSV on standard output
     Generate(generate::Options),
+    /// Search for points with a small measure: CSV on standard output
+    Optimise(optimise::Options),
     /// Compare strategies over dimensions, budgets and seeds
     Compare(compare::Options),
     /// Show how many tests each guarantee needs
@@ -67,6 +72,7 @@ impl Command {
         match self.verb {
             Verb::Estimate(estimate) => estimate.execute(catalogue, self.verbosity),
             Verb::Generate(generate) => generate.execute(catalogue, self.verbosity),
+            Verb::Optimise(optimise) => optimise.execute(self.verbosity),
             Verb::Compare(compare) => compare.execute(self.verbosity),
             Verb::Plan(plan) => plan.execute(catalogue, self.verbosity),
         }
@@ -77,4 +83,12 @@ impl Command {
 pub(super) fn time_limit(option: &str, seconds: f64) -> Result<Duration, Error> {
     Duration::try_from_secs_f64(seconds)
         .map_err(|_| usage(format!("{option} {seconds}: expected a number of seconds, 0 or more")))
+}
+
+/// Makes a spinner with the time so far.
+fn spinner(message: String, verbosity: Verbosity) -> ProgressBar {
+    let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    bar.enable_steady_tick(Duration::from_millis(100));
+    let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("the template is one");
+    bar.with_style(style).with_message(message)
 }

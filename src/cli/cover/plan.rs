@@ -1,9 +1,10 @@
 //! `paracosm-cover plan`: shows how many tests each guarantee needs.
 
 use super::{strength, time_limit};
-use crate::cli::output::{Format, FormatOption, Table, json, plural};
+use crate::cli::output::{Format, FormatOption, Table, column, json, plural};
 use crate::cli::{Failure, Strict, Verbosity, print};
 use crate::generators::Request;
+use crate::notes::capped_strength;
 use crate::space::Space;
 use clap::{ArgGroup, Args};
 use paracosm_analysis::{Guarantee, Need, Plan};
@@ -81,7 +82,7 @@ impl Options {
             format!("making a covering array and measuring points, at most {} s (--time-limit)", limit.as_secs_f64());
         let plan =
             verbosity.noting_if_slow(&note, || Plan::of(&space, self.k, &demand, self.epsilon, self.delta, limit))?;
-        strength::capped(self.k, &space).into_iter().for_each(|note| verbosity.note(note));
+        capped_strength(self.k, &space).into_iter().for_each(|note| verbosity.note(note));
         if space.dims() > 3 {
             verbosity.note("above three dimensions the a-priori bounds are useless: rely on the measured numbers");
         }
@@ -118,7 +119,7 @@ fn table(plan: &Plan, groups: &str, dims: usize) -> String {
 }
 
 fn needs(table: &mut Table, needs: &[Need]) {
-    let width = needs.iter().map(|need| need.of.len()).max().unwrap_or(0);
+    let width = column(needs.iter().map(|need| need.of.len()).max().unwrap_or(0));
     for Need { of, tests, over, guarantee, .. } in needs {
         let tests = match (tests, over) {
             (Some(tests), _) => tests.to_string(),

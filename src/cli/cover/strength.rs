@@ -1,6 +1,5 @@
 //! The option `--strength`: groups of discrete parameters that are covered with a strength of more than k.
 
-use crate::cli::output::plural;
 use crate::cli::{Strict, Verbosity, usage};
 use crate::space::Space;
 use paracosm_campaign::Error;
@@ -45,17 +44,6 @@ pub(super) fn beside(k: usize, groups: &[Group], space: &Space) -> String {
     let words: Vec<String> =
         higher.map(|(members, strength)| format!("{strength}-wise among {}", names(members, space))).collect();
     if words.is_empty() { String::new() } else { format!(" ({})", words.join("; ")) }
-}
-
-/// Returns a note if `k` is more than the number of discrete parameters and the space also has continuous parameters.
-pub(super) fn capped(k: Option<usize>, space: &Space) -> Option<String> {
-    let (discrete, dims) = (space.levels().len(), space.dims());
-    let k = k.filter(|k| dims > 0 && (1..*k).contains(&discrete) && *k <= discrete + dims)?;
-    let are = if discrete == 1 { "is" } else { "are" };
-    Some(format!(
-        "k is {k}, but only {} {are} discrete: k is {discrete} for discrete parameters",
-        plural(discrete, "parameter")
-    ))
 }
 
 /// Prints a note for each group that adds nothing.

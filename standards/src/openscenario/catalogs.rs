@@ -69,6 +69,11 @@ impl CatalogFiles {
         self.all.values().flatten().map(Document::text)
     }
 
+    /// Returns the paths of the files.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.all.values().flatten().map(Document::file)
+    }
+
     /// Reads all catalogs in the folders that a scenario names. `folder` is the folder of the scenario.
     pub fn read(locations: Option<Node<'_>>, folder: &Path) -> Result<Self, ReadError> {
         let (mut all, mut absent): (BTreeMap<String, Vec<Document>>, _) = (BTreeMap::new(), Vec::new());

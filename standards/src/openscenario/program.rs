@@ -21,7 +21,7 @@ use crate::xml::{Document, Flaw, NoEffect, ReadError};
 use paracosm_engine::object::{Geometric, InputError, Output, Outputs, Tick};
 use paracosm_engine::road::{Path, RoadNetwork};
 use paracosm_engine::vehicle::Vehicle;
-use paracosm_engine::{AutonomousVehicle, Constraint, Declared, Lead, Monitor, Pose, Program, Scenario};
+use paracosm_engine::{AutonomousVehicle, Constraint, Declared, FilesRead, Lead, Monitor, Pose, Program, Scenario};
 use paracosm_space::{Domain, Parameter, Values};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -61,6 +61,7 @@ pub struct Xosc {
 /// A map, its road network, and the bodies of its objects and signals.
 #[derive(Clone)]
 pub(super) struct Roads {
+    file: PathBuf,
     pub map: Arc<Map>,
     network: Arc<RoadNetwork>,
     things: Arc<[Thing]>,
@@ -153,7 +154,7 @@ impl Xosc {
         let (name, chosen_by) = (scenario.name.clone(), scenario.roads_chosen_by());
         let reads = scenario.clone();
         Program::of(name, "a scenario of a file", move |s| scenario.build(s))
-            .of_files(chosen_by, move |test| Some(reads.files_hash(test)))
+            .of_files(chosen_by, move |test| Some(reads.files_read(test)))
     }
 
     /// Returns the names of the parameters of tests that choose the file of the roads.
@@ -163,16 +164,20 @@ impl Xosc {
         named.unwrap_or_default()
     }
 
-    /// Returns the 128-bit XXH3 of the scenario, its catalogs, and the roads of a test. Roads that cannot be read make the test invalid.
-    fn files_hash(&self, test: &Values) -> String {
+    /// Returns the paths and the 128-bit XXH3 of the scenario, its catalogs, and the roads of a test. Roads that cannot be read make the test
+    /// invalid.
+    fn files_read(&self, test: &Values) -> FilesRead {
         let roads = self.roads_of(test).ok();
+        let mut paths = vec![PathBuf::from(&self.name), self.document.file().to_owned()];
+        paths.extend(self.catalogs.files().map(FilePath::to_owned));
+        paths.extend(roads.iter().map(|roads| roads.file.clone()));
         let mut hash = Xxh3::new();
         let map = roads.iter().map(|roads| &*roads.map.text);
         for text in [self.document.text()].into_iter().chain(self.catalogs.texts()).chain(map) {
             hash.update(&(text.len() as u64).to_le_bytes());
             hash.update(text.as_bytes());
         }
-        format!("{:032x}", hash.digest128())
+        FilesRead { hash: format!("{:032x}", hash.digest128()), paths }
     }
 
     fn roads_of(&self, test: &Values) -> Result<Roads, ReadError> {
@@ -292,7 +297,7 @@ impl Xosc {
         let map = Map::read(&file)?;
         let network = map.network().map_err(|error| logic.error(Flaw::Roads(error)))?;
         let notes = map.notes.iter().map(|note| note.in_file(&file)).collect();
-        let roads = Roads { things: Thing::all(&map, &network), map: Arc::new(map), network, notes };
+        let roads = Roads { file, things: Thing::all(&map, &network), map: Arc::new(map), network, notes };
         known.insert(named.into_owned(), roads.clone());
         Ok(roads)
     }

@@ -1,18 +1,24 @@
 //! Scenarios as functions, and the declaration that such a function makes when it is run without a test.
 
+mod error;
+mod promise;
+
+pub use error::ProgramError;
+
 use crate::flaw::WorldFlaw;
 use crate::scenario::{Constraint, Reach, Scenario};
 use crate::signal::Quantity;
 use crate::stream::Sketch;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
-use paracosm_space::{Domain, Space, SpaceError, Values};
+use paracosm_space::{Domain, Space, Values};
+use promise::Promise;
 use std::any::Any;
 use std::borrow::Cow;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::Arc;
-use thiserror::Error;
 
 /// A scenario, which is a named function from a test to a world.
 ///
@@ -38,16 +44,26 @@ pub struct Program {
     runs_a_file: bool,
     /// The quantities that traces have in addition to those that the program asks for.
     recorded: Vec<Quantity>,
+    promise: Option<Arc<Promise>>,
 }
 
-/// A function that returns the hash of the files of a test.
-type Hash = dyn Fn(&Values) -> Option<String> + Send + Sync;
+/// The files that the world of a test reads.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FilesRead {
+    /// The hash of the contents of the files.
+    pub hash: String,
+    /// The paths of the files, as the program opens them.
+    pub paths: Vec<PathBuf>,
+}
+
+/// A function that returns the files of a test.
+type Reads = dyn Fn(&Values) -> Option<FilesRead> + Send + Sync;
 
 /// The files that the worlds of a program read.
 #[derive(Clone)]
 struct Files {
     chosen_by: Arc<[String]>,
-    hash: Arc<Hash>,
+    reads: Arc<Reads>,
 }
 
 impl fmt::Debug for Files {
@@ -93,63 +109,6 @@ impl Declaration {
     }
 }
 
-/// The reason why a program cannot be run.
-#[derive(Debug, Clone, Error, PartialEq)]
-pub enum ProgramError {
-    /// The program's parameters form no valid space, for example because two parameters have the same name.
-    #[error("scenario `{program}`: {source}")]
-    Parameters {
-        /// The name of the scenario.
-        program: String,
-        /// The error in the parameters.
-        source: SpaceError,
-    },
-    /// The program's world cannot be built.
-    #[error("scenario `{program}`: {}", joined(.flaws))]
-    World {
-        /// The name of the scenario.
-        program: String,
-        /// The flaws of the world.
-        flaws: Vec<WorldFlaw>,
-    },
-    /// The parameters that the program asks for differ from the parameters of the test.
-    #[error("scenario `{program}` asked for other parameters than the test has; these are on one side only: {}", names.join(", "))]
-    OtherParameters {
-        /// The name of the scenario.
-        program: String,
-        /// The parameters that only the program or only the test has.
-        names: Vec<String>,
-    },
-    /// The program failed before its world was complete.
-    #[error("scenario `{program}` failed: {why}")]
-    Failed {
-        /// The name of the scenario.
-        program: String,
-        /// The reason that the program gave.
-        why: String,
-    },
-    /// The program panicked when it built its world with nominal values.
-    #[error("scenario `{program}` panicked with nominal values: {message}")]
-    Panicked {
-        /// The name of the scenario.
-        program: String,
-        /// The message of the panic.
-        message: String,
-    },
-    /// The program panicked when it built its world for a test.
-    #[error("scenario `{program}` panicked with the values of a test: {message}")]
-    TestPanicked {
-        /// The name of the scenario.
-        program: String,
-        /// The message of the panic.
-        message: String,
-    },
-}
-
-fn joined(flaws: &[WorldFlaw]) -> String {
-    flaws.iter().map(WorldFlaw::to_string).collect::<Vec<_>>().join("; ")
-}
-
 /// Returns the ranges of a parameter that are no part of its values.
 fn outside(declared: &Declared) -> Vec<WorldFlaw> {
     let Domain::Interval { lo, hi } = declared.parameter.domain else { return Vec::new() };
@@ -184,6 +143,7 @@ impl Program {
             files: None,
             runs_a_file: false,
             recorded: Vec::new(),
+            promise: None,
         }
     }
 
@@ -201,17 +161,18 @@ impl Program {
             files: None,
             runs_a_file: false,
             recorded: Vec::new(),
+            promise: None,
         }
     }
 
-    /// Says which files the worlds read, so that a campaign is not continued after a file has changed. `hash` returns the hash of the
-    /// files of a test; `None` if the test reads none. The parameters `chosen_by` choose among files.
+    /// Says which files the worlds read, so that a campaign is not continued after a file has changed. `reads` returns the files of a
+    /// test; `None` if the test reads none. The parameters `chosen_by` choose among files.
     pub fn of_files(
         self,
         chosen_by: impl IntoIterator<Item = String>,
-        hash: impl Fn(&Values) -> Option<String> + Send + Sync + 'static,
+        reads: impl Fn(&Values) -> Option<FilesRead> + Send + Sync + 'static,
     ) -> Self {
-        Self { files: Some(Files { chosen_by: chosen_by.into_iter().collect(), hash: Arc::new(hash) }), ..self }
+        Self { files: Some(Files { chosen_by: chosen_by.into_iter().collect(), reads: Arc::new(reads) }), ..self }
     }
 
     /// Says that the program stands in a file that runs when it is read, such as a file of Python. A campaign of a stranger may name any
@@ -225,14 +186,20 @@ impl Program {
         self.runs_a_file
     }
 
-    /// Returns the hash of the files that the world of a test reads; `None` if it reads none.
-    pub fn files_hash(&self, test: &Values) -> Option<String> {
-        self.files.as_ref().and_then(|files| (files.hash)(test))
+    /// Returns the files that the world of a test reads; `None` if it reads none.
+    pub fn files_read(&self, test: &Values) -> Option<FilesRead> {
+        self.files.as_ref().and_then(|files| (files.reads)(test))
     }
 
     /// Returns the names of the parameters that choose among files.
     pub fn files_chosen_by(&self) -> &[String] {
         self.files.as_ref().map_or(&[], |files| &files.chosen_by)
+    }
+
+    /// Returns the program with its declaration. Then a test is an error if its world has other requirements or another tick, or if only one of
+    /// the two has a premise. Otherwise, a test that omits a requirement would pass.
+    pub fn keeping(&self, declaration: &Declaration) -> Self {
+        Self { promise: Some(Arc::new(Promise::of(declaration))), ..self.clone() }
     }
 
     /// Returns the program whose traces also have these signals of the ego vehicle, as far as they are signals that are measured
@@ -350,6 +317,7 @@ impl Program {
         if let Some(test) = test {
             if !is_refused(&scenario) {
                 self.check_names(&scenario, test.values)?;
+                self.promise.as_ref().map_or(Ok(()), |promise| promise.check(self.name(), &scenario))?;
             }
             for why in scenario.constraints.iter().filter_map(|constraint| constraint.broken(test.values)) {
                 scenario.flaw(WorldFlaw::Refused { why });

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Computes the star discrepancy of points in the plane: python3 check_star.py POINTS.csv ..., one line with the value for each file.
+
+It shares nothing with the software, and follows the definition. The discrepancy is the largest of `xy - open / n` and `closed / n - xy`, over all boxes from the
+origin to (x, y), where `open` counts the points inside the box, and `closed` also the points on its upper faces. It is enough to take each x and
+each y from the coordinates of the points and 1. A point enters the counts of all y above it, so the counts are kept for each y while x grows.
+All numbers are exact until the end.
+"""
+
+import csv
+import sys
+from bisect import bisect_left, bisect_right
+from fractions import Fraction
+
+def star(points):
+    n = len(points)
+    exact = [tuple(map(Fraction, point)) for point in points]
+    # The denominators are powers of two, so the largest one serves all coordinates.
+    scale = max(c.denominator for point in exact for c in point)
+    whole = [tuple(int(c * scale) for c in point) for point in exact]
+    xs = sorted({x for x, _ in whole} | {scale})
+    ys = sorted({y for _, y in whole} | {scale})
+    by_x = {}
+    for x, y in whole:
+        by_x.setdefault(x, []).append(y)
+    # For each y, the number of points with a smaller x that are below y, or not above y.
+    below, not_above = [0] * len(ys), [0] * len(ys)
+    worst = 0
+    for x in xs:
+        # All boxes of this x that are open to the right hold the points before x.
+        worst = max(worst, max(n * x * y - count * scale * scale for y, count in zip(ys, below)))
+        for y in by_x.get(x, ()):
+            for j in range(bisect_left(ys, y), len(ys)):
+                not_above[j] += 1
+            for j in range(bisect_right(ys, y), len(ys)):
+                below[j] += 1
+        worst = max(worst, max(count * scale * scale - n * x * y for y, count in zip(ys, not_above)))
+    return Fraction(worst, n * scale * scale)
+
+
+for name in sys.argv[1:]:
+    with open(name, newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    points = [tuple(map(float, row)) for row in rows]
+    assert len(header) == 2 and points and all(0.0 <= c <= 1.0 for point in points for c in point), name
+    print(repr(float(star(points))))
