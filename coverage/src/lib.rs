@@ -31,6 +31,7 @@ pub mod fill;
 pub mod kwise;
 pub mod kwise_dispersion;
 pub mod l2;
+pub mod least;
 pub mod measure;
 mod ordered;
 mod points;

@@ -50,6 +50,18 @@ pub(super) fn improved(
     (PointSet::new(dims, best.points).expect("the points stay in the cube"), has_measured.into_inner())
 }
 
+/// Returns points whose measure is at most the measure of the given points, after a number of moves. The result depends on nothing else.
+pub(super) fn after_moves(objective: Objective, points: &PointSet, seed: u64, moves: usize) -> PointSet {
+    let (dims, deadline) = (points.dims(), Deadline::never());
+    let value = objective.measured(points, deadline).upper;
+    let best = Mutex::new(Best { points: points.iter().map(<[f64]>::to_vec).collect(), value });
+    let has_measured = AtomicBool::new(false);
+    let search = Search { objective, dims, best: &best, has_measured: &has_measured, deadline, watch: &|_| () };
+    search.round(moves, &mut seeded(seed, Purpose::Search, 0));
+    let best = best.into_inner().unwrap_or_else(PoisonError::into_inner);
+    PointSet::new(dims, best.points).expect("the points stay in the cube")
+}
+
 /// A search of one thread.
 struct Search<'a> {
     objective: Objective,
@@ -63,29 +75,34 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(&self, rng: &mut impl Rng) {
         while !self.deadline.passed() {
-            let mut points = self.best.lock().unwrap_or_else(PoisonError::into_inner).points.clone();
-            let Found { value, mut hole } = self.found(&points);
-            if value.is_exact() {
-                self.has_measured.store(true, Ordering::Relaxed);
+            self.round(MOVES, rng);
+        }
+    }
+
+    /// Makes moves from the best set.
+    fn round(&self, moves: usize, rng: &mut impl Rng) {
+        let mut points = self.best.lock().unwrap_or_else(PoisonError::into_inner).points.clone();
+        let Found { value, mut hole } = self.found(&points);
+        if value.is_exact() {
+            self.has_measured.store(true, Ordering::Relaxed);
+        }
+        for step in 0..moves {
+            if self.deadline.passed() {
+                return;
             }
-            for step in 0..MOVES {
-                if self.deadline.passed() {
-                    return;
-                }
-                let left = 1.0 - step as f64 / MOVES as f64;
-                let best = self.value();
-                let (index, before) = moved(&mut points, hole.as_ref(), rng);
-                let set = self.set(&points);
-                if !self.objective.is_at_most(&set, best * (1.0 + SLACK * left * left), self.deadline) {
-                    points[index] = before;
-                    continue;
-                }
-                let found = self.objective.found(&set, self.deadline);
-                if found.value.upper < best * (1.0 - LEAST_GAIN) {
-                    self.improve(&points, found.value.upper);
-                }
-                hole = found.hole;
+            let left = 1.0 - step as f64 / moves as f64;
+            let best = self.value();
+            let (index, before) = moved(&mut points, hole.as_ref(), rng);
+            let set = self.set(&points);
+            if !self.objective.is_at_most(&set, best * (1.0 + SLACK * left * left), self.deadline) {
+                points[index] = before;
+                continue;
             }
+            let found = self.objective.found(&set, self.deadline);
+            if found.value.upper < best * (1.0 - LEAST_GAIN) {
+                self.improve(&points, found.value.upper);
+            }
+            hole = found.hole;
         }
     }
 

@@ -4,11 +4,14 @@
 //! its own (`plane.rs`): over the orders of the points, each with its best coordinates. The other measures have a search that moves one point after
 //! another (`exchange.rs`). On a line the best sets are known.
 
+mod anchored;
 mod exchange;
 mod objective;
 mod placement;
 mod plane;
+mod pool;
 mod ranks;
+mod spots;
 
 pub use objective::{Objective, ObjectiveError};
 
@@ -20,7 +23,13 @@ use paracosm_space::Space;
 const MOST_RANKS: usize = 3000;
 
 /// The share of the time in which the search may look for a set to begin with.
-const OPENING: f64 = 0.2;
+const OPENING: f64 = 0.1;
+
+/// The most seeds of each strategy for a set to begin with.
+const MOST_SEEDS: u64 = 1000;
+
+/// The share of the rest of this time for the measure of a set.
+const MEASURING: f64 = 0.2;
 
 /// A set of points with a small measure.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +65,10 @@ pub fn optimised(
         }
         _ => {
             let opening = given.cloned().unwrap_or_else(|| opening(objective, n, dims, deadline.part(OPENING)));
-            let (points, is_searched) = exchange::improved(objective, &opening, seed, deadline, watch);
+            let (points, is_searched) = match objective {
+                Objective::Star if dims > 2 => anchored::improved(&opening, seed, deadline, watch),
+                _ => exchange::improved(objective, &opening, seed, deadline, watch),
+            };
             Optimised { points, is_searched }
         }
     }
@@ -72,32 +84,34 @@ fn on_the_line(objective: Objective, n: usize) -> PointSet {
     PointSet::new(1, (0..n).map(|i| [point(i)])).expect("the points are between 0 and 1")
 }
 
-/// Returns the best set of the strategies that make sets of this size.
+/// Returns the best set of the strategies that make sets of this size: each plain set once, and then sets with random numbers for as long as there is time.
 fn opening(objective: Objective, n: usize, dims: usize, deadline: Deadline) -> PointSet {
     let space = Space::unit_cube(dims);
-    let made = |strategy: Strategy| -> Option<PointSet> {
-        let request = Request { seed: Some(0), deadline, ..Request::new(&space, n) };
+    let made = |strategy: Strategy, seed: u64| -> Option<PointSet> {
+        let request = Request { seed: (seed > 0).then_some(seed), deadline, ..Request::new(&space, n) };
         let mut generator: Box<dyn Generator> = strategy.build(&request).ok()?;
         let points = generator.ask(n);
         let points = PointSet::new(dims, points.into_iter().map(|point| point.continuous)).ok()?;
         (points.len() == n).then_some(points)
     };
     let is_random = |strategy: &Strategy| [Strategy::RANDOM, Strategy::RANDOM_CORNERS].contains(strategy);
-    let open_loop: Vec<Strategy> =
-        Strategy::all().filter(|strategy| !strategy.is_adaptive() && !is_random(strategy)).collect();
+    let open_loop = || Strategy::all().filter(|strategy| !strategy.is_adaptive() && !is_random(strategy));
+    // Sequences take no time. To fill holes takes long, and a seed changes little.
+    let (slow, fast): (Vec<Strategy>, Vec<Strategy>) = open_loop().partition(|strategy| strategy.fills_holes());
+    let first = fast.iter().chain(&slow).map(|&strategy| (strategy, 0));
+    let more = (1..MOST_SEEDS).flat_map(|seed| fast.iter().map(move |&strategy| (strategy, seed)));
     let mut best: Option<(PointSet, f64)> = None;
-    for (i, &strategy) in open_loop.iter().enumerate() {
+    for (strategy, seed) in first.chain(more) {
         if best.is_some() && deadline.passed() {
             break;
         }
-        let Some(points) = made(strategy) else { continue };
-        let share = deadline.part(1.0 / (open_loop.len() - i) as f64);
-        let value = objective.measured(&points, share).upper;
+        let Some(points) = made(strategy, seed) else { continue };
+        let value = objective.measured(&points, deadline.part(MEASURING)).upper;
         if best.as_ref().is_none_or(|(_, least)| value < *least) {
             best = Some((points, value));
         }
     }
-    best.map(|(points, _)| points).or_else(|| made(Strategy::RANDOM)).expect("random points have every size")
+    best.map(|(points, _)| points).or_else(|| made(Strategy::RANDOM, 0)).expect("random points have every size")
 }
 
 #[cfg(test)]
