@@ -37,6 +37,7 @@ mod ordered;
 mod points;
 mod projection;
 pub mod proof;
+pub mod records;
 #[cfg(test)]
 mod samples;
 pub mod star;

@@ -27,7 +27,7 @@ impl Strategy {
 
     /// Iterates over all strategies of this crate, in the order in which lists show the strategies.
     pub fn all() -> impl Iterator<Item = Self> {
-        sequence::ALL.iter().chain(&[Self::GREEDY, Self::GREEDY_PERIODIC]).chain(adaptive::ALL).copied()
+        sequence::ALL.iter().chain(&[Self::BEST, Self::GREEDY, Self::GREEDY_PERIODIC]).chain(adaptive::ALL).copied()
     }
 }
 

@@ -132,6 +132,14 @@ pub enum GeneratorError {
         /// The number of dimensions of the Latin hypercube.
         dims: usize,
     },
+    /// The strategy `best` has no set of so many points.
+    #[error("best searches for sets of at most {most} points, and a set of {points} is asked for; use greedy")]
+    BestLimit {
+        /// The number of points.
+        points: usize,
+        /// The most points.
+        most: usize,
+    },
     /// The given epsilon, a volume of an empty box, is not above 0 and below 1.
     #[error("epsilon is {0}; the volume of an empty box must be above 0 and below 1")]
     Epsilon(f64),

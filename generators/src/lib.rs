@@ -27,6 +27,7 @@ mod adaptive;
 mod aim;
 mod all;
 mod bandit;
+mod best;
 mod build;
 pub mod covering;
 mod deal;

@@ -80,7 +80,8 @@ impl Order {
             _ => order.get(place - 1).copied().unwrap_or(self.points + 1),
         };
         let last = order.len() + 1;
-        let inside = |low: usize, high: usize| -> u64 { open | (low + 1..high).map(|place| 1 << node(place)).sum::<u64>() };
+        let inside =
+            |low: usize, high: usize| -> u64 { open | (low + 1..high).map(|place| 1 << node(place)).sum::<u64>() };
         let pairs = (0..=last).flat_map(|low| (low + 1..=last).map(move |high| (low, high)));
         let interval = |(low, high): (usize, usize)| Interval {
             ends: (node(low), node(high)),

@@ -2,8 +2,10 @@
 
 use super::differences::{Differences, UNIT};
 use super::order::{Gap, Order};
-use super::{Split, Step};
-use crate::Deadline;
+use super::step::{Split, Step};
+use crate::{Deadline, PointSet};
+use rayon::prelude::*;
+use std::iter;
 
 /// A bound that falls by a smaller share than this does not start another round.
 const LEAST_FALL: i64 = 1 << 10;
@@ -12,11 +14,11 @@ const LEAST_FALL: i64 = 1 << 10;
 const FINEST: i64 = 1 << 10;
 
 /// The reason why there is no proof.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub(super) enum Stop {
     Time,
-    /// There may be points with a dispersion at the level or below: these, to the precision of the search.
-    Found(Vec<Vec<f64>>),
+    /// These points have a dispersion of about the level or below, to the precision of the search.
+    Found(PointSet),
 }
 
 /// A search for a proof that no points have a dispersion below a level.
@@ -24,8 +26,6 @@ pub(super) struct Search<'a> {
     /// For each number of points: the most volume, in units, of a box that has at most so many points inside.
     pub volumes: &'a [i64],
     pub deadline: Deadline,
-    /// The steps of the proof so far.
-    pub steps: Vec<Step>,
 }
 
 /// The bounds along all axes.
@@ -33,47 +33,40 @@ type Bounds = Vec<Differences>;
 
 impl Search<'_> {
     /// Proves that no points in this order have a dispersion below the level.
-    pub fn order(&mut self, order: &Order, mut bounds: Bounds) -> Result<(), Stop> {
+    pub fn order(&self, order: &Order, mut bounds: Bounds) -> Result<Vec<Step>, Stop> {
         let gaps = order.gaps();
         if !self.narrow(&gaps, &mut bounds) {
-            self.steps.push(Step::Impossible);
-            return Ok(());
+            return Ok(vec![Step::Impossible]);
         }
         if order.is_complete() {
-            return self.places(&gaps, bounds);
+            let mut steps = Vec::new();
+            return self.places(&gaps, bounds, &mut steps).map(|()| steps);
         }
-        if self.deadline.passed() {
-            return Err(Stop::Time);
-        }
-        self.steps.push(Step::NextPoint);
-        for (child, beside) in order.children() {
+        let of_child = |(child, beside): &(Order, Vec<(usize, usize)>)| {
             let mut bounds = bounds.clone();
             let placed = beside.iter().zip(&mut bounds[1..]).all(|(&(before, after), bounds)| {
                 bounds.demand(child.decided, before, 0) && bounds.demand(after, child.decided, 0)
             });
-            if placed {
-                self.order(&child, bounds)?;
-            } else {
-                self.steps.push(Step::Impossible);
-            }
-        }
-        Ok(())
+            if placed { self.order(child, bounds) } else { Ok(vec![Step::Impossible]) }
+        };
+        let of_children: Vec<Vec<Step>> = order.children().par_iter().map(of_child).collect::<Result<_, Stop>>()?;
+        Ok(iter::once(Step::NextPoint).chain(of_children.into_iter().flatten()).collect())
     }
 
     /// Proves that no points with these bounds have a dispersion below the level. The bounds are narrow already.
-    fn places(&mut self, gaps: &[Gap], bounds: Bounds) -> Result<(), Stop> {
+    fn places(&self, gaps: &[Gap], bounds: Bounds, steps: &mut Vec<Step>) -> Result<(), Stop> {
         if self.deadline.passed() {
             return Err(Stop::Time);
         }
-        let Some(split) = self.split(gaps, &bounds) else { return Err(Stop::Found(corner(&bounds))) };
-        self.steps.push(Step::Split(split));
+        let Some(split) = self.split(gaps, &bounds) else { return Err(Stop::Found(middle(&bounds))) };
+        steps.push(Step::Split(split));
         let Split { axis, from, to, at } = split;
         for (from, to, bound) in [(from, to, at), (to, from, -at)] {
             let mut part = bounds.clone();
             if part[axis].demand(from, to, bound) && self.narrow(gaps, &mut part) {
-                self.places(gaps, part)?;
+                self.places(gaps, part, steps)?;
             } else {
-                self.steps.push(Step::Impossible);
+                steps.push(Step::Impossible);
             }
         }
         Ok(())
@@ -134,11 +127,12 @@ impl Search<'_> {
     }
 }
 
-/// Returns points within narrow bounds.
-fn corner(bounds: &Bounds) -> Vec<Vec<f64>> {
-    let last = |bounds: &Differences, point: usize| {
+/// Returns the points in the middle of narrow bounds.
+fn middle(bounds: &Bounds) -> PointSet {
+    let along = |bounds: &Differences, point: usize| {
         (bounds.least(0, point) + bounds.most(0, point)) as f64 / (2 * UNIT) as f64
     };
-    let points = (1..).take_while(|&point| point < bounds[0].nodes() - 1);
-    points.map(|point| bounds.iter().map(|bounds| last(bounds, point)).collect()).collect()
+    let points = 1..bounds[0].nodes() - 1;
+    let points = points.map(|point| bounds.iter().map(|bounds| along(bounds, point)).collect::<Vec<f64>>());
+    PointSet::new(bounds.len(), points).expect("the bounds are those of the cube")
 }

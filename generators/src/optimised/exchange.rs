@@ -51,13 +51,13 @@ pub(super) fn improved(
 }
 
 /// Returns points whose measure is at most the measure of the given points, after a number of moves. The result depends on nothing else.
-pub(super) fn after_moves(objective: Objective, points: &PointSet, seed: u64, moves: usize) -> PointSet {
+pub(super) fn after_moves(objective: Objective, points: &PointSet, moves: usize) -> PointSet {
     let (dims, deadline) = (points.dims(), Deadline::never());
     let value = objective.measured(points, deadline).upper;
     let best = Mutex::new(Best { points: points.iter().map(<[f64]>::to_vec).collect(), value });
     let has_measured = AtomicBool::new(false);
     let search = Search { objective, dims, best: &best, has_measured: &has_measured, deadline, watch: &|_| () };
-    search.round(moves, &mut seeded(seed, Purpose::Search, 0));
+    search.round(moves, &mut seeded(0, Purpose::Search, 0));
     let best = best.into_inner().unwrap_or_else(PoisonError::into_inner);
     PointSet::new(dims, best.points).expect("the points stay in the cube")
 }

@@ -15,12 +15,16 @@ mod spots;
 
 pub use objective::{Objective, ObjectiveError};
 
-use crate::{Generator, Request, Strategy};
-use paracosm_coverage::{Deadline, PointSet};
+use crate::{Generator, GeneratorError, Request, Strategy};
+use paracosm_coverage::records::record;
+use paracosm_coverage::{Deadline, Measure, PointSet};
 use paracosm_space::Space;
 
 /// The most points in the plane whose order is searched. The counts take about 12 n^2 bytes for each thread.
 const MOST_RANKS: usize = 3000;
+
+/// The most points of a set for the strategy `best` that is not shipped.
+const MOST_SETTLED: usize = 1000;
 
 /// The share of the time in which the search may look for a set to begin with.
 const OPENING: f64 = 0.1;
@@ -40,8 +44,8 @@ pub struct Optimised {
     pub is_searched: bool,
 }
 
-/// Returns `n` points in `[0,1)^dims` with a small measure. The result depends on the time. If points are given, the search begins with them, and returns no
-/// worse points. `watch` is called with the measure of each better set.
+/// Returns `n` points in `[0,1)^dims` with a small measure. The result depends on the time. The search begins with the given points, or else with the points of
+/// this size that are shipped, and returns no worse points. `watch` is called with the measure of each better set.
 ///
 /// # Panics
 /// There are no points or no dimensions, or the given points have another number or other dimensions.
@@ -55,6 +59,8 @@ pub fn optimised(
 ) -> Optimised {
     assert!(n > 0 && dims > 0, "a set has at least one point and one dimension");
     assert!(given.is_none_or(|given| (given.len(), given.dims()) == (n, dims)), "the given points have another size");
+    let shipped = if given.is_none() { record(objective.measure(), dims, n) } else { None };
+    let given = given.or(shipped.as_ref());
     match (objective, dims) {
         (_, 1) => Optimised { points: on_the_line(objective, n), is_searched: true },
         (Objective::Star, 2) if n <= MOST_RANKS => {
@@ -72,6 +78,29 @@ pub fn optimised(
             Optimised { points, is_searched }
         }
     }
+}
+
+/// Returns a set with a small dispersion: the shipped one, or else the set of `greedy` after a number of moves. The result depends on the size alone.
+pub(crate) fn settled(n: usize, dims: usize) -> Result<PointSet, GeneratorError> {
+    if dims == 1 {
+        return Ok(on_the_line(Objective::Dispersion, n));
+    }
+    if let Some(known) = record(Measure::DISPERSION, dims, n) {
+        return Ok(known);
+    }
+    if n > MOST_SETTLED {
+        return Err(GeneratorError::BestLimit { points: n, most: MOST_SETTLED });
+    }
+    let space = Space::unit_cube(dims);
+    let points = Strategy::GREEDY.build(&Request::new(&space, n))?.ask(n);
+    let points = PointSet::new(dims, points.into_iter().map(|point| point.continuous)).expect("tests are in the cube");
+    Ok(exchange::after_moves(Objective::Dispersion, &points, moves(n, dims)))
+}
+
+/// Returns the number of moves of the short search of `settled`, which takes about a second.
+fn moves(n: usize, dims: usize) -> usize {
+    let boxes = n.saturating_mul(n).saturating_mul(4_usize.saturating_pow(dims as u32 - 2));
+    (30_000_000 / boxes.max(1)).min(20_000)
 }
 
 /// Returns the best points on a line: in the middle of even cells for the star discrepancy, and at even distances for the dispersion.
@@ -97,7 +126,8 @@ fn opening(objective: Objective, n: usize, dims: usize, deadline: Deadline) -> P
     let is_random = |strategy: &Strategy| [Strategy::RANDOM, Strategy::RANDOM_CORNERS].contains(strategy);
     let open_loop = || Strategy::all().filter(|strategy| !strategy.is_adaptive() && !is_random(strategy));
     // Sequences take no time. To fill holes takes long, and a seed changes little.
-    let (slow, fast): (Vec<Strategy>, Vec<Strategy>) = open_loop().partition(|strategy| strategy.fills_holes());
+    let is_slow = |strategy: &Strategy| strategy.fills_holes() || *strategy == Strategy::BEST;
+    let (slow, fast): (Vec<Strategy>, Vec<Strategy>) = open_loop().partition(is_slow);
     let first = fast.iter().chain(&slow).map(|&strategy| (strategy, 0));
     let more = (1..MOST_SEEDS).flat_map(|seed| fast.iter().map(move |&strategy| (strategy, seed)));
     let mut best: Option<(PointSet, f64)> = None;

@@ -65,9 +65,12 @@ impl Pool {
     /// Returns the box with the largest difference.
     pub fn worst(&self) -> Option<&Corner> {
         let differences = || (0..self.corners.len()).map(|at| self.differences[at]);
-        self.corners.get(differences().enumerate().fold((0, 0.0), |worst, (at, difference)| {
-            if difference > worst.1 { (at, difference) } else { worst }
-        }).0)
+        self.corners.get(
+            differences()
+                .enumerate()
+                .fold((0, 0.0), |worst, (at, difference)| if difference > worst.1 { (at, difference) } else { worst })
+                .0,
+        )
     }
 
     /// Returns the largest difference of a box; 0 without boxes.

@@ -175,7 +175,8 @@ impl Spots {
     /// Returns the best place of a face while the others stay, with the difference there. `outside` has the number of axes along which each point is outside.
     fn best_face(&self, corner: &Corner, axis: usize, outside: &[u8]) -> (f64, u32) {
         let Corner { kind, ref faces } = *corner;
-        let others: f64 = (0..self.dims()).filter(|&other| other != axis).map(|other| self.at(other, faces[other])).product();
+        let others: f64 =
+            (0..self.dims()).filter(|&other| other != axis).map(|other| self.at(other, faces[other])).product();
         let (along, points) = (&self.axes[axis], self.len() as f64);
         let now = along[faces[axis] as usize];
         let (mut best, mut count) = ((f64::NEG_INFINITY, faces[axis]), 0_u32);

@@ -5,6 +5,7 @@ mod certificate;
 mod compare;
 mod estimate;
 mod generate;
+mod least;
 mod optimise;
 mod plan;
 mod reached;
@@ -27,6 +28,7 @@ Examples:
   paracosm-cover generate --dims 3 --extend points.csv --budget 20
   paracosm-cover generate --space MODEL.pict --k 3 --optimise 10 > tests.csv
   paracosm-cover optimise --measure star --dims 2 --budget 100 --time 30 > points.csv
+  paracosm-cover least --dims 2 --budget 6
   paracosm-cover plan --dims 5 --epsilon 0.1
   paracosm-cover compare --strategies random,halton,greedy --out compared
 
@@ -61,6 +63,8 @@ enum Verb {
     Generate(generate::Options),
     /// Search for points with a small measure: CSV on standard output
     Optimise(optimise::Options),
+    /// Prove how small the dispersion of a few points can be
+    Least(least::Options),
     /// Compare strategies over dimensions, budgets and seeds
     Compare(compare::Options),
     /// Show how many tests each guarantee needs
@@ -73,6 +77,7 @@ impl Command {
             Verb::Estimate(estimate) => estimate.execute(catalogue, self.verbosity),
             Verb::Generate(generate) => generate.execute(catalogue, self.verbosity),
             Verb::Optimise(optimise) => optimise.execute(self.verbosity),
+            Verb::Least(least) => least.execute(self.verbosity),
             Verb::Compare(compare) => compare.execute(self.verbosity),
             Verb::Plan(plan) => plan.execute(catalogue, self.verbosity),
         }

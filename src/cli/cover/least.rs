@@ -1,0 +1,99 @@
+//! `paracosm-cover least`: how small the dispersion of a number of points can be, with proofs.
+
+use super::spinner;
+use super::time_limit;
+use crate::cli::draw::is_ours_to_write;
+use crate::cli::interrupt::Interruptible;
+use crate::cli::output::{Table, digits, plural};
+use crate::cli::{Failure, Verbosity, complain, print, usage};
+use crate::coverage::Deadline;
+use crate::coverage::least::{self, Least, PRECISION, least_dispersion, most_points};
+use crate::generators::optimised::{Objective, optimised};
+use clap::Args;
+use paracosm_campaign::files::write_whole;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  paracosm-cover least --dims 2 --budget 6
+  paracosm-cover least --dims 3 --budget 4 --certificate least.json";
+
+/// The options of `least`.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub(super) struct Options {
+    /// The number of dimensions
+    #[arg(long, value_name = "D")]
+    dims: usize,
+    /// The most points: each number from 1 on has a row
+    #[arg(long, value_name = "N")]
+    budget: usize,
+    /// The seconds for all proofs together
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    time: f64,
+    /// Write the points and the proofs to this file
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+}
+
+/// The share of the time of a row for the search for good points.
+const SEARCHING: f64 = 0.02;
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+        let limit = time_limit("--time", self.time)?;
+        let most = most_points(self.dims);
+        if most == 0 {
+            let most = (1..).take_while(|&dims| most_points(dims) > 0).last().unwrap_or(1);
+            return Err(usage(format!("--dims is {}, expected a number from 1 to {most}", self.dims)).into());
+        }
+        if !(1..=most).contains(&self.budget) {
+            let of = plural(self.dims, "dimension");
+            return Err(
+                usage(format!("--budget is {}, expected a number from 1 to {most} in {of}", self.budget)).into()
+            );
+        }
+        self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file, &[]))?;
+        let work = Interruptible::new(Deadline::after(limit));
+        let bar = spinner(String::new(), verbosity);
+        let mut table = least::Table::new(self.dims);
+        for n in 1..=self.budget {
+            bar.set_message(plural(n, "point"));
+            let row = self.row(n, &table.levels(), work.deadline);
+            table.add(&row);
+        }
+        bar.finish_and_clear();
+        if work.end() {
+            complain(&"interrupted: these are the bounds so far");
+        }
+        print(&shown(&table))?;
+        if let Some(file) = &self.certificate {
+            let json = serde_json::to_string(&table).expect("a table has numbers and text");
+            write_whole(file, (json + "\n").as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Finds the bounds for a number of points. The more points, the longer a proof takes, so a row may take half of the rest of the time.
+    fn row(&self, n: usize, levels: &[f64], deadline: Deadline) -> Least {
+        let share = if n == self.budget { 1.0 } else { 0.5 };
+        let deadline = deadline.part(share);
+        let start = optimised(Objective::Dispersion, (n, self.dims), None, 0, deadline.part(SEARCHING), &|_| ());
+        least_dispersion(&start.points, levels, deadline)
+    }
+}
+
+/// Returns the table as text.
+fn shown(table: &least::Table) -> String {
+    let mut lines = Table::default();
+    lines.heading(&format!("least dispersion in {}", plural(table.dims, "dimension")));
+    for (n, row) in (1..).zip(&table.rows) {
+        let value = match row.is_proved() {
+            true => format!("{} (proved)", digits(row.dispersion)),
+            false => format!("between {} and {}", digits(row.level), digits(row.dispersion)),
+        };
+        lines.row(&plural(n, "point"), &value);
+    }
+    lines.line(&format!("A proved value is the least dispersion, except for a share of {PRECISION}."));
+    lines.finish()
+}
