@@ -85,20 +85,28 @@ def gaps_of(n, orders):
             spans.append((nodes[low], nodes[high], points, wider))
         axes.append(spans)
     gaps = []
-    for spans in product(*axes):
-        held = -1
-        for span in spans:
-            held &= span[2]
-        for axis, span in enumerate(spans):
-            others = -1
-            for other, beside in enumerate(spans):
-                if other != axis:
-                    others &= beside[2]
-            if any(wider & others == held for wider in span[3]):
-                break
-        else:
+
+    def choose(spans, held):
+        """Takes a span of each further axis. A box that can grow along an axis can also grow if it is cut along others."""
+        if len(spans) == len(axes):
             gaps.append(([span[:2] for span in spans], bin(held).count("1")))
+            return
+        for span in axes[len(spans)]:
+            longer, inside = [*spans, span], held & span[2]
+            if not any(wider & others(longer, axis) == inside for axis, of in enumerate(longer) for wider in of[3]):
+                choose(longer, inside)
+
+    choose([], -1)
     return gaps
+
+
+def others(spans, axis):
+    """The points inside the spans along all axes but one."""
+    inside = -1
+    for other, span in enumerate(spans):
+        if other != axis:
+            inside &= span[2]
+    return inside
 
 
 class Proof:

@@ -95,23 +95,26 @@ impl Order {
 /// Collects the products of intervals that are as large as their points allow.
 fn collect<'a>(axes: &'a [Vec<Interval>], chosen: &mut Vec<&'a Interval>, inside: u64, gaps: &mut Vec<Gap>) {
     let Some(axis) = axes.get(chosen.len()) else {
-        let others = |skipped: usize| -> u64 {
-            let kept = chosen.iter().enumerate().filter(|(axis, _)| *axis != skipped);
-            kept.fold(u64::MAX, |inside, (_, interval)| inside & interval.inside)
-        };
-        let grows = |(axis, interval): (usize, &&Interval)| {
-            let others = others(axis);
-            interval.wider.iter().flatten().any(|wider| wider & others == inside)
-        };
-        if !chosen.iter().enumerate().any(grows) {
-            let ends = chosen.iter().map(|interval| interval.ends).collect();
-            gaps.push(Gap { ends, inside: inside.count_ones() as usize });
-        }
+        let ends = chosen.iter().map(|interval| interval.ends).collect();
+        gaps.push(Gap { ends, inside: inside.count_ones() as usize });
         return;
     };
     for interval in axis {
         chosen.push(interval);
-        collect(axes, chosen, inside & interval.inside, gaps);
+        let inside = inside & interval.inside;
+        // What can grow without another point can also grow within fewer points.
+        if !can_grow(chosen, inside) {
+            collect(axes, chosen, inside, gaps);
+        }
         chosen.pop();
     }
+}
+
+/// Returns true if an interval of a product can be wider without another point inside the product.
+fn can_grow(chosen: &[&Interval], inside: u64) -> bool {
+    chosen.iter().enumerate().any(|(axis, interval)| {
+        let others = chosen.iter().enumerate().filter(|(other, _)| *other != axis);
+        let others = others.fold(u64::MAX, |inside, (_, other)| inside & other.inside);
+        interval.wider.iter().flatten().any(|wider| wider & others == inside)
+    })
 }

@@ -19,6 +19,7 @@ from scipy.stats.qmc import QMCEngine
 from ._core import Error, Generator
 
 __all__ = [
+    "Best",
     "Fibonacci",
     "Greedy",
     "GreedyPeriodic",
@@ -157,6 +158,12 @@ class LhsCentred(_Engine):
     """A Latin hypercube with the points in the middle of their cells. It draws once."""
 
     method = "lhs-centred"
+
+
+class Best(_Engine):
+    """The set with the smallest dispersion that is known, or that a short search finds. It draws once."""
+
+    method = "best"
 
 
 class Greedy(_Engine):
