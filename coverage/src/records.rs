@@ -28,9 +28,8 @@ macro_rules! records {
 
 /// All sets that are shipped.
 pub const RECORDS: &[Record] = records! {
-    DISPERSION "dispersion": 2 100, 3 100, 5 100;
-    STAR "star": 2 10, 2 16, 2 20, 2 30, 2 60, 2 100, 2 500, 2 1020, 3 30, 3 60, 3 120, 3 240, 4 30, 4 60, 4 120, 4 240, 5 30, 5 60, 5 120, 5 240, 6 30,
-        6 60, 6 120, 6 240;
+    DISPERSION "dispersion": 2 20, 2 50, 2 100, 2 200, 3 20, 3 50, 3 100, 3 200, 4 50, 5 50, 5 100;
+    STAR "star": 2 10, 2 16, 2 20, 2 30, 2 60, 2 100, 2 500, 2 1020, 3 30, 3 60, 3 120, 3 240, 4 30, 4 60, 4 120, 4 240, 5 30, 5 60, 6 30;
 };
 
 /// Returns the shipped set with a small measure that has this size; `None` if there is none.

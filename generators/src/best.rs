@@ -4,7 +4,7 @@
 //! the points of `greedy`. It makes a number of moves that depends on the size alone, so that the same request always has the same points.
 //!
 //! A set is not random, so a seed chooses one of the 2^d d! images of the set under the symmetries of the cube, which all have the same dispersion. Each discrete row
-//! has an image of its own.
+//! has an image of its own. A set of the whole cube is not the best for a part of it, so under constraints on continuous parameters, `greedy` takes its place.
 
 use crate::deal::Deal;
 use crate::optimised::settled;
@@ -26,6 +26,7 @@ impl Strategy {
         look: Look::filled(0x00_0000, MarkShape::Tip),
         method: Method(MethodKind::Sets {
             plain: true,
+            in_a_part: Some(Strategy::GREEDY),
             build: |dims, seed, deal| Ok(Box::new(PerRow::new(deal, Best::new(dims, seed, deal)?))),
         }),
     });

@@ -34,6 +34,9 @@ type Bounds = Vec<Differences>;
 impl Search<'_> {
     /// Proves that no points in this order have a dispersion below the level.
     pub fn order(&self, order: &Order, mut bounds: Bounds) -> Result<Vec<Step>, Stop> {
+        if self.deadline.passed() {
+            return Err(Stop::Time);
+        }
         let gaps = order.gaps();
         if !self.narrow(&gaps, &mut bounds) {
             return Ok(vec![Step::Impossible]);

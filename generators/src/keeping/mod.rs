@@ -18,7 +18,7 @@ pub(crate) use moved::Moved;
 pub(crate) use rows::{RowPoints, ValidRows, roomy};
 
 use crate::strategy::MethodKind;
-use crate::{Generator, GeneratorError, Request, Strategy};
+use crate::{Aim, Generator, GeneratorError, Request, Strategy};
 use paracosm_space::{Point, Space};
 use sized::sized;
 use std::collections::BTreeSet;
@@ -63,6 +63,9 @@ impl Strategy {
         if !request.space.checks_each_test() || self == Self::GIVEN {
             return self.unchecked(request);
         }
+        if let Some(other) = self.in_a_part().filter(|_| request.existing.is_empty()) {
+            return other.build_valid(&row_by_row(request));
+        }
         // What is wrong with the request itself is said first.
         let share = Share::of(request.space);
         let knows_the_share = share.as_ref().ok().filter(|share| !share.is_rare());
@@ -83,6 +86,9 @@ impl Strategy {
         if !request.space.checks_each_test() {
             return self.unchecked_independent(request);
         }
+        if let Some(other) = self.in_a_part().filter(|_| request.existing.is_empty()) {
+            return other.build_valid_independent(&row_by_row(request));
+        }
         if request.space.levels().is_empty() || !self.has_rows(request) {
             return self.build_valid(request);
         }
@@ -100,6 +106,11 @@ impl Strategy {
         let inner = self.unchecked_independent(&Request { budget: proposals, ..*request })?;
         Ok(Keeping::of(inner, request.space, false))
     }
+}
+
+/// Returns the request for a strategy that fills holes, so that it fills the holes of each row.
+fn row_by_row<'a>(request: &Request<'a>) -> Request<'a> {
+    Request { aim: Some(Aim::Dispersion), ..*request }
 }
 
 impl Share {

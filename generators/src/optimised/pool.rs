@@ -17,7 +17,7 @@ pub(super) struct Pool {
     known: HashSet<Corner>,
     /// Boxes that are added once it is clear whether the last move counts.
     later: Vec<Corner>,
-    /// What the last move has changed: the box, its count and its difference before.
+    /// The boxes that the last move has changed, each with its count and its difference before.
     changed: Vec<(usize, u32, f64)>,
 }
 

@@ -22,6 +22,7 @@ impl Strategy {
         look: Look::hollow(0x8c_510a, MarkShape::Tip),
         method: Method(MethodKind::Sets {
             plain: true,
+            in_a_part: None,
             build: |_, seed, deal| Ok(Box::new(PerRow::new(deal, Fibonacci::new(seed)))),
         }),
     });

@@ -20,6 +20,7 @@ impl Strategy {
         look: Look::filled(0xcc_79a7, MarkShape::Triangle),
         method: Method(MethodKind::Sets {
             plain: true,
+            in_a_part: None,
             build: |dims, seed, deal| Ok(Box::new(PerRow::new(deal, Hammersley::new(dims, seed)))),
         }),
     });

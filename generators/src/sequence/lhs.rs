@@ -24,6 +24,7 @@ impl Strategy {
         look: Look::filled(0x99_9999, MarkShape::Square),
         method: Method(MethodKind::Sets {
             plain: false,
+            in_a_part: None,
             build: |dims, seed, deal| cells(dims, seed, deal, Place::Random),
         }),
     });
@@ -38,6 +39,7 @@ impl Strategy {
         look: Look::filled(0x99_9999, MarkShape::Diamond),
         method: Method(MethodKind::Sets {
             plain: false,
+            in_a_part: None,
             build: |dims, seed, deal| cells(dims, seed, deal, Place::Centre),
         }),
     });

@@ -69,6 +69,8 @@ pub(crate) enum MethodKind {
         plain: bool,
         /// The function that builds the sets of all rows, one set after the other.
         build: BuildSets,
+        /// The strategy that takes the place of this one if constraints leave a part of the space, because its sets are made for the whole space alone and take long.
+        in_a_part: Option<Strategy>,
     },
     /// The method puts points into the largest holes between the existing points. The function makes the kind of holes
     /// that count.
@@ -185,6 +187,14 @@ impl Strategy {
     pub fn first_index(self) -> Option<u64> {
         match self.kind() {
             MethodKind::Sequence(endless) => endless.first,
+            _ => None,
+        }
+    }
+
+    /// Returns the strategy that takes the place of this one if constraints leave a part of the space; `None` if this strategy does it itself.
+    pub(crate) fn in_a_part(self) -> Option<Self> {
+        match self.kind() {
+            MethodKind::Sets { in_a_part, .. } => in_a_part,
             _ => None,
         }
     }
