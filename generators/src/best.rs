@@ -21,7 +21,7 @@ impl Strategy {
     /// The strategy "best", which takes the set with the smallest dispersion that is known; a seed turns and mirrors the set.
     pub const BEST: Self = Self::of(&Descriptor {
         name: "best",
-        about: "the set with the smallest dispersion that is known to us or found by a short search, made for exactly the budget",
+        about: "the lowest dispersion that we know of: a shipped set, or the result of a short search, for exactly the budget",
         dims: ANY,
         look: Look::filled(0x00_0000, MarkShape::Tip),
         method: Method(MethodKind::Sets {

@@ -47,7 +47,7 @@ impl Strategy {
     /// The strategy "greedy", which puts each test into the largest empty boxes.
     pub const GREEDY: Self = Self::of(&Descriptor {
         name: "greedy",
-        about: "puts every test into the largest holes: the lowest dispersion, for some milliseconds a test",
+        about: "puts every test into the largest holes: a low dispersion, for some milliseconds a test",
         dims: 1..=MOST_DIMS,
         look: Look::filled(0x00_0000, MarkShape::Triangle),
         method: Method(MethodKind::Holes(EmptyBoxes::at_most)),

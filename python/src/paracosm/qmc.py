@@ -167,7 +167,7 @@ class Best(_Engine):
 
 
 class Greedy(_Engine):
-    """Points in the largest empty boxes: the lowest dispersion."""
+    """Points in the largest empty boxes: a low dispersion."""
 
     method = "greedy"
     _budget = _ENDLESS
