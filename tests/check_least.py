@@ -216,14 +216,17 @@ def main(path):
     with open(path, encoding="utf-8") as file:
         table = json.load(file)
     dims, levels = table["dims"], [1.0]
+    if not (type(dims) is int and dims > 0 and table["rows"]):
+        refuse("a table has at least one dimension and one row")
     if table["measure"] != "least-dispersion" or table["format"] != 1:
         refuse("this script knows tables of the measure least-dispersion in the format 1")
     for n, row in enumerate(table["rows"], 1):
         points, level = row["points"], row["level"]
         if len(points) != n or not all(len(point) == dims and all(0 <= x <= 1 for x in point) for point in points):
             refuse(f"row {n} does not have {n} points in the unit cube of {dims} dimensions")
-        if largest_empty_box(points, dims) > row["dispersion"] * (1 + 1e-12):
-            refuse(f"row {n}: the points leave a larger empty box than {row['dispersion']}")
+        largest = largest_empty_box(points, dims)
+        if not abs(largest - row["dispersion"]) <= 1e-12 * largest:
+            refuse(f"row {n}: the largest empty box between the points has the volume {largest}, not {row['dispersion']}")
         if not 0 < level <= row["dispersion"]:
             refuse(f"row {n}: the level {level} is not between 0 and the dispersion {row['dispersion']}")
         if row["steps"] or Fraction(level) * (n + 1) > 1:

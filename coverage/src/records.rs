@@ -1,4 +1,4 @@
-//! The best sets of points that are known to us, which this crate ships. `paracosm-cover optimise` has found them.
+//! The best sets of points that are known to us, which this crate ships. `paracosm-cover optimise` and `least` have found them.
 
 use crate::{Measure, PointSet};
 
@@ -28,6 +28,7 @@ macro_rules! records {
 
 /// All sets that are shipped.
 pub const RECORDS: &[Record] = records! {
+    DISPERSION "least": 2 2, 2 3, 2 4, 2 5, 2 6, 2 7, 2 8, 3 2, 3 3, 3 4, 3 5, 4 2, 4 3, 4 4;
     DISPERSION "dispersion": 2 20, 2 50, 2 100, 2 200, 3 20, 3 50, 3 100, 3 200, 4 50, 5 50, 5 100;
     STAR "star": 2 10, 2 16, 2 20, 2 30, 2 60, 2 100, 2 500, 2 1020, 3 30, 3 60, 3 120, 3 240, 4 30, 4 60, 4 120, 4 240, 5 30, 5 60, 6 30;
 };
@@ -36,6 +37,12 @@ pub const RECORDS: &[Record] = records! {
 pub fn record(measure: Measure, dims: usize, points: usize) -> Option<PointSet> {
     let is_asked = |record: &&Record| (record.measure, record.dims, record.points) == (measure, dims, points);
     RECORDS.iter().find(is_asked).map(Record::set)
+}
+
+/// Returns the largest shipped set with a small measure that has fewer points; `None` if there is none.
+pub fn largest_record_below(measure: Measure, dims: usize, points: usize) -> Option<PointSet> {
+    let is_smaller = |record: &&Record| (record.measure, record.dims) == (measure, dims) && record.points < points;
+    RECORDS.iter().filter(is_smaller).max_by_key(|record| record.points).map(Record::set)
 }
 
 impl Record {
@@ -58,5 +65,6 @@ mod tests {
             assert_eq!((set.len(), set.dims()), (found.points, found.dims));
         }
         assert_eq!(record(Measure::DISPERSION, 2, 99), None);
+        assert_eq!(largest_record_below(Measure::DISPERSION, 2, 99).unwrap().len(), 50);
     }
 }

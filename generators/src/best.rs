@@ -1,7 +1,6 @@
-//! The sets of points with the smallest dispersion that are known to us.
+//! Sets of points with a small dispersion that were searched for as a whole.
 //!
-//! Sets that were searched for as a whole are better than sets that a formula makes. The crate on coverage ships some. For other sizes, a short search begins with
-//! the points of `greedy`. It makes a number of moves that depends on the size alone, so that the same request always has the same points.
+//! Such sets are better than sets that a formula makes. The crate on coverage ships some. For other sizes, a short search begins with the best of the plain sets. It makes a number of moves that depends on the size alone, so that the same request always has the same points.
 //!
 //! A set is not random, so a seed chooses one of the 2^d d! images of the set under the symmetries of the cube, which all have the same dispersion. Each discrete row
 //! has an image of its own. A set of the whole cube is not the best for a part of it, so under constraints on continuous parameters, `greedy` takes its place.
@@ -21,7 +20,7 @@ impl Strategy {
     /// The strategy "best", which takes the set with the smallest dispersion that is known; a seed turns and mirrors the set.
     pub const BEST: Self = Self::of(&Descriptor {
         name: "best",
-        about: "the lowest dispersion that we know of: a shipped set, or the result of a short search, for exactly the budget",
+        about: "a low dispersion: a shipped set, or the result of a short search, made for exactly the budget",
         dims: ANY,
         look: Look::filled(0x00_0000, MarkShape::Tip),
         method: Method(MethodKind::Sets {

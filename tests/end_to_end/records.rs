@@ -38,13 +38,19 @@ fn table() -> Vec<Row> {
     rows.take_while(|line| line.starts_with('|')).map(row).collect()
 }
 
+/// Returns true for a set of points that `optimise` has found.
+fn is_optimised(path: &Path) -> bool {
+    let is_csv = path.extension().is_some_and(|ending| ending == "csv");
+    is_csv && !path.file_name().is_some_and(|name| name.to_str().unwrap().starts_with("least-"))
+}
+
 #[test]
 fn the_optimised_sets_have_the_measures_of_the_documents() {
     let dir = tempfile::tempdir().unwrap();
     let rows = table();
     let listed: BTreeSet<PathBuf> = rows.iter().map(|row| row.file.clone()).collect();
     let data = fs::read_dir(root().join("coverage/data")).unwrap().map(|entry| entry.unwrap().path());
-    assert_eq!(listed, data.filter(|path| path.extension().is_some_and(|ending| ending == "csv")).collect());
+    assert_eq!(listed, data.filter(|path| is_optimised(path)).collect());
     for Row { measure, file, value, other, size: [dims, points] } in rows {
         let name = file.to_str().unwrap();
         let arguments = ["estimate", name, "--measures", measure, "--format", "json", "--certificate", "c.json"];
@@ -65,6 +71,10 @@ fn the_optimised_sets_have_the_measures_of_the_documents() {
         if measure == "star" {
             let judge = Command::new("python3").arg(root().join("tests/check_star.py")).arg(&file).output();
             let Ok(judge) = judge else { continue };
+            if stderr(&judge).contains("No module named 'numpy'") {
+                eprintln!("SKIPPED: no numpy for the star discrepancy of {name}");
+                continue;
+            }
             let judged: f64 = stdout(&judge).trim().parse().unwrap_or_else(|_| panic!("{name}: {}", stderr(&judge)));
             assert!((judged - found).abs() < 1e-15, "{name}: {found}, and the judge says {judged}");
         } else {
@@ -99,8 +109,17 @@ fn the_least_dispersions_of_the_documents_are_proved_and_reached() {
         assert_eq!(shown.len(), known.len());
         for (shown, row) in shown.iter().zip(known) {
             let [level, dispersion] = ["level", "dispersion"].map(|key| row[key].as_f64().unwrap());
-            assert!(level >= dispersion * (1.0 - 2e-6), "{shown}");
+            assert!(level >= dispersion * (1.0 - 1e-6), "{shown}");
             assert_eq!(*shown, format!("{dispersion:.5}"));
+            let points = row["points"].as_array().unwrap();
+            let csv = root().join(format!("coverage/data/least-{dims}d-{}.csv", points.len()));
+            // One point is in the middle.
+            let Ok(csv) = fs::read_to_string(csv) else {
+                assert_eq!(points.len(), 1);
+                continue;
+            };
+            let read = |line: &str| line.split(',').map(|x| x.parse::<f64>().unwrap()).collect::<Vec<f64>>();
+            assert_eq!(Value::from(csv.lines().skip(1).map(read).collect::<Vec<_>>()), row["points"]);
         }
         let Some(judge) = check_least(&file) else { continue };
         let judge = succeeds(judge);
@@ -122,7 +141,7 @@ fn a_table_of_least_dispersions_that_claims_too_much_is_refused() {
     };
     for (changed, says) in [
         (table.clone(), None),
-        (row(&|row| row["dispersion"] = 0.2499.into()), Some("leave a larger empty box than 0.2499")),
+        (row(&|row| row["dispersion"] = 0.2499.into()), Some("not 0.2499")),
         (
             row(&|row| (row["level"], row["dispersion"]) = (0.26.into(), 0.26.into())),
             Some("do not rule out all points"),
@@ -132,7 +151,7 @@ fn a_table_of_least_dispersions_that_claims_too_much_is_refused() {
             row(&|row| row["steps"] = row["steps"].as_str().unwrap().trim_end_matches('x').into()),
             Some("the steps for 4 points are wrong"),
         ),
-        (row(&|row| row["points"][0][0] = 0.9.into()), Some("leave a larger empty box")),
+        (row(&|row| row["points"][0][0] = 0.9.into()), Some("the largest empty box between the points has the volume")),
     ] {
         let file = dir.path().join("changed.json");
         fs::write(&file, changed.to_string()).unwrap();

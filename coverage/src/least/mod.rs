@@ -8,7 +8,7 @@
 //! A box of the volume v with m points inside has an empty box of the volume v times the least dispersion of m points. So the levels that are proved for fewer
 //! points bound the volumes of boxes with points inside.
 //!
-//! Bounds are whole numbers of units of 2^-40, which are rounded so that a proof stays a proof.
+//! Bounds are whole numbers of units of 2^-40, rounded upward. So rounding never rules out points.
 
 mod differences;
 mod order;
@@ -33,14 +33,14 @@ const ATTEMPT: f64 = 0.4;
 /// The most boxes between points, of which each round of the search looks at all.
 const MOST_BOXES: usize = 2_000_000;
 
-/// Returns the most points in this number of dimensions for which a proof is tried.
+/// Returns the most points in this number of dimensions for which a proof is tried; 0 if there are none.
 pub fn most_points(dims: usize) -> usize {
-    if dims == 0 {
-        return 0;
-    }
-    let boxes =
-        |points: usize| (0..dims).fold(1, |boxes: usize, _| boxes.saturating_mul((points + 2) * (points + 1) / 2));
-    (1..=32).take_while(|&points| boxes(points) <= MOST_BOXES).last().unwrap_or(0)
+    let fits = |points: &usize| {
+        let intervals = (points + 2) * (points + 1) / 2;
+        let boxes = u32::try_from(dims).ok().and_then(|dims| intervals.checked_pow(dims));
+        dims > 0 && boxes.is_some_and(|boxes| boxes <= MOST_BOXES)
+    };
+    (1..=32).take_while(fits).last().unwrap_or(0)
 }
 
 /// The bounds on the least dispersion of a number of points.
@@ -64,17 +64,17 @@ impl Least {
 }
 
 fn is_proved(level: f64, dispersion: f64) -> bool {
-    // Rounding must not decide.
-    level >= dispersion * (1.0 - 1.5 * PRECISION)
+    level >= dispersion * (1.0 - PRECISION)
 }
 
 /// Finds the least dispersion of as many points as are given, beginning with these points, with a proof. `levels` has a proved level for each smaller number of points, from 0
 /// on: the first is 1. If the time is too short, the proved level is lower than the dispersion of the points.
 ///
 /// # Panics
-/// There are no points or no dimensions, or there are not as many levels as points.
+/// There are no points or no dimensions, there are more than [`most_points`], or there are not as many levels as points.
 pub fn least_dispersion(points: &PointSet, levels: &[f64], deadline: Deadline) -> Least {
-    assert!(!points.is_empty() && points.dims() > 0, "a set has at least one point and one dimension");
+    let most = most_points(points.dims());
+    assert!((1..=most).contains(&points.len()), "{} points, expected from 1 to {most}", points.len());
     assert_eq!(levels.len(), points.len(), "each smaller number of points has a level");
     let value = dispersion(points, Deadline::never()).volume.upper;
     // Along an axis, n points leave a gap of 1 / (n + 1).
@@ -84,7 +84,7 @@ pub fn least_dispersion(points: &PointSet, levels: &[f64], deadline: Deadline) -
     let mut ceiling = value;
     // If the points are the best, the first attempt proves it.
     let mut level = value * (1.0 - PRECISION);
-    while !least.is_proved() && least.level < ceiling * (1.0 - PRECISION) && !deadline.passed() {
+    while !least.is_proved() && least.level < ceiling * (1.0 - PRECISION / 4.0) && !deadline.passed() {
         match steps(points.len(), points.dims(), level, levels, deadline.part(ATTEMPT)) {
             Ok(steps) => (least.level, least.steps) = (level, steps),
             Err(Stop::Time) => ceiling = level,
@@ -161,6 +161,22 @@ mod tests {
         let holds = runner.run(&points_in_the_plane(7), |points| {
             let value = dispersion(&points, Deadline::never()).volume.lower;
             prop_assert!(value >= leasts[points.len() - 1].level, "{value} of {points:?}");
+            Ok(())
+        });
+        holds.unwrap();
+    }
+
+    #[test]
+    fn points_beside_the_best_are_no_better_than_a_proved_level() {
+        let leasts = leasts(2, 6);
+        let moves = prop::collection::vec((-1e-4..1e-4_f64, -1e-4..1e-4_f64), 6);
+        let mut runner = TestRunner::default();
+        let holds = runner.run(&(0..6_usize, moves), |(at, moves)| {
+            let best = &leasts[at].points;
+            let moved =
+                best.iter().zip(&moves).map(|(point, (x, y))| [point[0] + x, point[1] + y].map(|x| x.clamp(0.0, 1.0)));
+            let value = dispersion(&PointSet::new(2, moved).unwrap(), Deadline::never()).volume.lower;
+            prop_assert!(value >= leasts[at].level, "{value} of {} points", at + 1);
             Ok(())
         });
         holds.unwrap();

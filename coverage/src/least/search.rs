@@ -103,7 +103,8 @@ impl Search<'_> {
         let mut most = i128::from(self.volumes[gap.inside]);
         for (other, &(from, to)) in gap.ends.iter().enumerate().filter(|(other, _)| *other != axis) {
             let least = i128::from(bounds[other].least(from, to));
-            if least <= 0 {
+            // A length is at most a unit, so a larger bound says nothing.
+            if least <= 0 || most >= i128::from(UNIT) {
                 return None;
             }
             most = (most * i128::from(UNIT) + least - 1) / least;

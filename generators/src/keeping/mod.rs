@@ -63,7 +63,7 @@ impl Strategy {
         if !request.space.checks_each_test() || self == Self::GIVEN {
             return self.unchecked(request);
         }
-        if let Some(other) = self.in_a_part().filter(|_| request.existing.is_empty()) {
+        if let Some(other) = self.in_a_part().filter(|_| can_be_replaced(request)) {
             return other.build_valid(&row_by_row(request));
         }
         // What is wrong with the request itself is said first.
@@ -86,7 +86,7 @@ impl Strategy {
         if !request.space.checks_each_test() {
             return self.unchecked_independent(request);
         }
-        if let Some(other) = self.in_a_part().filter(|_| request.existing.is_empty()) {
+        if let Some(other) = self.in_a_part().filter(|_| can_be_replaced(request)) {
             return other.build_valid_independent(&row_by_row(request));
         }
         if request.space.levels().is_empty() || !self.has_rows(request) {
@@ -106,6 +106,11 @@ impl Strategy {
         let inner = self.unchecked_independent(&Request { budget: proposals, ..*request })?;
         Ok(Keeping::of(inner, request.space, false))
     }
+}
+
+/// Returns true if nothing in the request is refused by a strategy that makes sets, which has to say so itself.
+fn can_be_replaced(request: &Request) -> bool {
+    request.existing.is_empty() && request.skip.is_none() && request.epsilon.is_none() && request.aim.is_none()
 }
 
 /// Returns the request for a strategy that fills holes, so that it fills the holes of each row.

@@ -1,8 +1,8 @@
 //! Searches for sets of points that make a measure as small as possible, for as long as there is time.
 //!
-//! The measure is exact in each step, so a set that the search returns is as good as the search says. In the plane, the star discrepancy has a search of
-//! its own (`plane.rs`): over the orders of the points, each with its best coordinates. The other measures have a search that moves one point after
-//! another (`exchange.rs`). On a line the best sets are known.
+//! The exact measure judges each set that a search keeps. In the plane, the star discrepancy has a search over the orders of the points, each with its best
+//! coordinates (`plane.rs`). In more dimensions, its search moves points and keeps a pool of bad boxes (`anchored.rs`). The dispersions have a search that moves
+//! one point after another (`exchange.rs`). On a line the best sets are known.
 
 mod anchored;
 mod exchange;
@@ -16,15 +16,18 @@ mod spots;
 pub use objective::{Objective, ObjectiveError};
 
 use crate::{Generator, GeneratorError, Request, Strategy};
-use paracosm_coverage::records::record;
+use paracosm_coverage::records::{largest_record_below, record};
 use paracosm_coverage::{Deadline, Measure, PointSet};
-use paracosm_space::Space;
+use paracosm_space::{Point, Space};
 
 /// The most points in the plane whose order is searched. The counts take about 12 n^2 bytes for each thread.
 const MOST_RANKS: usize = 3000;
 
 /// The most points of a set for the strategy `best` that is not shipped.
 const MOST_SETTLED: usize = 1000;
+
+/// The least number of moves that make up for the time of an exact measure.
+const LEAST_MOVES: usize = 50;
 
 /// The share of the time in which the search may look for a set to begin with.
 const OPENING: f64 = 0.1;
@@ -80,26 +83,47 @@ pub fn optimised(
     }
 }
 
-/// Returns a set with a small dispersion: the shipped one, or else the set of `greedy` after a number of moves. The result depends on the size alone.
+/// Returns a set with a small dispersion. The result depends on the size alone. It is the shipped set, or else the best plain set after a number of moves. Where an exact
+/// measure takes long, it is the set of `greedy`.
 pub(crate) fn settled(n: usize, dims: usize) -> Result<PointSet, GeneratorError> {
+    if n > MOST_SETTLED {
+        return Err(GeneratorError::BestLimit { points: n, most: MOST_SETTLED });
+    }
     if dims == 1 {
         return Ok(on_the_line(Objective::Dispersion, n));
     }
     if let Some(known) = record(Measure::DISPERSION, dims, n) {
         return Ok(known);
     }
-    if n > MOST_SETTLED {
-        return Err(GeneratorError::BestLimit { points: n, most: MOST_SETTLED });
-    }
     let space = Space::unit_cube(dims);
-    let points = Strategy::GREEDY.build(&Request::new(&space, n))?.ask(n);
-    let points = PointSet::new(dims, points.into_iter().map(|point| point.continuous)).expect("tests are in the cube");
-    Ok(exchange::after_moves(Objective::Dispersion, &points, moves(n, dims)))
+    let made = |strategy: Strategy, existing: &[Point]| -> Result<PointSet, GeneratorError> {
+        let request = Request { existing, ..Request::new(&space, n - existing.len()) };
+        let new = strategy.build(&request)?.ask(n - existing.len());
+        let points = existing.iter().chain(&new).map(|point| point.continuous.clone());
+        Ok(PointSet::new(dims, points).expect("tests are in the cube"))
+    };
+    let greedy = made(Strategy::GREEDY, &[])?;
+    let moves = moves(n, dims);
+    if moves < LEAST_MOVES && dims > 2 {
+        return Ok(greedy);
+    }
+    let mut sets = vec![greedy];
+    let is_plain = |strategy: &Strategy| strategy.has_plain_set() && *strategy != Strategy::BEST;
+    sets.extend(Strategy::all().filter(is_plain).filter_map(|strategy| made(strategy, &[]).ok()));
+    // A further point never makes the dispersion larger.
+    if let Some(smaller) = largest_record_below(Measure::DISPERSION, dims, n) {
+        let existing = smaller.iter().map(|point| Point { continuous: point.to_vec(), discrete: Vec::new() });
+        sets.push(made(Strategy::GREEDY, &existing.collect::<Vec<Point>>())?);
+    }
+    let value = |set: &PointSet| Objective::Dispersion.measured(set, Deadline::never()).upper;
+    let least = sets.into_iter().map(|set| (value(&set), set)).min_by(|(a, _), (b, _)| a.total_cmp(b));
+    let (_, points) = least.expect("greedy has made a set");
+    Ok(if moves < LEAST_MOVES { points } else { exchange::after_moves(Objective::Dispersion, &points, moves) })
 }
 
-/// Returns the number of moves of the short search of `settled`, which takes about a second.
+/// Returns the number of moves of the short search of `settled`, which takes some seconds at most.
 fn moves(n: usize, dims: usize) -> usize {
-    let boxes = n.saturating_mul(n).saturating_mul(4_usize.saturating_pow(dims as u32 - 2));
+    let boxes = n.saturating_mul(n).saturating_mul(4_usize.saturating_pow(u32::try_from(dims).unwrap_or(u32::MAX) - 2));
     (30_000_000 / boxes.max(1)).min(20_000)
 }
 
@@ -123,11 +147,12 @@ fn opening(objective: Objective, n: usize, dims: usize, deadline: Deadline) -> P
         let points = PointSet::new(dims, points.into_iter().map(|point| point.continuous)).ok()?;
         (points.len() == n).then_some(points)
     };
-    let is_random = |strategy: &Strategy| [Strategy::RANDOM, Strategy::RANDOM_CORNERS].contains(strategy);
-    let open_loop = || Strategy::all().filter(|strategy| !strategy.is_adaptive() && !is_random(strategy));
+    // The strategy `best` makes a search of its own.
+    let is_left_out =
+        |strategy: &Strategy| [Strategy::RANDOM, Strategy::RANDOM_CORNERS, Strategy::BEST].contains(strategy);
+    let open_loop = || Strategy::all().filter(|strategy| !strategy.is_adaptive() && !is_left_out(strategy));
     // Sequences take no time. To fill holes takes long, and a seed changes little.
-    let is_slow = |strategy: &Strategy| strategy.fills_holes() || *strategy == Strategy::BEST;
-    let (slow, fast): (Vec<Strategy>, Vec<Strategy>) = open_loop().partition(is_slow);
+    let (slow, fast): (Vec<Strategy>, Vec<Strategy>) = open_loop().partition(|strategy| strategy.fills_holes());
     let first = fast.iter().chain(&slow).map(|&strategy| (strategy, 0));
     let more = (1..MOST_SEEDS).flat_map(|seed| fast.iter().map(move |&strategy| (strategy, seed)));
     let mut best: Option<(PointSet, f64)> = None;

@@ -1,6 +1,6 @@
 //! The boxes that have been bad, with their differences, so that a move can be judged without a search.
 
-use super::spots::{Corner, Kind, Spots};
+use super::spots::{Corner, Spots};
 use std::collections::HashSet;
 
 /// The most boxes that are kept: when there are more, those with small differences go.
@@ -64,13 +64,9 @@ impl Pool {
 
     /// Returns the box with the largest difference.
     pub fn worst(&self) -> Option<&Corner> {
-        let differences = || (0..self.corners.len()).map(|at| self.differences[at]);
-        self.corners.get(
-            differences()
-                .enumerate()
-                .fold((0, 0.0), |worst, (at, difference)| if difference > worst.1 { (at, difference) } else { worst })
-                .0,
-        )
+        let level = self.level();
+        let worst = self.differences.iter().position(|&difference| difference >= level)?;
+        Some(&self.corners[worst])
     }
 
     /// Returns the largest difference of a box; 0 without boxes.
@@ -171,9 +167,44 @@ impl Pool {
     }
 }
 
-impl Corner {
-    /// Returns true if too few points are in the box, if any number is wrong.
-    pub fn is_empty(&self) -> bool {
-        self.kind == Kind::Empty
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seeded::{Purpose, seeded};
+    use rand::Rng;
+
+    #[test]
+    fn a_pool_that_follows_moves_has_the_differences_of_its_boxes() {
+        let mut rng = seeded(5, Purpose::Search, 0);
+        for dims in [2, 3, 5] {
+            let n = 12;
+            let points: Vec<Vec<f64>> = (0..n).map(|_| (0..dims).map(|_| rng.random()).collect()).collect();
+            let mut spots = Spots::new(&points, dims);
+            let mut pool = Pool::new(dims);
+            for _ in 0..60 {
+                let corner = spots.random_corner(&mut rng);
+                pool.add(&spots, corner);
+            }
+            for step in 0..400 {
+                let (axis, point) = (rng.random_range(0..dims), rng.random_range(0..n as u32));
+                let before = spots.at(axis, point);
+                // Coordinates that other points have are the hard ones.
+                let to = if step % 3 == 0 { spots.at(axis, rng.random_range(0..n as u32)) } else { rng.random() };
+                spots.place(axis, point, to);
+                let limit = if step % 4 == 0 { 0.2 } else { 2.0 };
+                if !pool.follow(&spots, axis, point, before, limit) {
+                    spots.place(axis, point, before);
+                    pool.undo(&spots, axis);
+                }
+                if step % 50 == 0 {
+                    pool.sort();
+                }
+                for (corner, difference) in pool.corners.iter().zip(&pool.differences) {
+                    let share = spots.count(corner) as f64 / n as f64;
+                    let known = corner.kind.difference(spots.volume(corner), share);
+                    assert!((known - difference).abs() < 1e-12, "{corner:?} after {step} moves");
+                }
+            }
+        }
     }
 }

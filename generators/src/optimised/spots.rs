@@ -48,6 +48,13 @@ impl Kind {
     }
 }
 
+impl Corner {
+    /// Returns true if the box may have too few points, so that points inside help.
+    pub fn is_empty(&self) -> bool {
+        self.kind == Kind::Empty
+    }
+}
+
 impl Spots {
     /// Makes the points from their coordinates.
     pub fn new(points: &[Vec<f64>], dims: usize) -> Self {
@@ -195,5 +202,51 @@ impl Spots {
         }
         let at_end = kind.difference(others, f64::from(count) / points);
         if kind == Kind::Empty && at_end > best.0 { (at_end, self.len() as u32) } else { best }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seeded::{Purpose, seeded};
+    use paracosm_coverage::star::star_discrepancy;
+    use paracosm_coverage::{Deadline, PointSet};
+
+    /// All boxes whose corners lie at coordinates of points or at the end.
+    fn corners(spots: &Spots) -> Vec<Corner> {
+        let (n, dims) = (spots.len() as u32, spots.dims() as u32);
+        let choices = (n + 1).pow(dims);
+        let faces = |number: u32| (0..dims).map(|axis| number / (n + 1).pow(axis) % (n + 1)).collect::<Vec<u32>>();
+        (0..choices)
+            .flat_map(|number| [Kind::Empty, Kind::Full].map(|kind| Corner { kind, faces: faces(number) }))
+            .collect()
+    }
+
+    #[test]
+    fn the_worst_box_has_the_star_discrepancy_and_no_climb_is_above_it() {
+        let mut rng = seeded(6, Purpose::Search, 0);
+        for (n, dims) in [(1, 3), (4, 3), (9, 3), (5, 4)] {
+            let points: Vec<Vec<f64>> = (0..n).map(|_| (0..dims).map(|_| rng.random()).collect()).collect();
+            let spots = Spots::new(&points, dims);
+            let star = star_discrepancy(&PointSet::new(dims, &points).unwrap(), Deadline::never()).upper;
+            let difference = |corner: &Corner| {
+                corner.kind.difference(spots.volume(corner), spots.count(corner) as f64 / f64::from(n))
+            };
+            let worst = corners(&spots).iter().map(difference).fold(0.0, f64::max);
+            assert!((worst - star).abs() < 1e-12, "{worst} of {n} points, and {star}");
+            let (mut outside, mut highest) = (Vec::new(), 0.0_f64);
+            for _ in 0..200 {
+                let mut corner = spots.random_corner(&mut rng);
+                let before = difference(&corner);
+                let climbed = spots.climb(&mut corner, &mut outside);
+                assert!(
+                    (climbed - difference(&corner)).abs() < 1e-12
+                        && climbed >= before - 1e-12
+                        && climbed <= star + 1e-12
+                );
+                highest = highest.max(climbed);
+            }
+            assert!((highest - star).abs() < 1e-12, "200 climbs find the worst of few boxes");
+        }
     }
 }

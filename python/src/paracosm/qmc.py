@@ -161,7 +161,7 @@ class LhsCentred(_Engine):
 
 
 class Best(_Engine):
-    """The set with the smallest dispersion that is known, or that a short search finds. It draws once."""
+    """A set with a small dispersion: a shipped one, or the result of a short search. It draws once."""
 
     method = "best"
 

@@ -28,7 +28,7 @@ pub(super) struct Options {
     /// The most points: each number from 1 on has a row
     #[arg(long, value_name = "N")]
     budget: usize,
-    /// The seconds for all proofs together
+    /// The seconds for all proofs together; the bounds depend on the time
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time: f64,
     /// Write the points and the proofs to this file
@@ -94,6 +94,8 @@ fn shown(table: &least::Table) -> String {
         };
         lines.row(&plural(n, "point"), &value);
     }
-    lines.line(&format!("A proved value is the least dispersion, except for a share of {PRECISION}."));
+    if table.rows.iter().any(least::Row::is_proved) {
+        lines.line(&format!("A proved value is the least dispersion, except for a share of {PRECISION}."));
+    }
     lines.finish()
 }
