@@ -60,3 +60,67 @@ impl RowSet for Best {
         axes.into_iter().map(mirrored).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{GeneratorError, Request};
+    use paracosm_coverage::dispersion::dispersion;
+    use paracosm_coverage::{Deadline, Measure, records};
+    use paracosm_space::Space;
+
+    fn points(strategy: Strategy, n: usize, dims: usize, seed: Option<u64>) -> Vec<Vec<f64>> {
+        let space = Space::unit_cube(dims);
+        let mut made = strategy.build(&Request { seed, ..Request::new(&space, n) }).unwrap();
+        made.ask(n).into_iter().map(|point| point.continuous).collect()
+    }
+
+    fn measured(points: &[Vec<f64>]) -> f64 {
+        dispersion(&PointSet::new(points[0].len(), points).unwrap(), Deadline::never()).volume.upper
+    }
+
+    #[test]
+    fn no_plain_set_and_no_smaller_shipped_set_has_a_lower_dispersion() {
+        for (n, dims) in [(1, 2), (7, 2), (21, 2), (51, 2), (101, 2), (250, 2), (6, 3), (40, 3), (5, 4)] {
+            let best = measured(&points(Strategy::BEST, n, dims, None));
+            for strategy in
+                Strategy::all().filter(|strategy| strategy.has_plain_set() && strategy.dims().contains(&dims))
+            {
+                let other = measured(&points(strategy, n, dims, None));
+                assert!(best <= other, "{n} points of {strategy} in {dims} dimensions: {other} below {best}");
+            }
+            let smaller = records::RECORDS
+                .iter()
+                .filter(|record| record.measure == Measure::DISPERSION && record.dims == dims && record.points <= n);
+            for record in smaller {
+                let points: Vec<Vec<f64>> = record.set().iter().map(<[f64]>::to_vec).collect();
+                assert!(best <= measured(&points), "{n} points, and {} are shipped", record.points);
+            }
+        }
+    }
+
+    #[test]
+    fn a_seed_turns_and_mirrors_the_set_and_keeps_its_dispersion() {
+        let plain = points(Strategy::BEST, 50, 3, None);
+        assert_eq!(plain, points(Strategy::BEST, 50, 3, None));
+        let mut images = vec![plain.clone()];
+        for seed in 0..6 {
+            let image = points(Strategy::BEST, 50, 3, Some(seed));
+            assert_eq!(image, points(Strategy::BEST, 50, 3, Some(seed)));
+            assert!((measured(&image) - measured(&plain)).abs() < 1e-12);
+            images.push(image);
+        }
+        images.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+        images.dedup();
+        assert!(images.len() >= 4, "48 images are possible");
+    }
+
+    #[test]
+    fn more_points_than_the_search_can_take_are_refused() {
+        for dims in [1, 2] {
+            let space = Space::unit_cube(dims);
+            let refused = Strategy::BEST.build(&Request::new(&space, 1001)).map(|_| ());
+            assert_eq!(refused, Err(GeneratorError::BestLimit { points: 1001, most: 1000 }));
+        }
+    }
+}

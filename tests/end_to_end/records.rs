@@ -177,5 +177,12 @@ fn least_dispersions_that_cannot_be_proved_are_refused_or_lie_between_bounds() {
         assert!(refused.status.code() == Some(2) && stderr(&refused).contains(says), "{}", stderr(&refused));
     }
     let printed = stdout(&succeeds(cover(dir.path(), &["least", "--dims", "3", "--budget", "9", "--time", "0"])));
-    assert!(printed.contains("9 points              between 0.1 and "), "{printed}");
+    assert!(
+        printed.contains("9 points              between 0.1 and ") && !printed.contains("A proved value"),
+        "{printed}"
+    );
+    // More points are never worse.
+    let reached = printed.lines().filter_map(|line| line.split(" and ").nth(1)?.trim().parse::<f64>().ok());
+    let reached = reached.collect::<Vec<f64>>();
+    assert!(reached.len() >= 7 && reached.is_sorted_by(|a, b| a >= b), "{printed}");
 }

@@ -92,7 +92,7 @@ impl Order {
     }
 }
 
-/// Collects the products of intervals that are as large as their points allow.
+/// Collects the boxes that cannot grow along any axis without another point inside.
 fn collect<'a>(axes: &'a [Vec<Interval>], chosen: &mut Vec<&'a Interval>, inside: u64, gaps: &mut Vec<Gap>) {
     let Some(axis) = axes.get(chosen.len()) else {
         let ends = chosen.iter().map(|interval| interval.ends).collect();

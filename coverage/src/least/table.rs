@@ -3,6 +3,8 @@
 #[cfg(doc)]
 use super::PRECISION;
 use super::{Least, is_proved};
+use crate::dispersion::dispersion;
+use crate::{Deadline, PointSet};
 use serde::{Deserialize, Serialize};
 
 /// The least dispersions of 1, 2, 3 .. points.
@@ -47,6 +49,15 @@ impl Table {
     /// Returns a level for each number of points from 0 up to the last row.
     pub fn levels(&self) -> Vec<f64> {
         [1.0].into_iter().chain(self.rows.iter().map(|row| row.level)).collect()
+    }
+
+    /// Returns the points of the last row with a point in the middle of their largest empty box, which are no worse; `None` if there are no rows.
+    pub fn next_points(&self) -> Option<PointSet> {
+        let mut points = self.rows.last()?.points.clone();
+        let set = PointSet::new(self.dims, &points).ok()?;
+        let hole = dispersion(&set, Deadline::never()).witness;
+        points.push(hole.lower.iter().zip(&hole.upper).map(|(low, high)| f64::midpoint(*low, *high)).collect());
+        PointSet::new(self.dims, points).ok()
     }
 
     /// Adds the next row.

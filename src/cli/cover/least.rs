@@ -6,8 +6,8 @@ use crate::cli::draw::is_ours_to_write;
 use crate::cli::interrupt::Interruptible;
 use crate::cli::output::{Table, digits, plural};
 use crate::cli::{Failure, Verbosity, complain, print, usage};
-use crate::coverage::Deadline;
 use crate::coverage::least::{self, Least, PRECISION, least_dispersion, most_points};
+use crate::coverage::{Deadline, PointSet};
 use crate::generators::optimised::{Objective, optimised};
 use clap::Args;
 use paracosm_campaign::files::write_whole;
@@ -59,7 +59,7 @@ impl Options {
         let mut table = least::Table::new(self.dims);
         for n in 1..=self.budget {
             bar.set_message(plural(n, "point"));
-            let row = self.row(n, &table.levels(), work.deadline);
+            let row = self.row(n, &table, work.deadline);
             table.add(&row);
         }
         bar.finish_and_clear();
@@ -75,11 +75,15 @@ impl Options {
     }
 
     /// Finds the bounds for a number of points. The more points, the longer a proof takes, so a row may take half of the rest of the time.
-    fn row(&self, n: usize, levels: &[f64], deadline: Deadline) -> Least {
+    fn row(&self, n: usize, table: &least::Table, deadline: Deadline) -> Least {
         let share = if n == self.budget { 1.0 } else { 0.5 };
         let deadline = deadline.part(share);
-        let start = optimised(Objective::Dispersion, (n, self.dims), None, 0, deadline.part(SEARCHING), &|_| ());
-        least_dispersion(&start.points, levels, deadline)
+        let value = |points: &PointSet| Objective::Dispersion.measured(points, Deadline::never()).upper;
+        let size = (n, self.dims);
+        let start = optimised(Objective::Dispersion, size, None, 0, deadline.part(SEARCHING), &|_| ()).points;
+        // Without time for a search, the points of the row before may be better.
+        let next = table.next_points().filter(|next| value(next) < value(&start));
+        least_dispersion(&next.unwrap_or(start), &table.levels(), deadline)
     }
 }
 
