@@ -2,7 +2,7 @@
 //!
 //! Such sets are better than sets that a formula makes. The crate on coverage ships some. For other sizes, a short search begins with the best of the plain sets. It makes a number of moves that depends on the size alone, so that the same request always has the same points.
 //!
-//! A set is not random, so a seed chooses one of the 2^d d! images of the set under the symmetries of the cube, which all have the same dispersion. Each discrete row
+//! A set is not random, so a seed chooses the first point, and one of the 2^d d! images of the set under the symmetries of the cube, which all have the same dispersion. Each discrete row
 //! has an image of its own. A set of the whole cube is not the best for a part of it, so under constraints on continuous parameters, `greedy` takes its place.
 
 use crate::deal::Deal;
@@ -15,6 +15,7 @@ use paracosm_coverage::PointSet;
 use rand::Rng;
 use rand::seq::SliceRandom;
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 impl Strategy {
     /// The strategy "best", which takes the set with the smallest dispersion that is known; a seed turns and mirrors the set.
@@ -35,24 +36,47 @@ impl Strategy {
 struct Best {
     seed: Option<u64>,
     /// A set for each number of points.
-    sets: BTreeMap<usize, PointSet>,
+    sets: BTreeMap<usize, Arc<PointSet>>,
+}
+
+/// The most sets that are remembered.
+const MOST_REMEMBERED: usize = 64;
+
+/// The sets by their number of points and of dimensions. A comparison asks for the same set with each seed, and the search takes up to some seconds.
+static REMEMBERED: Mutex<BTreeMap<(usize, usize), Arc<PointSet>>> = Mutex::new(BTreeMap::new());
+
+/// Returns the set of `settled`, which depends on the size alone.
+fn remembered(n: usize, dims: usize) -> Result<Arc<PointSet>, GeneratorError> {
+    let sets = || REMEMBERED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = sets().get(&(n, dims)) {
+        return Ok(known.clone());
+    }
+    // Others need not wait for the search.
+    let set = Arc::new(settled(n, dims)?);
+    let mut sets = sets();
+    if sets.len() >= MOST_REMEMBERED {
+        sets.clear();
+    }
+    sets.insert((n, dims), set.clone());
+    Ok(set)
 }
 
 impl Best {
     fn new(dims: usize, seed: Option<u64>, deal: Deal) -> Result<Self, GeneratorError> {
         let sizes = [0, deal.rows - 1].map(|row| deal.tests_of(row) as usize);
-        let sets = sizes.into_iter().filter(|&size| size > 0).map(|size| Ok((size, settled(size, dims)?)));
+        let sets = sizes.into_iter().filter(|&size| size > 0).map(|size| Ok((size, remembered(size, dims)?)));
         Ok(Self { seed, sets: sets.collect::<Result<_, GeneratorError>>()? })
     }
 }
 
 impl RowSet for Best {
     fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64> {
-        let point = self.sets[&(size as usize)].point(index as usize);
+        let set = &self.sets[&(size as usize)];
         if row == 0 && self.seed.is_none() {
-            return point.to_vec();
+            return set.point(index as usize).to_vec();
         }
         let mut rng = seeded(self.seed.unwrap_or(0), Purpose::Shift, row);
+        let point = set.point(((index + rng.random_range(0..size)) % size) as usize);
         let mut axes: Vec<usize> = (0..point.len()).collect();
         axes.shuffle(&mut rng);
         let mirrored =
