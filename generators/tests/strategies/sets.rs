@@ -166,6 +166,7 @@ fn sets_end_with_their_budget_and_sequences_go_on() {
         let ends = [
             Strategy::HAMMERSLEY,
             Strategy::FIBONACCI,
+            Strategy::BEST,
             Strategy::GREEDY,
             Strategy::GREEDY_PERIODIC,
             Strategy::LHS,
