@@ -158,9 +158,9 @@ impl Pool {
                 self.known.remove(&self.corners[at]);
             });
         }
-        let taken = |numbers: &Vec<f64>| order.iter().map(|&at| numbers[at]).collect::<Vec<f64>>();
+        let taken = |numbers: &[f64]| order.iter().map(|&at| numbers[at]).collect::<Vec<f64>>();
         self.differences = taken(&self.differences);
-        self.positions = self.positions.iter().map(taken).collect();
+        self.positions = self.positions.iter().map(|positions| taken(positions)).collect();
         self.counts = order.iter().map(|&at| self.counts[at]).collect();
         self.corners = order.iter().map(|&at| self.corners[at].clone()).collect();
         self.changed.clear();
