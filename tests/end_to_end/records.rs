@@ -156,7 +156,7 @@ fn a_table_of_least_dispersions_that_claims_too_much_is_refused() {
         match says {
             None => drop(succeeds(judge)),
             Some(says) => {
-                assert!(!judge.status.success() && stderr(&judge).contains(says), "{says}: {}", stderr(&judge))
+                assert!(!judge.status.success() && stderr(&judge).contains(says), "{says}: {}", stderr(&judge));
             }
         }
     }
