@@ -7,12 +7,10 @@
 
 use super::objective::Objective;
 use super::pool::Pool;
+use super::shared::Shared;
 use super::spots::{Corner, Spots};
-use crate::seeded::{Purpose, seeded};
 use paracosm_coverage::{Deadline, PointSet};
 use rand::Rng;
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 /// The number of moves between two starts from the best set.
 const MOVES: usize = 20_000;
@@ -35,12 +33,6 @@ const LEAST_GAIN: f64 = 1e-4;
 /// The share of the time that is left for the last measurement.
 const MEASURING: f64 = 0.05;
 
-/// The best set so far, with its star discrepancy.
-struct Best {
-    points: Vec<Vec<f64>>,
-    value: f64,
-}
-
 /// Returns points whose star discrepancy is at most that of the given points, and whether the time was enough to measure the given points. `watch` is called with
 /// the value of each better set.
 pub(super) fn improved(
@@ -52,39 +44,27 @@ pub(super) fn improved(
     let dims = points.dims();
     let search_end = deadline.part(1.0 - MEASURING);
     let given = Objective::Star.measured(points, deadline);
-    let best = Mutex::new(Best { points: points.iter().map(<[f64]>::to_vec).collect(), value: given.upper });
-    // Separate threads, so that the searches share the time on a single core, too.
-    thread::scope(|scope| {
-        for chain in 0..rayon::current_num_threads() {
-            let best = &best;
-            scope.spawn(move || {
-                let search = Search { dims, best, deadline: search_end, end: deadline, watch };
-                search.run(&mut seeded(seed, Purpose::Search, chain as u64));
-            });
-        }
+    let rows = points.iter().map(<[f64]>::to_vec).collect();
+    let best = Shared::new(rows, given.upper, watch).searched(seed, |best, rng| {
+        Search { dims, best, deadline: search_end, end: deadline }.run(rng);
     });
-    let best = best.into_inner().unwrap_or_else(PoisonError::into_inner);
-    (PointSet::new(dims, best.points).expect("the points stay in the cube"), given.is_exact())
+    (PointSet::new(dims, best).expect("the points stay in the cube"), given.is_exact())
 }
 
 /// A search of one thread.
 struct Search<'a> {
     dims: usize,
-    best: &'a Mutex<Best>,
+    best: &'a Shared<'a, Vec<Vec<f64>>>,
     deadline: Deadline,
     /// The end of the last measurement.
     end: Deadline,
-    watch: &'a (dyn Fn(f64) + Sync),
 }
 
 impl Search<'_> {
     fn run(&self, rng: &mut impl Rng) {
         let mut pool = Pool::new(self.dims);
         while !self.deadline.passed() {
-            let (points, level) = {
-                let best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-                (best.points.clone(), best.value)
-            };
+            let (points, level) = self.best.best();
             let spots = Spots::new(&points, self.dims);
             pool = pool.moved_to(&spots);
             if let Some(found) = self.round(spots, &mut pool, level, rng) {
@@ -161,12 +141,7 @@ impl Search<'_> {
         let points = spots.points();
         let set = PointSet::new(self.dims, &points).expect("the points stay in the cube");
         let value = Objective::Star.measured(&set, self.end).upper;
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        // Another thread may have found a better set meanwhile.
-        if value < best.value {
-            *best = Best { points, value };
-            (self.watch)(value);
-        }
+        self.best.improve(value, 0.0, || points);
     }
 }
 

@@ -4,12 +4,11 @@
 //! Comput. Phys. 90, 1990). The measure is exact in each step.
 
 use super::objective::{Found, Hole, Objective};
+use super::shared::Shared;
 use crate::seeded::{Purpose, seeded};
 use paracosm_coverage::{Deadline, PointSet};
 use rand::Rng;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 /// The number of moves between two starts from the best set.
 const MOVES: usize = 1000;
@@ -19,12 +18,6 @@ const SLACK: f64 = 0.03;
 
 /// The share of the best value that an improvement gains at least.
 const LEAST_GAIN: f64 = 1e-9;
-
-/// The best set so far, as rows of coordinates, with the value of its measure.
-struct Best {
-    points: Vec<Vec<f64>>,
-    value: f64,
-}
 
 /// Returns points whose measure is at most the measure of the given points, and whether the time was enough to measure them. `watch` is called with the value of each
 /// better set.
@@ -38,38 +31,33 @@ pub(super) fn improved(
     let dims = points.dims();
     let value = objective.measured(points, deadline).upper;
     let has_measured = AtomicBool::new(false);
-    let best = Mutex::new(Best { points: points.iter().map(<[f64]>::to_vec).collect(), value });
-    // Separate threads, so that the searches share the time on a single core, too.
-    thread::scope(|scope| {
-        for chain in 0..rayon::current_num_threads() {
-            let search = Search { objective, dims, best: &best, has_measured: &has_measured, deadline, watch };
-            scope.spawn(move || search.run(&mut seeded(seed, Purpose::Search, chain as u64)));
-        }
+    let best = Shared::new(rows(points), value, watch).searched(seed, |best, rng| {
+        Search { objective, dims, best, has_measured: &has_measured, deadline }.run(rng);
     });
-    let best = best.into_inner().unwrap_or_else(PoisonError::into_inner);
-    (PointSet::new(dims, best.points).expect("the points stay in the cube"), has_measured.into_inner())
+    (PointSet::new(dims, best).expect("the points stay in the cube"), has_measured.into_inner())
 }
 
 /// Returns points whose measure is at most the measure of the given points, after a number of moves. The result depends on nothing else.
 pub(super) fn after_moves(objective: Objective, points: &PointSet, moves: usize) -> PointSet {
     let (dims, deadline) = (points.dims(), Deadline::never());
     let value = objective.measured(points, deadline).upper;
-    let best = Mutex::new(Best { points: points.iter().map(<[f64]>::to_vec).collect(), value });
-    let has_measured = AtomicBool::new(false);
-    let search = Search { objective, dims, best: &best, has_measured: &has_measured, deadline, watch: &|_| () };
+    let best = Shared::new(rows(points), value, &|_| ());
+    let search = Search { objective, dims, best: &best, has_measured: &AtomicBool::new(false), deadline };
     search.round(moves, &mut seeded(0, Purpose::Search, 0));
-    let best = best.into_inner().unwrap_or_else(PoisonError::into_inner);
-    PointSet::new(dims, best.points).expect("the points stay in the cube")
+    PointSet::new(dims, best.into_best()).expect("the points stay in the cube")
+}
+
+fn rows(points: &PointSet) -> Vec<Vec<f64>> {
+    points.iter().map(<[f64]>::to_vec).collect()
 }
 
 /// A search of one thread.
 struct Search<'a> {
     objective: Objective,
     dims: usize,
-    best: &'a Mutex<Best>,
+    best: &'a Shared<'a, Vec<Vec<f64>>>,
     has_measured: &'a AtomicBool,
     deadline: Deadline,
-    watch: &'a (dyn Fn(f64) + Sync),
 }
 
 impl Search<'_> {
@@ -81,7 +69,7 @@ impl Search<'_> {
 
     /// Makes moves from the best set.
     fn round(&self, moves: usize, rng: &mut impl Rng) {
-        let mut points = self.best.lock().unwrap_or_else(PoisonError::into_inner).points.clone();
+        let (mut points, _) = self.best.best();
         let Found { value, mut hole } = self.found(&points);
         if value.is_exact() {
             self.has_measured.store(true, Ordering::Relaxed);
@@ -91,7 +79,7 @@ impl Search<'_> {
                 return;
             }
             let left = 1.0 - step as f64 / moves as f64;
-            let best = self.value();
+            let best = self.best.value();
             let (index, before) = moved(&mut points, hole.as_ref(), rng);
             let set = self.set(&points);
             if !self.objective.is_at_most(&set, best * (1.0 + SLACK * left * left), self.deadline) {
@@ -100,7 +88,7 @@ impl Search<'_> {
             }
             let found = self.objective.found(&set, self.deadline);
             if found.value.upper < best * (1.0 - LEAST_GAIN) {
-                self.improve(&points, found.value.upper);
+                self.best.improve(found.value.upper, 0.0, || points.clone());
             }
             hole = found.hole;
         }
@@ -112,19 +100,6 @@ impl Search<'_> {
 
     fn found(&self, points: &[Vec<f64>]) -> Found {
         self.objective.found(&self.set(points), self.deadline)
-    }
-
-    fn value(&self) -> f64 {
-        self.best.lock().unwrap_or_else(PoisonError::into_inner).value
-    }
-
-    fn improve(&self, points: &[Vec<f64>], value: f64) {
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        // Another thread may have found a better set meanwhile.
-        if value < best.value {
-            *best = Best { points: points.to_vec(), value };
-            (self.watch)(value);
-        }
     }
 }
 

@@ -11,6 +11,7 @@ mod placement;
 mod plane;
 mod pool;
 mod ranks;
+mod shared;
 mod spots;
 
 pub use objective::{Objective, ObjectiveError};

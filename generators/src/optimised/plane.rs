@@ -2,12 +2,10 @@
 
 use super::placement::Placement;
 use super::ranks::Ranks;
-use crate::seeded::{Purpose, seeded};
+use super::shared::Shared;
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Deadline, PointSet};
 use rand::Rng;
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 /// The number of changes of an order between two starts.
 const CHANGES: usize = 5000;
@@ -27,11 +25,11 @@ const LEAST_GAIN: f64 = 1e-6;
 /// The share of the time for the orders to begin with.
 const OPENING: f64 = 0.25;
 
-/// The best points so far, with their order and their star discrepancy.
-struct Best {
+/// Points with their order.
+#[derive(Clone)]
+struct Ordered {
     points: Vec<[f64; 2]>,
     ranks: Ranks,
-    level: f64,
 }
 
 /// Returns n points with a small star discrepancy. It is no larger than that of the given points, if there are any. `watch` is called with the star
@@ -46,33 +44,23 @@ pub(super) fn small_star(
     let points = given.map_or_else(|| kronecker(n, GOLDEN, 0.0), <[_]>::to_vec);
     let set = PointSet::new(2, &points).expect("the points are in the square");
     let (ranks, level) = (Ranks::of(&points), star_discrepancy(&set, Deadline::never()).upper);
-    let best = Mutex::new(Best { points, ranks, level });
-    // Separate threads, so that the searches share the time on a single core, too.
-    thread::scope(|scope| {
-        for chain in 0..rayon::current_num_threads() {
-            let best = &best;
-            scope.spawn(move || {
-                Search { best, n, deadline, watch }.run(&mut seeded(seed, Purpose::Search, chain as u64));
-            });
-        }
-    });
-    best.into_inner().unwrap_or_else(PoisonError::into_inner).points
+    let best = Shared::new(Ordered { points, ranks }, level, watch);
+    best.searched(seed, |best, rng| Search { best, n, deadline }.run(rng)).points
 }
 
 /// A search of one thread.
 struct Search<'a> {
-    best: &'a Mutex<Best>,
+    best: &'a Shared<'a, Ordered>,
     n: usize,
     deadline: Deadline,
-    watch: &'a (dyn Fn(f64) + Sync),
 }
 
 impl Search<'_> {
     fn run(&self, rng: &mut impl Rng) {
         let mut placement = Placement::new(self.n, self.deadline);
-        let first = self.best.lock().unwrap_or_else(PoisonError::into_inner).ranks.clone();
+        let (first, level) = self.best.best();
         // The coordinates of the first points are rarely the best of their order.
-        self.improve(&first, self.level(), &mut placement);
+        self.improve(&first.ranks, level, &mut placement);
         if self.n < 2 {
             return;
         }
@@ -84,7 +72,7 @@ impl Search<'_> {
                     return;
                 }
                 let left = 1.0 - change as f64 / CHANGES as f64;
-                let best = self.level();
+                let best = self.best.value();
                 let done = ranks.change(rng);
                 if !placement.fits(&ranks, best * (1.0 + SLACK * left * left) * (1.0 - LEAST_GAIN)) {
                     ranks.undo(done);
@@ -95,7 +83,7 @@ impl Search<'_> {
             match rng.random_range(0..4) {
                 0 => {}
                 1 => ranks = self.new_order(rng, &mut placement),
-                _ => ranks = self.best.lock().unwrap_or_else(PoisonError::into_inner).ranks.clone(),
+                _ => ranks = self.best.best().0.ranks,
             }
         }
     }
@@ -105,7 +93,7 @@ impl Search<'_> {
         let opening = self.deadline.part(OPENING);
         while !opening.passed() {
             let ranks = self.random_order(rng);
-            let best = self.level();
+            let best = self.best.value();
             if placement.fits(&ranks, best * (1.0 - LEAST_GAIN)) {
                 self.improve(&ranks, best, placement);
             }
@@ -125,7 +113,7 @@ impl Search<'_> {
             let limit = found.1 * (1.0 - 1e-3);
             if placement.fits(&ranks, limit) {
                 let level = placement.least(&ranks, limit);
-                if level < self.level() * (1.0 - LEAST_GAIN) {
+                if level < self.best.value() * (1.0 - LEAST_GAIN) {
                     self.improve(&ranks, level, placement);
                 }
                 found = (ranks, level);
@@ -137,22 +125,14 @@ impl Search<'_> {
         found.0
     }
 
-    fn level(&self) -> f64 {
-        self.best.lock().unwrap_or_else(PoisonError::into_inner).level
-    }
-
     /// Keeps an order that fits at a level, with the least level, if it is the best so far.
     fn improve(&self, ranks: &Ranks, level: f64, placement: &mut Placement) {
         let level = placement.least(ranks, level);
         if !placement.fits(ranks, level) {
             return;
         }
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        // Another thread may have found a better order meanwhile, and the level is rounded.
-        if level < best.level - ROUNDING {
-            *best = Best { points: placement.points(ranks), ranks: ranks.clone(), level };
-            (self.watch)(level);
-        }
+        // The level is rounded.
+        self.best.improve(level, ROUNDING, || Ordered { points: placement.points(ranks), ranks: ranks.clone() });
     }
 }
 
