@@ -1,6 +1,8 @@
 //! Sizes and times of covering arrays beside what is published: `covering [MODEL[@K] ...]`, all by default.
 //! `cargo run --release -p paracosm-generators --example covering`
 //!
+//! With `OPTIMISE=SECONDS` the arrays are made smaller for so long; `SEED` is the seed of the search, 0 by default.
+//!
 //! The constrained models are read from `../shared/reference/covering_models.json` beside the repository, or from
 //! `$PARACOSM_REFERENCE`, and left out where there is none.
 
@@ -36,7 +38,8 @@ fn main() {
         };
         let rules = rules(model);
         let k: usize = k.parse().expect("a strength");
-        let request = CoveringRequest::new(&rules, k);
+        let seed = std::env::var("SEED").map_or(0, |seed| seed.parse().expect("a number"));
+        let request = CoveringRequest { seed, ..CoveringRequest::new(&rules, k) };
         let begun = cpu_seconds();
         let array = covering_array(&request).expect("the models are sound");
         let seconds = cpu_seconds() - begun;

@@ -1,18 +1,19 @@
 //! Makes an array smaller for as long as there is time.
 
-use super::search::{Annealing, Cells};
+use super::search::{Annealing, Bits, Cells, Table, Tally, Tenure};
 use super::symmetric::{Symmetric, symmetric_searches};
 use super::task::Task;
 use super::{CoveringArray, CoveringRequest, joined};
 use crate::seeded::mix;
 use paracosm_coverage::Deadline;
+use paracosm_space::rules::Rules;
 use std::sync::Mutex;
 use std::thread;
 
 /// The number of steps between two looks at the clock.
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
-/// The number of cells of all searches together, four bytes each, unless a single search has more.
+/// The number of cells of all searches with a table together, four bytes each, unless a single search has more.
 const CELLS_AT_ONCE: usize = 12_000_000;
 
 /// The number of cells beyond which there is no search for symmetric arrays.
@@ -65,9 +66,12 @@ fn smaller(
         return rows;
     }
     let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
+    let bits = rows.len() <= Bits::MOST_ROWS;
     let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
     let all_cells: usize = cells.iter().map(Cells::len).sum();
-    let chains = rayon::current_num_threads().min((CELLS_AT_ONCE / all_cells).max(1));
+    let tables = (CELLS_AT_ONCE / all_cells).max(1);
+    // One chain of each kind at least, if there is memory for two.
+    let chains = rayon::current_num_threads().max(2).min(if bits { usize::MAX } else { tables });
     let mut symmetric = if kept == 0 && cells.len() == 1 && all_cells <= CELLS_OF_SYMMETRIC {
         symmetric_searches(task)
     } else {
@@ -75,7 +79,12 @@ fn smaller(
     };
     let rows_search = |chain: usize| {
         let seed = mix(task.seed ^ mix(chain as u64));
-        best.search_rows(|rows| Annealing::new(&task.rules, cells.clone(), rows, kept, seed));
+        let tenure = [Tenure::Short, Tenure::Growing][chain % 2];
+        if bits {
+            best.search_rows::<Bits>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure));
+        } else {
+            best.search_rows::<Table>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure));
+        }
     };
     // Uses separate threads, so that the searches share the time on a single core, too.
     thread::scope(|scope| {
@@ -86,6 +95,18 @@ fn smaller(
         best.search_symmetric(&mut symmetric);
     });
     best.rows.into_inner().expect("no search panics")
+}
+
+/// Begins a search from an array.
+fn search<T: Tally>(
+    rules: &Rules,
+    cells: &[Cells],
+    rows: &[Vec<usize>],
+    kept: usize,
+    seed: u64,
+    tenure: Tenure,
+) -> Annealing<T> {
+    Annealing::new(rules, cells.to_vec(), rows, kept, seed).with_tenure(tenure)
 }
 
 /// The smallest array so far, which all searches share.
@@ -115,7 +136,7 @@ impl Best<'_> {
     }
 
     /// Searches from the best array, and again whenever another search has found a smaller one.
-    fn search_rows(&self, start: impl Fn(&[Vec<usize>]) -> Annealing) {
+    fn search_rows<T: Tally>(&self, start: impl Fn(&[Vec<usize>]) -> Annealing<T>) {
         let start = || start(&self.rows.lock().expect("no search panics"));
         let mut search = start();
         while self.wanted() {

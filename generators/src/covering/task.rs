@@ -161,7 +161,7 @@ fn polish(task: &Task, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<V
     if steps == 0 {
         return rows;
     }
-    let mut search = Annealing::new(&task.rules, cells, &rows, kept, task.seed);
+    let mut search: Annealing = Annealing::new(&task.rules, cells, &rows, kept, task.seed);
     let mut best = rows;
     for _ in 0..steps {
         while search.missing() == 0 {

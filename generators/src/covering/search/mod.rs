@@ -4,13 +4,18 @@
 //! dropped. As in TCA (Lin, Luo, Cai, Su, Hao, Zhang, *TCA: an efficient two-mode meta-heuristic algorithm for
 //! combinatorial test generation*, ASE 2015), each step covers one missing combination. It changes an entry that was
 //! not changed lately, so that the fewest combinations are missing afterwards. The combinations that a change
-//! uncovers are never counted again. Every cell knows the number of rows that cover it and the exclusive or of their
-//! numbers, which is the row itself if there is only one. Every entry knows how many cells only its row covers with
-//! it.
+//! uncovers are never counted again: every entry knows how many cells only its row covers with it. Two tallies keep
+//! that number up to date: a table with a counter for each cell, and the bits of the rows that have each level.
 
+mod bits;
 mod cells;
+mod having;
 mod state;
+mod table;
 mod tally;
 
+pub(super) use bits::Bits;
 pub(super) use cells::{Cells, Orbits};
-pub(super) use state::Annealing;
+pub(super) use state::{Annealing, Tenure};
+pub(super) use table::Table;
+pub(super) use tally::Tally;

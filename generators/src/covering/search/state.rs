@@ -1,7 +1,9 @@
 //! The rows of a search, and its steps.
 
-use super::cells::{Cells, Chosen};
-use super::tally::{Missing, Tally};
+use super::cells::Cells;
+use super::having::Having;
+use super::table::Table;
+use super::tally::{Families, Missing, Tally, Turn};
 use crate::seeded::mix;
 use paracosm_space::rules::Rules;
 
@@ -11,9 +13,19 @@ const WANDER: usize = 500;
 /// An entry stays unchanged after a change for this number of steps, and up to as many more.
 const TENURE: usize = 2;
 
-/// After this number of steps without progress, entries stay unchanged twice as long. After `DOUBLINGS` doublings
-/// they stay as short as at first. Long times free a trapped search, short times search the neighbourhood more
-/// thoroughly.
+/// For how long entries stay unchanged after a change. No choice is best for every model: on models with many
+/// parameters (gcc, apache) a search with growing times needs fewer rows, on smaller models (spinv) a search with
+/// short times.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tenure {
+    /// Always as at first: the search examines the neighbourhood thoroughly.
+    Short,
+    /// Twice as long after each [`PATIENCE`] steps without progress, and after [`DOUBLINGS`] doublings as short as at
+    /// first: long times free a trapped search.
+    Growing,
+}
+
+/// The number of steps without progress after which growing times become twice as long.
 const PATIENCE: u64 = 3000;
 const DOUBLINGS: u64 = 4;
 
@@ -22,21 +34,16 @@ const LOOKED_AT: usize = 256;
 
 /// The state of a search for a smaller covering array, with the rows, the covered cells and the missing cells.
 #[derive(Debug, Clone)]
-pub(crate) struct Annealing {
+pub(crate) struct Annealing<T = Table> {
     rules: Rules,
-    families: Vec<Cells>,
-    /// For each parameter, the families that contain it, and its place in each.
-    families_of: Vec<Vec<(usize, usize)>>,
+    families: Families,
     rows: Vec<Vec<usize>>,
     kept: usize,
     /// The rows that exist and may change.
     active: Vec<usize>,
-    /// For each level, the rows of `active` that have it, a bit each. `first` has the position of each parameter's
-    /// levels.
-    having: Vec<Vec<u64>>,
-    present: Vec<u64>,
-    first: Vec<usize>,
-    tally: Tally,
+    having: Having,
+    tally: T,
+    tenure: Tenure,
     /// The step from which each entry may change again.
     free_at: Vec<Vec<u64>>,
     step: u64,
@@ -55,63 +62,47 @@ struct Change {
 }
 
 impl Annealing {
+    /// Demands that the rows cover all cells.
+    pub(crate) fn demand_all(&mut self) {
+        self.tally.demand_all(&self.families, self.rules.levels());
+        self.fewest = self.missing();
+    }
+}
+
+impl<T: Tally> Annealing<T> {
     /// Makes a search from fewer than 2^16 rows that satisfy the constraints. The first `kept` rows never change.
     /// Combinations that the rows do not cover are not demanded.
     pub(crate) fn new(rules: &Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {
         assert!(rows.len() < 1 << 16, "rows are numbered in 16 bits");
-        let levels = rules.levels();
-        let parameters = levels.len();
-        let first = levels.iter().scan(0, |end, levels| {
-            *end += levels;
-            Some(*end - levels)
-        });
-        let mut families_of = vec![Vec::new(); parameters];
-        for (index, family) in families.iter().enumerate() {
-            for (place, &member) in family.members.iter().enumerate() {
-                families_of[member].push((index, place));
+        let parameters = rules.levels().len();
+        let families = Families::new(families, parameters);
+        let mut having = Having::new(rules.levels(), rows.len());
+        for (index, row) in rows.iter().enumerate() {
+            row.iter().enumerate().for_each(|(parameter, &level)| having.flip(index, parameter, level));
+            if index >= kept {
+                having.flip_present(index);
             }
         }
-        let mut search = Self {
+        Self {
             rules: rules.clone(),
-            tally: Tally::new(&families, rows.len(), parameters),
+            tally: T::new(&families, rows, &having),
             families,
-            families_of,
             rows: rows.to_vec(),
             kept,
             active: (kept..rows.len()).collect(),
-            having: vec![vec![0; rows.len().div_ceil(64)]; levels.iter().sum()],
-            present: vec![0; rows.len().div_ceil(64)],
-            first: first.collect(),
+            having,
+            tenure: Tenure::Growing,
             free_at: vec![vec![0; parameters]; rows.len()],
             step: 0,
             chance: mix(seed),
             fewest: 0,
             progressed: 0,
-        };
-        let Self { families, rows, tally, .. } = &mut search;
-        for (index, row) in rows.iter().enumerate() {
-            for (family, cells) in families.iter().enumerate() {
-                cells.each(row, None, &mut |cell, _| tally.count(family, index, cell));
-            }
         }
-        for (index, row) in rows.iter().enumerate() {
-            for (family, cells) in families.iter().enumerate() {
-                cells.each(row, None, &mut |cell, chosen| tally.claim(family, cells, index, cell, chosen));
-            }
-        }
-        for index in kept..search.rows.len() {
-            search.present[index / 64] |= 1 << (index % 64);
-            for parameter in 0..parameters {
-                search.flip(index, parameter);
-            }
-        }
-        search
     }
 
-    /// Notes that a row gets an entry, or no longer has it.
-    fn flip(&mut self, index: usize, parameter: usize) {
-        let entry = self.first[parameter] + self.rows[index][parameter];
-        self.having[entry][index / 64] ^= 1 << (index % 64);
+    /// Changes for how long entries stay unchanged, which grows unless told otherwise.
+    pub(crate) fn with_tenure(self, tenure: Tenure) -> Self {
+        Self { tenure, ..self }
     }
 
     /// Returns the present rows of the search.
@@ -127,20 +118,7 @@ impl Annealing {
 
     /// Returns the number of demanded cells that no row covers.
     pub(crate) fn missing(&self) -> usize {
-        self.tally.missing.len()
-    }
-
-    /// Demands that the rows cover all cells.
-    pub(crate) fn demand_all(&mut self) {
-        let Self { families, tally, rules, fewest, .. } = self;
-        for (family, cells) in families.iter().enumerate() {
-            cells.each_cell(rules.levels(), &mut |row, cell, chosen| {
-                if tally.is_missing(family, cell) {
-                    tally.add_missing(family, cells, row, cell, chosen);
-                }
-            });
-        }
-        *fewest = tally.missing.len();
+        self.tally.missing().len()
     }
 
     fn draw(&mut self, below: usize) -> usize {
@@ -150,18 +128,14 @@ impl Annealing {
 
     /// Removes the row whose removal leaves the fewest cells uncovered. Returns `false` if no row may be dropped.
     pub(crate) fn drop_row(&mut self) -> bool {
-        let place = (0..self.active.len()).min_by_key(|&place| self.tally.all_alone(self.active[place]));
+        let place = (0..self.active.len()).min_by_key(|&place| self.tally.alone().in_all(self.active[place]));
         let Some(place) = place else { return false };
         let index = self.active.swap_remove(place);
-        self.present[index / 64] ^= 1 << (index % 64);
-        for parameter in 0..self.first.len() {
-            self.flip(index, parameter);
-        }
-        let Self { families, rows, tally, .. } = self;
-        for (family, cells) in families.iter().enumerate() {
-            let row = &rows[index];
-            cells.each(row, None, &mut |cell, chosen| tally.leave(family, cells, index, row, cell, chosen));
-        }
+        let Self { families, having, rows, tally, .. } = self;
+        let row = &rows[index];
+        tally.leave_all(Turn { families, having, index, row });
+        having.flip_present(index);
+        row.iter().enumerate().for_each(|(parameter, &level)| having.flip(index, parameter, level));
         self.fewest = self.missing();
         self.progressed = self.step;
         true
@@ -169,44 +143,19 @@ impl Annealing {
 
     /// Gives entries of a row other levels.
     fn change(&mut self, index: usize, changes: &[(usize, usize)]) {
-        for &(parameter, _) in changes {
-            self.flip(index, parameter);
-        }
-        let Self { families, families_of, rows, tally, .. } = self;
-        let row = &mut rows[index];
-        // A cell with several of the entries is visited only for the first of them.
-        let is_first = |cells: &Cells, chosen: &Chosen, i: usize| {
-            i == 0 || {
-                let mut members = chosen[..cells.strength].iter().map(|&place| cells.members[place as usize]);
-                !members.any(|member| changes[..i].iter().any(|change| change.0 == member))
-            }
-        };
-        for (i, &(parameter, _)) in changes.iter().enumerate() {
-            for &(family, place) in &families_of[parameter] {
-                let cells = &families[family];
-                cells.each(row, Some(place), &mut |cell, chosen| {
-                    if is_first(cells, chosen, i) {
-                        tally.leave(family, cells, index, row, cell, chosen);
-                    }
-                });
-            }
-        }
+        let Self { families, having, rows, tally, .. } = self;
+        tally.leave(Turn { families, having, index, row: &rows[index] }, changes);
         for &(parameter, level) in changes {
-            row[parameter] = level;
+            having.flip(index, parameter, rows[index][parameter]);
+            rows[index][parameter] = level;
+            having.flip(index, parameter, level);
         }
-        for (i, &(parameter, _)) in changes.iter().enumerate() {
-            for &(family, place) in &families_of[parameter] {
-                let cells = &families[family];
-                cells.each(row, Some(place), &mut |cell, chosen| {
-                    if is_first(cells, chosen, i) {
-                        tally.enter(family, cells, index, cell, chosen);
-                    }
-                });
-            }
-        }
+        tally.enter(Turn { families, having, index, row: &rows[index] }, changes);
         for &(parameter, _) in changes {
-            self.flip(index, parameter);
-            let tenure = TENURE << ((self.step - self.progressed) / PATIENCE % DOUBLINGS);
+            let tenure = match self.tenure {
+                Tenure::Short => TENURE,
+                Tenure::Growing => TENURE << ((self.step - self.progressed) / PATIENCE % DOUBLINGS),
+            };
             let tenure = tenure + self.draw(tenure + 1);
             self.free_at[index][parameter] = self.step + tenure as u64;
         }
@@ -230,14 +179,15 @@ impl Annealing {
     fn step(&mut self) {
         self.step += 1;
         let drawn = self.draw(self.missing());
-        let missing = self.tally.missing[drawn];
+        let missing = self.tally.missing()[drawn];
         let wanders = self.draw(WANDER) == 0;
         let mut best: Option<(i64, u64, Change)> = None;
         let mut ties = 0;
-        for change in self.changes_to(&missing) {
+        let changes = self.changes_to(&missing);
+        let covers = self.would_cover(&missing, &changes);
+        for (change, covers) in changes.into_iter().zip(covers) {
             let Change { row, parameter, level } = change;
-            let uncovers = i64::from(self.tally.alone(row, parameter));
-            let covers = self.would_cover(change);
+            let uncovers = i64::from(self.tally.alone().with(row, parameter));
             let cost = if wanders { 0 } else { uncovers - covers };
             let free_at = self.free_at[row][parameter];
             let leads = (self.missing() as i64 + cost) < self.fewest as i64;
@@ -276,16 +226,15 @@ impl Annealing {
 
     /// The changes of single entries that cover a cell.
     fn changes_to(&self, missing: &Missing) -> Vec<Change> {
-        let cells = &self.families[missing.family as usize];
-        let members = missing.chosen[..cells.strength].iter().map(|&place| cells.members[place as usize]);
+        let cells = &self.families.cells[missing.family as usize];
         let mut changes = Vec::new();
         if cells.are_combinations() {
-            let wanted: Vec<(usize, usize)> = members.zip(missing.levels.map(|level| level as usize)).collect();
+            let wanted = wanted(cells, missing);
             // The rows with all entries of the combination but one.
-            for word in 0..self.rows.len().div_ceil(64) {
-                let (mut all, mut all_but_one) = (self.present[word], 0);
+            for (word, &present) in self.having.present().iter().enumerate() {
+                let (mut all, mut all_but_one) = (present, 0);
                 for &(parameter, level) in &wanted {
-                    let having = self.having[self.first[parameter] + level][word];
+                    let having = self.having.rows(parameter, level)[word];
                     all_but_one = (all_but_one & having) | (all & !having);
                     all &= having;
                 }
@@ -298,9 +247,9 @@ impl Annealing {
             }
             return changes;
         }
-        let members: Vec<usize> = members.collect();
+        let members = wanted(cells, missing);
         for &row in &self.active {
-            for &parameter in &members {
+            for &(parameter, _) in &members {
                 let levels = 0..self.rules.levels()[parameter];
                 let covers = |&level: &usize| {
                     cells.cell_with(&missing.chosen, &self.rows[row], parameter, level) == missing.cell as usize
@@ -311,20 +260,42 @@ impl Annealing {
         changes
     }
 
-    /// The number of missing cells that a change covers.
-    fn would_cover(&self, change: Change) -> i64 {
-        let row = &self.rows[change.row];
-        let covers = |missing: &&Missing| {
-            let cells = &self.families[missing.family as usize];
-            if cells.are_combinations() {
-                let members = missing.chosen[..cells.strength].iter().map(|&place| cells.members[place as usize]);
-                return members.zip(missing.levels).all(|(member, level)| {
-                    level as usize == if member == change.parameter { change.level } else { row[member] }
-                });
+    /// The number of missing cells that each of the changes to a cell covers.
+    fn would_cover(&self, missing: &Missing, changes: &[Change]) -> Vec<i64> {
+        let others = self.tally.missing().iter().take(LOOKED_AT);
+        let cells = &self.families.cells[missing.family as usize];
+        if !cells.are_combinations() {
+            let covers = |change: &Change, other: &&Missing| {
+                let (cells, row) = (&self.families.cells[other.family as usize], &self.rows[change.row]);
+                cells.cell_with(&other.chosen, row, change.parameter, change.level) == other.cell as usize
+            };
+            return changes
+                .iter()
+                .map(|change| others.clone().filter(|it| covers(change, it)).count() as i64)
+                .collect();
+        }
+        // No row has two changes, since it has all entries of the combination but one.
+        let mut change_of = vec![usize::MAX; self.rows.len()];
+        changes.iter().enumerate().for_each(|(i, change)| change_of[change.row] = i);
+        let mut covers = vec![0; changes.len()];
+        for other in others {
+            let entries = &other.entries[..self.families.cells[other.family as usize].strength];
+            for entry in missing.entries[..cells.strength].iter().filter(|entry| entries.contains(entry)) {
+                for (word, &present) in self.having.present().iter().enumerate() {
+                    let rest = entries.iter().filter(|&other| other != entry);
+                    let having = rest.map(|rest| self.having.rows(rest.0 as usize, rest.1 as usize)[word]);
+                    let mut rows = having.fold(present, |rows, having| rows & having);
+                    while rows != 0 {
+                        let change = change_of[word * 64 + rows.trailing_zeros() as usize];
+                        rows &= rows - 1;
+                        if changes.get(change).is_some_and(|change| change.parameter == entry.0 as usize) {
+                            covers[change] += 1;
+                        }
+                    }
+                }
             }
-            cells.cell_with(&missing.chosen, row, change.parameter, change.level) == missing.cell as usize
-        };
-        self.tally.missing.iter().take(LOOKED_AT).filter(covers).count() as i64
+        }
+        covers
     }
 
     /// Puts a combination of a cell into some row, and changes other entries as the constraints then demand.
@@ -333,9 +304,7 @@ impl Annealing {
             return;
         }
         let drawn = self.draw(self.active.len());
-        let cells = &self.families[missing.family as usize];
-        let members = missing.chosen[..cells.strength].iter().map(|&place| cells.members[place as usize]);
-        let mut wanted: Vec<(usize, usize)> = members.zip(missing.levels.map(|level| level as usize)).collect();
+        let mut wanted = wanted(&self.families.cells[missing.family as usize], missing);
         let index = self.active[drawn];
         let row = &self.rows[index];
         let mut groups: Vec<usize> = wanted.iter().filter_map(|pair| self.rules.group_of(pair.0)).collect();
@@ -362,4 +331,9 @@ impl Annealing {
         wanted.retain(|&(parameter, level)| row[parameter] != level);
         self.change(index, &wanted);
     }
+}
+
+/// The parameters of a combination of a cell with their levels.
+fn wanted(cells: &Cells, missing: &Missing) -> Vec<(usize, usize)> {
+    missing.entries[..cells.strength].iter().map(|&(parameter, level)| (parameter as usize, level as usize)).collect()
 }
