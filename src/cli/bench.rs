@@ -36,7 +36,8 @@ Examples:
 Every strategy runs on every scenario with every seed, to the end of the budget. Runs with the same seed are \
     compared as pairs. NAME+PARAMETER+PARAMETER names a scenario and parameters to open. The functions corner5 ball5 \
     decoy5 errors5 valley2 ring2 rough3 few20 words2 needle2 can be named like scenarios; each seed puts their \
-    failures elsewhere.
+    failures elsewhere. random0, random1, random2 and so on are random functions with decoys. `auto` was chosen on \
+    random0 to random199: compare searches on others.
 
 Open-loop strategies draw discrete values for every test, uniformly among the valid values. `run` uses the rows \
     of a covering array instead. A test that repeats an earlier test costs nothing. A run without a failure is \
@@ -198,14 +199,15 @@ impl Options {
 
     /// Returns the scenario, with its parameters to open, or the function of this name.
     fn target(&self, text: &str, catalogue: &Catalogue, verbosity: Verbosity) -> Result<Target, Error> {
-        if let Some(function) = Function::ALL.into_iter().find(|function| function.name == text) {
+        if let Some(function) = Function::named(text) {
             return Ok(Target::function(function));
         }
         let mut parts = text.split('+').map(str::to_owned);
         let scenario = parts.next().unwrap_or_default();
         let programs = catalogue.programs();
         if programs.iter().all(|program| program.name() != scenario) {
-            let functions = Function::ALL.map(|function| function.name);
+            let functions = Function::ALL;
+            let functions = functions.iter().map(|function| &*function.name);
             let names = programs.iter().map(paracosm_engine::Program::name).chain(functions);
             let hint = did_you_mean(&nearest(&scenario, names));
             let message = format!("no scenario or function is called `{scenario}`{hint}");

@@ -43,7 +43,7 @@ pub(super) fn row(
             (tests, errors, Some(Modes::of(&Log::new(study.clone(), Learned::new(), None, trials)).modes.len()))
         }
         TargetKind::Function(function) => {
-            let generator = generator_of(*function, case.strategy, case.seed, bench)?;
+            let generator = generator_of(function, case.strategy, case.seed, bench)?;
             let mut placed = Computed { generator, placed: function.placed(case.seed) };
             let fails = |robustness: &Option<f64>| robustness.map(|robustness| robustness < 0.0);
             // A function has no reference map, so that tests after the first failure would tell nothing more.
@@ -236,7 +236,10 @@ mod tests {
     }
 
     fn of(budget: usize) -> Bench {
-        Bench { budget, ..Bench::of(&[Strategy::RANDOM], vec![Target::function(Function::ALL[0])]).unwrap() }
+        Bench {
+            budget,
+            ..Bench::of(&[Strategy::RANDOM], vec![Target::function(Function::named("corner5").unwrap())]).unwrap()
+        }
     }
 
     fn explored(last: usize, budget: usize) -> (Vec<usize>, Repeating) {

@@ -31,7 +31,7 @@ impl Target {
     /// Makes a target from a function whose failures are known. Each seed puts the failure of the function at another
     /// place.
     pub fn function(function: Function) -> Self {
-        Self { name: function.name.to_owned(), kind: TargetKind::Function(function) }
+        Self { name: function.name.to_string(), kind: TargetKind::Function(function) }
     }
 
     /// Returns the name of the target.
@@ -80,7 +80,7 @@ impl Target {
                 let study = study_of(study, strategy, seed, bench)?;
                 Ok(study.independent_generator().map(drop)?)
             }
-            TargetKind::Function(function) => generator_of(*function, strategy, seed, bench).map(drop),
+            TargetKind::Function(function) => generator_of(function, strategy, seed, bench).map(drop),
         })
     }
 }
@@ -94,7 +94,7 @@ pub(super) fn study_of(study: &Study, strategy: Strategy, seed: u64, bench: &Ben
 
 /// Makes a generator of tests of a function.
 pub(super) fn generator_of(
-    function: Function,
+    function: &Function,
     strategy: Strategy,
     seed: u64,
     bench: &Bench,

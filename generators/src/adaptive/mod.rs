@@ -16,6 +16,7 @@ mod anneal;
 mod auto;
 mod bayes;
 mod bend;
+mod beyond;
 mod boundary;
 mod chains;
 mod cmaes;
@@ -282,7 +283,7 @@ fn anywhere(axes: &[Axis], rng: &mut impl Rng) -> Vec<f64> {
 }
 
 /// A normally distributed number (Box and Muller 1958).
-fn normal(rng: &mut impl Rng) -> f64 {
+pub(crate) fn normal(rng: &mut impl Rng) -> f64 {
     let (u, v): (f64, f64) = (rng.random(), rng.random());
     (-2.0 * libm::log(1.0 - u)).sqrt() * libm::cos(std::f64::consts::TAU * v)
 }

@@ -86,6 +86,11 @@ impl Surrogate {
         self.out.is_empty()
     }
 
+    /// Returns the number of proposals without a result.
+    pub(super) fn out(&self) -> usize {
+        self.out.len()
+    }
+
     /// Returns the number of the next proposal, which counts the proposals so far.
     pub(super) fn proposals(&self) -> usize {
         self.proposals
