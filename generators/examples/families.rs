@@ -35,7 +35,7 @@ fn tests_to_failure(function: &Function, strategy: Strategy, seed: u64) -> usize
 fn main() {
     let mut words = std::env::args().skip(1);
     let mut number = |or| words.next().map_or(or, |text| text.parse().expect("a number"));
-    let (first, count): (u64, u64) = (number(0), number(60));
+    let (first, count): (u64, u64) = (number(0), number(60).max(1));
     let named: Vec<String> = words.collect();
     let named =
         if named.is_empty() { vec!["random".into(), "gp-cmaes".into(), "bayes".into(), "auto".into()] } else { named };

@@ -210,6 +210,9 @@ impl Options {
             let functions = functions.iter().map(|function| &*function.name);
             let names = programs.iter().map(paracosm_engine::Program::name).chain(functions);
             let hint = did_you_mean(&nearest(&scenario, names));
+            let random =
+                scenario.strip_prefix("random").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+            let hint = if random { format!("; random functions are `random0` to `random{}`", u64::MAX) } else { hint };
             let message = format!("no scenario or function is called `{scenario}`{hint}");
             return Err(usage(format!("{message}; `paracosm-fuzz list` and `bench --help` show them all")));
         }

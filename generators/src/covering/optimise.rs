@@ -70,7 +70,7 @@ fn smaller(
     let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
     let all_cells: usize = cells.iter().map(Cells::len).sum();
     let tables = (CELLS_AT_ONCE / all_cells).max(1);
-    // One chain of each kind at least, if there is memory for two.
+    // One chain of each tenure at least, if there is memory for two.
     let chains = rayon::current_num_threads().max(2).min(if bits { usize::MAX } else { tables });
     let mut symmetric = if kept == 0 && cells.len() == 1 && all_cells <= CELLS_OF_SYMMETRIC {
         symmetric_searches(task)
@@ -79,7 +79,7 @@ fn smaller(
     };
     let rows_search = |chain: usize| {
         let seed = mix(task.seed ^ mix(chain as u64));
-        let tenure = [Tenure::Short, Tenure::Growing][chain % 2];
+        let tenure = [Tenure::Growing, Tenure::Short][chain % 2];
         if bits {
             best.search_rows::<Bits>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure));
         } else {
@@ -89,7 +89,7 @@ fn smaller(
     // Uses separate threads, so that the searches share the time on a single core, too.
     thread::scope(|scope| {
         let rows_search = &rows_search;
-        for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(1) {
+        for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(chains.min(2)) {
             scope.spawn(move || rows_search(chain));
         }
         best.search_symmetric(&mut symmetric);
@@ -137,7 +137,9 @@ impl Best<'_> {
 
     /// Searches from the best array, and again whenever another search has found a smaller one.
     fn search_rows<T: Tally>(&self, start: impl Fn(&[Vec<usize>]) -> Annealing<T>) {
-        let start = || start(&self.rows.lock().expect("no search panics"));
+        // The others need not wait until the search has begun.
+        let best = || self.rows.lock().expect("no search panics").clone();
+        let start = || start(&best());
         let mut search = start();
         while self.wanted() {
             search.steps(STEPS_BETWEEN_LOOKS);

@@ -3,8 +3,7 @@
 //! A search that was made for ten functions is good at ten functions. The functions of this family differ in all that
 //! makes failures hard to find: the number of parameters, the shape and rotation of the failure, the number, depth and
 //! width of the decoys, plateaus, noise, errors and words. The number of a function decides its kind, and the seed
-//! decides where everything lies. Functions with small numbers have served to choose searches; report results on
-//! others.
+//! decides where everything lies. The functions 0 to 199 have served to choose searches; report results on others.
 
 use super::distance_between;
 use crate::seeded::mix;
@@ -20,7 +19,7 @@ pub(super) struct Kind {
     pub(super) dims: usize,
     pub(super) words: Vec<usize>,
     decoys: usize,
-    /// The share of the failing tests among the tests with the right words.
+    /// The volume of the failure. Part of it may lie outside the cube.
     share: f64,
     /// The slope around the failure, compared with the slope around the decoys.
     slope: f64,

@@ -105,9 +105,9 @@ impl Function {
 
     /// Returns the function of a name, which is the name of a function of [`Function::ALL`] or `random` with a number.
     pub fn named(name: &str) -> Option<Self> {
-        let number =
-            || name.strip_prefix(RANDOM).filter(|number| number.bytes().all(|c| c.is_ascii_digit()))?.parse().ok();
-        Self::ALL.into_iter().find(|function| function.name == name).or_else(|| number().map(Self::random))
+        let number = name.strip_prefix(RANDOM).and_then(|number| number.parse().ok());
+        let random = number.map(Self::random).filter(|random| random.name == name);
+        Self::ALL.into_iter().find(|function| function.name == name).or(random)
     }
 
     /// Returns the space of the tests of the function.
@@ -121,8 +121,8 @@ impl Function {
         Space::new(parameters).expect("the parameters have names of their own")
     }
 
-    /// Returns the function with its failure at a place that depends on the seed. The place is away from the border, so
-    /// that the whole failure lies in the cube.
+    /// Returns the function with its failure at a place that depends on the seed. The place is away from the border. The
+    /// whole failure lies in the cube, except for random functions.
     pub fn placed(&self, seed: u64) -> Placed {
         let robustness = match self.rule {
             Rule::Known(robustness) => robustness,
@@ -236,12 +236,16 @@ mod tests {
             let tests = random.ask(20_000);
             let results: Vec<Option<f64>> = tests.iter().map(|test| placed.robustness(test)).collect();
             let failing = results.iter().flatten().filter(|robustness| **robustness < 0.0).count();
-            // At most 0.32 % of the tests fail, which are 63; part of a failure may lie beyond the border.
-            assert!(failing < 100, "{number}: {failing} of 20,000, {}", function.about);
+            // At most 0.5 % of the tests fail, which are 100 with a deviation of 10.
+            assert!(failing < 140, "{number}: {failing} of 20,000, {}", function.about);
             let errors = results.iter().filter(|robustness| robustness.is_none()).count();
             assert!(errors < 12_000, "{number}: {errors} of 20,000");
         }
-        assert!(["random", "randomx", "random1.5", "random+1"].iter().all(|name| Function::named(name).is_none()));
+        assert!(
+            ["random", "randomx", "random1.5", "random+1", "random007", "random99999999999999999999"]
+                .iter()
+                .all(|name| Function::named(name).is_none())
+        );
     }
 
     #[test]

@@ -1,10 +1,10 @@
-//! A tally without a table: which other rows cover a cell is found out at each visit, from the bits of the rows that
+//! A tally without a table. Each visit of a cell computes the other rows that cover it, from the bits of the rows that
 //! have its levels.
 //!
-//! Many parameters have so many cells that a table of them does not fit into the caches. The bits do: with 150 rows, a
+//! A model with many parameters has so many cells that a table of them does not fit into the caches. The bits do: with 150 rows, a
 //! level has 20 bytes. The rows that cover a cell are the intersection of the rows of its levels, and only cells that
 //! none or one of the other rows covers matter. Most cells are covered by many rows: folded to 32 bits, their
-//! intersection has two bits, which a few vector instructions see for many cells at once.
+//! intersection has at least two bits, which a few vector instructions see for many cells at once.
 
 use super::cells::{Cells, Chosen, MOST_STRENGTH};
 use super::having::Having;
@@ -34,7 +34,7 @@ enum Others {
     One(usize),
 }
 
-/// Space for a visit of the cells of a row, kept from visit to visit.
+/// Buffers for the visits of the cells of rows.
 #[derive(Debug, Clone, Default)]
 struct Visit {
     /// The places of the members that are not fixed.
@@ -145,7 +145,8 @@ fn remove_missing(missing: &mut Vec<Missing>, places: &mut BTreeMap<(u16, u32), 
 
 impl Visit {
     /// Calls `call` with each cell of a row that at most one other row covers. With a `place`, only the cells that
-    /// contain the place count, and the place is the last of the chosen places, which otherwise ascend. Cells with one of the parameters of `without` do not count.
+    /// contain the place count, and the place is the last of the chosen places, which otherwise ascend. Cells with one
+    /// of the parameters of `without` do not count.
     fn each(
         &mut self,
         turn: Turn,
@@ -304,8 +305,9 @@ mod tests {
     use rand_pcg::Pcg64;
 
     /// What two tallies must agree on: the missing cells, in any order, and the cells of single rows.
-    fn seen(tally: &impl Tally, rows: usize, parameters: usize) -> (Vec<(u16, u32)>, Vec<u32>) {
-        let mut missing: Vec<_> = tally.missing().iter().map(|missing| (missing.family, missing.cell)).collect();
+    fn seen(tally: &impl Tally, rows: usize, parameters: usize) -> (Vec<String>, Vec<u32>) {
+        let missing = tally.missing().iter();
+        let mut missing: Vec<String> = missing.map(|missing| format!("{missing:?}")).collect();
         missing.sort_unstable();
         let alone = (0..rows).flat_map(|row| (0..=parameters).map(move |parameter| (row, parameter)));
         (missing, alone.map(|(row, parameter)| tally.alone().with(row, parameter)).collect())
@@ -332,8 +334,6 @@ mod tests {
                 row.iter().enumerate().for_each(|(parameter, &level)| having.flip(index, parameter, level));
             }
             let mut table = Table::new(&families, &rows, &having);
-            // Combinations that no row covers at the start are demanded by the table once rows have covered them, and
-            // by the bits, too.
             let mut bits = Bits::new(&families, &rows, &having);
             for _ in 0..40 {
                 let index = rng.random_range(0..count);

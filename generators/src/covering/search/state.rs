@@ -18,15 +18,17 @@ const TENURE: usize = 2;
 /// short times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Tenure {
-    /// Always as at first: the search examines the neighbourhood thoroughly.
+    /// The times stay as at first, so that the search examines the neighbourhood thoroughly.
     Short,
-    /// Twice as long after each [`PATIENCE`] steps without progress, and after [`DOUBLINGS`] doublings as short as at
-    /// first: long times free a trapped search.
+    /// The times double after each [`PATIENCE`] steps without progress, which frees a trapped search. After
+    /// [`DOUBLINGS`] doublings they are as short as at first.
     Growing,
 }
 
 /// The number of steps without progress after which growing times become twice as long.
 const PATIENCE: u64 = 3000;
+
+/// The number of lengths of growing times.
 const DOUBLINGS: u64 = 4;
 
 /// The number of missing cells that are examined to rate a change.
@@ -100,7 +102,7 @@ impl<T: Tally> Annealing<T> {
         }
     }
 
-    /// Changes for how long entries stay unchanged, which grows unless told otherwise.
+    /// Sets the tenure, which is [`Tenure::Growing`] by default.
     pub(crate) fn with_tenure(self, tenure: Tenure) -> Self {
         Self { tenure, ..self }
     }

@@ -114,7 +114,7 @@ impl Alone {
         self.add(row, cells, chosen, 1);
     }
 
-    /// Uncounts a cell that this row no longer covers, or no longer alone.
+    /// Removes a cell from the counts of a row that no longer covers it alone.
     #[inline(always)]
     pub(super) fn end(&mut self, row: usize, cells: &Cells, chosen: &Chosen) {
         self.add(row, cells, chosen, 1u32.wrapping_neg());
