@@ -304,7 +304,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_pcg::Pcg64;
 
-    /// What two tallies must agree on: the missing cells, in any order, and the cells of single rows.
+    /// Returns the missing cells, in any order, and the cells of single rows. Two tallies must agree on them.
     fn seen(tally: &impl Tally, rows: usize, parameters: usize) -> (Vec<String>, Vec<u32>) {
         let missing = tally.missing().iter();
         let mut missing: Vec<String> = missing.map(|missing| format!("{missing:?}")).collect();

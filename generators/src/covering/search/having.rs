@@ -1,4 +1,4 @@
-//! Which rows have which level, a bit for each row.
+//! Bits that say which rows have which level, one for each row.
 
 /// The rows that have each level of each parameter.
 #[derive(Debug, Clone)]
