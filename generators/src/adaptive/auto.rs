@@ -5,11 +5,10 @@
 //!
 //! At first CMA-ES with preselection leads. On a function whose slope leads to the failure it needs the fewest tests,
 //! and a few dozen tests are enough. A function that has not failed until then is likely to have basins that lead
-//! nowhere, and the search beyond them leads (`beyond`) until there is a failure.
-//! On random functions with decoys the two stages find nine of ten
-//! failures, and the first stage alone finds seven (experiments/strategies.md). If the search beyond known basins led
-//! from the beginning, it would take up to 1.5 times the tests where the slope is right. Simplices follow a valley
-//! that bends, in both stages.
+//! nowhere, and the search beyond them leads (`beyond`) until there is a failure. On random functions with decoys the
+//! two stages find nine of ten failures, and the first stage alone finds seven (experiments/strategies.md). If the
+//! search beyond known basins led from the beginning, it would take up to 1.5 times the tests where the slope is right.
+//! Simplices follow a valley that bends, in both stages.
 //!
 //! The shares of the first stage were chosen on ten functions, its length and the shares of the second stage on the
 //! random functions 0 to 199. If the leader waits for results, no other search takes its share: its tests are better
