@@ -121,15 +121,17 @@ pub enum GeneratorError {
         /// The index of the last point that the request needs.
         last: u64,
     },
-    /// The Latin hypercube of the request has more coordinates than are kept in memory.
+    /// The set of the request, which is made as a whole, has more coordinates than are kept in memory.
     #[error(
-        "a Latin hypercube of {points} points in {dims} dimensions has more than 10,000,000 coordinates, the most that \
-         are kept in memory; use halton"
+        "`{strategy}` makes its points as a whole, and {points} points in {dims} dimensions have more than 10,000,000 \
+         coordinates, the most that are kept in memory; use halton"
     )]
-    LhsLimit {
-        /// The number of points of the Latin hypercube.
+    SetLimit {
+        /// The name of the strategy that cannot serve the request.
+        strategy: &'static str,
+        /// The number of points of the set.
         points: u64,
-        /// The number of dimensions of the Latin hypercube.
+        /// The number of dimensions of the set.
         dims: usize,
     },
     /// The strategy `best` has no set of so many points.

@@ -22,7 +22,7 @@ pub struct Request<'a> {
     /// epsilon it is the greatest number of tests; `usize::MAX` sets no limit.
     pub budget: usize,
     /// The seed of all random numbers. `None` gives the plain set if the strategy has one (`halton sobol kronecker
-    /// hammersley fibonacci`), and seed 0 for everything else, such as the copies of a plain set for further rows.
+    /// hammersley fibonacci lattice best`), and seed 0 for everything else, such as the copies of a plain set for further rows.
     pub seed: Option<u64>,
     /// The index, from 0, of the first point of the sequence that the tests use. `None` means 0, but 1 for `halton`,
     /// because point 0 of Halton is the corner of the cube.

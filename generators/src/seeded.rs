@@ -30,6 +30,8 @@ pub(crate) enum Purpose {
     Draws = 8,
     /// The random numbers make other continuous values for a row of discrete values.
     Redraws = 9,
+    /// The random numbers make the swaps that search for an even Latin hypercube.
+    Swaps = 10,
 }
 
 /// Makes the generator of random numbers for a seed, a purpose and a `number` within the purpose.

@@ -12,7 +12,7 @@ from scipy.stats import qmc as scipy_qmc
 
 ENGINES = [getattr(qmc, name) for name in qmc.__all__]
 # They make a set of exactly as many points as are drawn.
-SETS = {"best", "fibonacci", "hammersley", "lhs", "lhs-centred"}
+SETS = {"best", "fibonacci", "hammersley", "lattice", "lhs", "lhs-centred", "lhs-discrepancy", "lhs-maximin"}
 
 
 def test_every_strategy_without_a_memory_has_an_engine():

@@ -64,7 +64,7 @@ impl Strategy {
             return self.unchecked(request);
         }
         if let Some(other) = self.in_a_part().filter(|_| can_be_replaced(request)) {
-            return other.build_valid(&row_by_row(request));
+            return other.build_valid(&row_by_row(other, request));
         }
         // What is wrong with the request itself is said first.
         let share = Share::of(request.space);
@@ -87,7 +87,7 @@ impl Strategy {
             return self.unchecked_independent(request);
         }
         if let Some(other) = self.in_a_part().filter(|_| can_be_replaced(request)) {
-            return other.build_valid_independent(&row_by_row(request));
+            return other.build_valid_independent(&row_by_row(other, request));
         }
         if request.space.levels().is_empty() || !self.has_rows(request) {
             return self.build_valid(request);
@@ -113,9 +113,9 @@ fn can_be_replaced(request: &Request) -> bool {
     request.existing.is_empty() && request.skip.is_none() && request.epsilon.is_none() && request.aim.is_none()
 }
 
-/// Returns the request for a strategy that fills holes, so that it fills the holes of each row.
-fn row_by_row<'a>(request: &Request<'a>) -> Request<'a> {
-    Request { aim: Some(Aim::Dispersion), ..*request }
+/// Returns the request for a strategy that takes the place of sets. If the strategy fills holes, it fills the holes of each row.
+fn row_by_row<'a>(strategy: Strategy, request: &Request<'a>) -> Request<'a> {
+    Request { aim: strategy.fills_holes().then_some(Aim::Dispersion), ..*request }
 }
 
 impl Share {
@@ -281,7 +281,9 @@ mod tests {
     fn a_set_of_a_fixed_size_is_cut_off_nowhere() {
         // Half of the square is valid, in every tenth of the first axis.
         let space = Space::unit_cube(2).with_constraints(["x2 < 0.5"]).unwrap();
-        for strategy in [Strategy::HAMMERSLEY, Strategy::FIBONACCI, Strategy::LHS, Strategy::LHS_CENTRED] {
+        for strategy in
+            [Strategy::HAMMERSLEY, Strategy::FIBONACCI, Strategy::LATTICE, Strategy::LHS, Strategy::LHS_CENTRED]
+        {
             for seed in [None, Some(1), Some(2)] {
                 let request = Request { seed, ..Request::new(&space, 100) };
                 let tests = strategy.build(&request).unwrap().ask(100);

@@ -5,9 +5,10 @@
 //! set depends on its size: it is made as a whole, for the whole budget.
 
 use super::Sequence;
+use super::lhs_search::{Centered, Criterion, Maximin, improve};
 use super::per_row::PerRow;
 use super::per_row::RowSet;
-use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MOST_COORDINATES, MarkShape, Method, MethodKind, Strategy};
 use crate::{
     GeneratorError,
     deal::Deal,
@@ -25,7 +26,7 @@ impl Strategy {
         method: Method(MethodKind::Sets {
             plain: false,
             in_a_part: None,
-            build: |dims, seed, deal| cells(dims, seed, deal, Place::Random),
+            build: |dims, seed, deal| cells(Self::LHS, dims, seed, deal, Place::Random),
         }),
     });
 }
@@ -40,26 +41,77 @@ impl Strategy {
         method: Method(MethodKind::Sets {
             plain: false,
             in_a_part: None,
-            build: |dims, seed, deal| cells(dims, seed, deal, Place::Centre),
+            build: |dims, seed, deal| cells(Self::LHS_CENTRED, dims, seed, deal, Place::Centre),
         }),
     });
 }
 
-fn cells(dims: usize, seed: Option<u64>, deal: Deal, place: Place) -> Result<Box<dyn Sequence>, GeneratorError> {
-    Ok(Box::new(PerRow::new(deal, Lhs::new(dims, seed.unwrap_or(0), &deal, place)?)))
+impl Strategy {
+    /// The strategy "lhs-maximin", which takes a Latin hypercube whose points are far apart.
+    pub const LHS_MAXIMIN: Self = Self::of(&Descriptor {
+        name: "lhs-maximin",
+        about: "Latin hypercube after a search that moves points apart: no two tests are alike",
+        dims: ANY,
+        look: Look::hollow(0x99_9999, MarkShape::Square),
+        method: Method(MethodKind::Sets {
+            plain: false,
+            in_a_part: Some(Self::LHS),
+            build: |dims, seed, deal| improved::<Maximin>(Self::LHS_MAXIMIN, dims, seed, deal),
+        }),
+    });
 }
 
-const MOST_COORDINATES: u64 = 10_000_000;
+impl Strategy {
+    /// The strategy "lhs-discrepancy", which takes a Latin hypercube with a low centered discrepancy.
+    pub const LHS_DISCREPANCY: Self = Self::of(&Descriptor {
+        name: "lhs-discrepancy",
+        about: "Latin hypercube after a search for a low centered discrepancy: even for means over the space",
+        dims: ANY,
+        look: Look::hollow(0x99_9999, MarkShape::Diamond),
+        method: Method(MethodKind::Sets {
+            plain: false,
+            in_a_part: Some(Self::LHS),
+            build: |dims, seed, deal| improved::<Centered>(Self::LHS_DISCREPANCY, dims, seed, deal),
+        }),
+    });
+}
+
+fn cells(
+    strategy: Strategy,
+    dims: usize,
+    seed: Option<u64>,
+    deal: Deal,
+    place: Place,
+) -> Result<Box<dyn Sequence>, GeneratorError> {
+    Ok(Box::new(PerRow::new(deal, Lhs::new(strategy, dims, seed.unwrap_or(0), &deal, place)?)))
+}
+
+fn improved<C: Criterion>(
+    strategy: Strategy,
+    dims: usize,
+    seed: Option<u64>,
+    deal: Deal,
+) -> Result<Box<dyn Sequence>, GeneratorError> {
+    let seed = seed.unwrap_or(0);
+    let mut lhs = Lhs::new(strategy, dims, seed, &deal, Place::Random)?;
+    let rows = deal.rows.min(deal.budget);
+    for (row, block) in lhs.coordinates.chunks_mut(deal.block as usize * dims).enumerate() {
+        let row = row as u64;
+        let size = deal.tests_of(row) as usize;
+        improve::<C>(&mut block[..size * dims], dims, rows, &mut seeded(seed, Purpose::Swaps, deal.from + row));
+    }
+    Ok(Box::new(PerRow::new(deal, lhs)))
+}
 
 /// The place of a point in its cell of a Latin hypercube.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
+enum Place {
     Random,
     Centre,
 }
 
 /// The Latin hypercubes of all rows, one hypercube for each row.
-pub(crate) struct Lhs {
+struct Lhs {
     dims: usize,
     /// The number of points from the start of one hypercube to the start of the next.
     block: u64,
@@ -71,10 +123,10 @@ pub(crate) struct Lhs {
 impl Lhs {
     /// Makes Latin hypercubes of exactly the sizes that the rows need. A larger hypercube with a missing point would
     /// leave a cell of every axis empty.
-    pub(crate) fn new(dims: usize, seed: u64, deal: &Deal, place: Place) -> Result<Self, GeneratorError> {
+    fn new(strategy: Strategy, dims: usize, seed: u64, deal: &Deal, place: Place) -> Result<Self, GeneratorError> {
         let points = deal.indices();
         if points.saturating_mul(dims as u64) > MOST_COORDINATES {
-            return Err(GeneratorError::LhsLimit { points, dims });
+            return Err(GeneratorError::SetLimit { strategy: strategy.name(), points, dims });
         }
         let mut coordinates = vec![0.0; points as usize * dims];
         for (row, block) in coordinates.chunks_mut(deal.block as usize * dims).enumerate() {

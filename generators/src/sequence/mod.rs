@@ -10,7 +10,9 @@ mod halton;
 mod halton_scrambled;
 mod hammersley;
 mod kronecker;
+mod lattice;
 mod lhs;
+mod lhs_search;
 mod owen;
 mod per_row;
 mod radical;
@@ -36,8 +38,11 @@ pub(crate) const ALL: &[Strategy] = &[
     Strategy::KRONECKER,
     Strategy::HAMMERSLEY,
     Strategy::FIBONACCI,
+    Strategy::LATTICE,
     Strategy::LHS,
     Strategy::LHS_CENTRED,
+    Strategy::LHS_MAXIMIN,
+    Strategy::LHS_DISCREPANCY,
 ];
 
 /// `word / 2^64`, cut off after the 53 bits that a double has.

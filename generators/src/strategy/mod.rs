@@ -45,6 +45,9 @@ pub struct Method(pub(crate) MethodKind);
 /// The range of all numbers of coordinates, from one coordinate on.
 pub(crate) const ANY: RangeInclusive<usize> = 1..=usize::MAX;
 
+/// The most coordinates of a set that is made as a whole.
+pub(crate) const MOST_COORDINATES: u64 = 10_000_000;
+
 /// A function that builds the sets of all rows from the number of dimensions, a seed, and the number of tests of each
 /// row.
 pub(crate) type BuildSets = fn(usize, Option<u64>, Deal) -> Result<Box<dyn Sequence>, GeneratorError>;

@@ -47,8 +47,14 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(
         Strategy::LHS,
         Request::new(&cube, usize::MAX),
-        "a Latin hypercube of 18446744073709551615 points in 2 dimensions has more than 10,000,000 coordinates, the \
-         most that are kept in memory; use halton",
+        "`lhs` makes its points as a whole, and 18446744073709551615 points in 2 dimensions have more than 10,000,000 \
+         coordinates, the most that are kept in memory; use halton",
+    );
+    check(
+        Strategy::LATTICE,
+        Request::new(&cube, 5_000_001),
+        "`lattice` makes its points as a whole, and 5000001 points in 2 dimensions have more than 10,000,000 coordinates, \
+         the most that are kept in memory; use halton",
     );
     check(
         Strategy::HALTON,

@@ -43,7 +43,9 @@ fn skipping_starts_a_sequence_later_and_skip_0_at_the_corner() {
 #[test]
 fn a_seed_shifts_all_points_by_the_same_vector() {
     let space = Space::unit_cube(2);
-    for strategy in [Strategy::HALTON, Strategy::KRONECKER, Strategy::HAMMERSLEY, Strategy::FIBONACCI] {
+    for strategy in
+        [Strategy::HALTON, Strategy::KRONECKER, Strategy::HAMMERSLEY, Strategy::FIBONACCI, Strategy::LATTICE]
+    {
         let plain = tests(strategy, &Request::new(&space, 100));
         let shifted = |seed| {
             let tests = tests(strategy, &Request { seed: Some(seed), ..Request::new(&space, 100) });
@@ -114,7 +116,7 @@ fn the_first_tests_go_round_all_rows() {
 fn latin_hypercubes_have_one_point_per_cell_on_every_axis_and_centred_ones_in_its_middle() {
     for (dims, n) in [(1, 1), (1, 10), (3, 49), (20, 1000)] {
         let space = Space::unit_cube(dims);
-        for strategy in [Strategy::LHS, Strategy::LHS_CENTRED] {
+        for strategy in [Strategy::LHS, Strategy::LHS_CENTRED, Strategy::LHS_MAXIMIN, Strategy::LHS_DISCREPANCY] {
             let points = tests(strategy, &Request::new(&space, n));
             assert_one_point_per_cell(&points.into_iter().map(|test| test.continuous).collect::<Vec<_>>());
         }
@@ -128,7 +130,7 @@ fn latin_hypercubes_have_one_point_per_cell_on_every_axis_and_centred_ones_in_it
 fn every_row_gets_a_latin_hypercube_of_its_own_even_where_the_budget_does_not_divide() {
     let space = mixed(3, &[3, 2]);
     let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 500) };
-    for strategy in [Strategy::LHS, Strategy::LHS_CENTRED] {
+    for strategy in [Strategy::LHS, Strategy::LHS_CENTRED, Strategy::LHS_MAXIMIN, Strategy::LHS_DISCREPANCY] {
         let dealt = tests(strategy, &request);
         let hypercubes: Vec<_> = (0..6).map(|row| of_row(&dealt, &[row / 2, row % 2])).collect();
         hypercubes.iter().for_each(|points| assert_one_point_per_cell(points));
@@ -139,7 +141,7 @@ fn every_row_gets_a_latin_hypercube_of_its_own_even_where_the_budget_does_not_di
 #[test]
 fn every_row_gets_a_lattice_of_just_its_size_and_only_the_first_one_unshifted() {
     let (space, cube) = (mixed(2, &[3, 2]), Space::unit_cube(2));
-    for strategy in [Strategy::HAMMERSLEY, Strategy::FIBONACCI] {
+    for strategy in [Strategy::HAMMERSLEY, Strategy::FIBONACCI, Strategy::LATTICE] {
         let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 500) };
         let dealt = tests(strategy, &request);
         let mut shifts = BTreeSet::new();
@@ -166,11 +168,14 @@ fn sets_end_with_their_budget_and_sequences_go_on() {
         let ends = [
             Strategy::HAMMERSLEY,
             Strategy::FIBONACCI,
+            Strategy::LATTICE,
             Strategy::BEST,
             Strategy::GREEDY,
             Strategy::GREEDY_PERIODIC,
             Strategy::LHS,
             Strategy::LHS_CENTRED,
+            Strategy::LHS_MAXIMIN,
+            Strategy::LHS_DISCREPANCY,
         ]
         .contains(&strategy);
         assert_eq!(generator.ask(1000).len(), if ends { 10 } else { 1000 }, "{strategy}");

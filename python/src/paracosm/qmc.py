@@ -27,8 +27,11 @@ __all__ = [
     "HaltonScrambled",
     "Hammersley",
     "Kronecker",
+    "Lattice",
     "Lhs",
     "LhsCentred",
+    "LhsDiscrepancy",
+    "LhsMaximin",
     "Random",
     "RandomCorners",
     "Sobol",
@@ -148,6 +151,12 @@ class Fibonacci(_Engine):
     method = "fibonacci"
 
 
+class Lattice(_Engine):
+    """The rank-1 lattice with the best step of Korobov. It draws once."""
+
+    method = "lattice"
+
+
 class Lhs(_Engine):
     """A Latin hypercube. It draws once."""
 
@@ -158,6 +167,18 @@ class LhsCentred(_Engine):
     """A Latin hypercube with the points in the middle of their cells. It draws once."""
 
     method = "lhs-centred"
+
+
+class LhsMaximin(_Engine):
+    """A Latin hypercube whose points a search moves apart. It draws once."""
+
+    method = "lhs-maximin"
+
+
+class LhsDiscrepancy(_Engine):
+    """A Latin hypercube after a search for a low centered discrepancy. It draws once."""
+
+    method = "lhs-discrepancy"
 
 
 class Best(_Engine):
