@@ -135,7 +135,7 @@ const STUDIES: &[Study] = &[
     },
     Study {
         name: "samplers",
-        about: "which strategy covers a space most evenly: ten strategies by eight measures in 2, 3 and 5 dimensions",
+        about: "which strategy covers a space most evenly: sixteen strategies by eight measures in 2 to 10 dimensions",
         time: "4 min",
         run: samplers::run,
     },

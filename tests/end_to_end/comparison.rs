@@ -219,7 +219,10 @@ fn values_that_the_time_limit_cut_short_say_so() {
         assert_eq!(set["exact"], "false");
         assert!(number(&set, "star_lower") < number(&set, "star_upper"), "{set:?}");
     }
-    assert!(rows(&dir.path().join("out/summary.csv")).iter().all(|row| row["exact"] == "false"));
+    let summary = rows(&dir.path().join("out/summary.csv"));
+    assert!(summary.iter().all(|row| row["exact"] == "false"));
+    // The two ends of the brackets enclose the median.
+    assert!(summary.iter().all(|row| number(row, "median") < number(row, "median_upper")));
 }
 
 #[test]

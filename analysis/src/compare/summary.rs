@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
 /// A summary of a strategy's values of a measure for one number of dimensions and one budget. A value that is a bracket
-/// counts as its lower end.
+/// counts as its lower end, except in `median_upper`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparisonCell {
     /// The measure that gave the values.
@@ -31,6 +31,9 @@ pub struct ComparisonCell {
     pub plain: Option<f64>,
     /// The median of the values over the seeds.
     pub median: f64,
+    /// The median of the upper ends of the values. The median of the true values lies between `median` and this number, and equals both if
+    /// every value is exact.
+    pub median_upper: f64,
     /// The lower and the upper quartile of the values over the seeds.
     pub quartiles: [f64; 2],
     /// The comparison of the values with the baseline's values; `None` if no comparison is possible. This is so for the
@@ -105,6 +108,7 @@ struct Line {
 struct Place {
     budget: usize,
     values: Vec<f64>,
+    uppers: Vec<f64>,
     plain: Option<f64>,
     exact: bool,
 }
@@ -127,6 +131,7 @@ impl Line {
             (!seeds.is_empty()).then(|| Place {
                 budget,
                 values: seeds.iter().map(|bracket| bracket.lower).collect(),
+                uppers: seeds.iter().map(|bracket| bracket.upper).collect(),
                 plain: plain.map(|bracket| bracket.lower),
                 exact: seeds.iter().chain(&plain).all(Bracket::is_exact),
             })
@@ -152,6 +157,7 @@ impl Line {
             exact: place.exact,
             plain: place.plain,
             median,
+            median_upper: median_and_quartiles(&place.uppers).0,
             quartiles,
             versus: base.map(|base| Versus::of_medians(&place.values, &base.values)),
         }

@@ -31,7 +31,7 @@ fn table(text: &mut String, compared: &Compared, measure: Measure) {
         "\n\\begin{{table}}\n\\centering\n\\caption{{{}: median over {} seeds at $n$ points in $d$ dimensions, lowest in \
          bold; the fitted slope of $\\log$ median over $\\log n$; and at the largest $n$ the median ratio to {baseline} \
          with its 95\\,\\% bootstrap interval, the probability $A_{{12}}$ of being lower, and Wilcoxon's signed-rank $p$ \
-         after Holm's correction. $\\dagger$: differs from {baseline} at that $n$ ($p \\le {LEVEL}$).}}\n\
+         after Holm's correction. Brackets enclose a median that is not known exactly. $\\dagger$: differs from {baseline} at that $n$ ($p \\le {LEVEL}$).}}\n\
          \\label{{tab:{}}}\n",
         escaped(&capitalised(&compared.label(measure))),
         comparison.seeds,
@@ -69,8 +69,10 @@ fn median(cell: &ComparisonCell, least: f64) -> String {
     let number = in_math(&three_digits(cell.median));
     let number = if cell.median == least { format!("\\mathbf{{{number}}}") } else { number };
     let differs = cell.versus.as_ref().is_some_and(|versus| versus.p_holm <= LEVEL);
-    let bound = if cell.exact { "" } else { "\\ge " };
-    format!("${bound}{number}{}$", if differs { "^{\\dagger}" } else { "" })
+    if cell.median < cell.median_upper {
+        return format!("$[{number}, {}]$", in_math(&three_digits(cell.median_upper)));
+    }
+    format!("${number}{}$", if differs { "^{\\dagger}" } else { "" })
 }
 
 fn capitalised(text: &str) -> String {
