@@ -193,6 +193,14 @@ impl Formula {
         }
     }
 
+    /// Visits the time intervals of all operators.
+    pub(crate) fn for_each_interval(&self, visit: &mut impl FnMut(Interval)) {
+        if let Formula::Modal(_, interval, _) | Formula::Sequence(_, interval, ..) = self {
+            visit(*interval);
+        }
+        self.operands().into_iter().flatten().for_each(|operand| operand.for_each_interval(visit));
+    }
+
     fn operands(&self) -> [Option<&Formula>; 2] {
         match self {
             Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => [None, None],

@@ -68,6 +68,17 @@ fn where_two_jump_at_one_instant_each_has_its_value_there() {
 }
 
 #[test]
+fn a_crossing_that_rounds_to_the_instant_of_a_jump_leaves_the_jump_its_value() {
+    let mut trace = Trace::new(0.5, vec!["x".to_owned(), "y".to_owned()]);
+    let rows = [[1.0, 0.0], [-3.0, 2.0], [1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]];
+    rows.iter().for_each(|row| trace.record(row));
+    let formula =
+        "eventually[1.5,inf] (historically[1.25,1.75] (min(y / -2, 0) > abs(x / -2)) release[0,1] not (0 > 0))";
+    // Nothing but the one instant at 1.5 s has its whole window in the trace.
+    assert_eq!(dense(formula, &trace).unwrap().lower, 0.0);
+}
+
+#[test]
 fn windows_of_the_past_are_closed_where_they_reach_the_first_instant() {
     let mut falling = Trace::new(0.5, vec!["a".to_owned(), "b".to_owned()]);
     [[-1.0, 1.0], [1.0, 1.0], [1.0, 1.0]].iter().for_each(|row| falling.record(row));

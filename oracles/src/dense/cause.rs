@@ -8,6 +8,7 @@
 //! hair) before or after it. Instants that are much nearer to each other than a hair are the same instant.
 
 use super::piece::between;
+use super::unit::Unit;
 use super::wave::Wave;
 use crate::{Connective, Formula, Interval, Modality, Sequence};
 
@@ -15,12 +16,12 @@ use crate::{Connective, Formula, Interval, Modality, Sequence};
 /// any duration or worth that matters.
 const ROUNDING: f64 = 1e-12;
 
-/// Returns the small distance beside an instant from which the search looks, on a trace that ends at `end` seconds.
+/// Returns the small distance beside an instant from which the search looks, on a trace that ends at `end` units.
 pub(super) fn hair(end: f64) -> f64 {
     ROUNDING * end.max(1.0)
 }
 
-/// Returns the distance below which two instants are the same, on a trace that ends at `end` seconds.
+/// Returns the distance below which two instants are the same, on a trace that ends at `end` units.
 fn same(end: f64) -> f64 {
     0.25 * hair(end)
 }
@@ -62,8 +63,9 @@ struct Step<'f> {
 
 /// The parts of a formula, each with its worth over time.
 pub(super) struct Causes<'f> {
-    /// The time of the last sample of the trace, in seconds.
+    /// The time of the last sample of the trace, in units.
     pub end: f64,
+    pub unit: Unit,
     pub parts: Vec<(&'f Formula, Wave)>,
 }
 
@@ -131,7 +133,14 @@ impl<'f> Causes<'f> {
     }
 
     fn view(&self, interval: Interval, moment: Moment) -> View {
-        View { interval, moment, eye: self.eye(moment), end: self.end, past: false, sign: 1.0 }
+        View {
+            interval: self.unit.of_interval(interval),
+            moment,
+            eye: self.eye(moment),
+            end: self.end,
+            past: false,
+            sign: 1.0,
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 mod cause;
 mod piece;
 mod track;
+mod unit;
 mod wave;
 mod window;
 
@@ -18,12 +19,13 @@ use crate::{
 use crate::{Trace, Truth};
 use cause::{Causes, hair};
 use track::{Track, reaches};
+use unit::Unit;
 use wave::Wave;
 use window::Window;
 
 /// Evaluates a formula at the beginning of a trace that has samples.
 pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
-    let [robustness, lower, upper] = Dense::new(trace).track(formula, 0.0, &mut |_, _| {})?.first();
+    let [robustness, lower, upper] = Dense::new(formula, trace).track(formula, 0.0, &mut |_, _| {})?.first();
     let truth = if lower > 0.0 {
         Truth::Holds
     } else if upper < 0.0 {
@@ -37,27 +39,30 @@ pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, E
 /// Finds the cause of the formula's robustness on a trace that has samples. It needs only the worth of every part over
 /// time, which is computed once and kept.
 pub(crate) fn explain<'f>(formula: &'f Formula, trace: &Trace) -> Result<Cause<'f>, EvaluationError> {
-    let dense = Dense::new(trace);
+    let dense = Dense::new(formula, trace);
     let mut parts = Vec::new();
     let whole = dense.track(formula, 0.0, &mut |part, wave| parts.push((part, wave.clone())))?;
     let [robustness, ..] = whole.first();
-    let (part, time) = Causes { end: dense.end, parts }.of(formula, robustness);
+    let (part, time) = Causes { end: dense.end, unit: dense.unit, parts }.of(formula, robustness);
     // A time near a sample becomes exactly the sample's time, as it is written elsewhere.
-    let sample = (time / trace.dt()).round() * trace.dt();
+    let sample = dense.unit.nearest_sample(time);
     let time = if (time - sample).abs() <= hair(dense.end) { sample } else { time };
-    Ok(Cause { time, part, robustness })
+    Ok(Cause { time: dense.unit.to_seconds(time), part, robustness })
 }
 
 /// A trace with straight lines between its samples.
 struct Dense<'a> {
     trace: &'a Trace,
+    /// The unit of all times.
+    unit: Unit,
     /// The time of the last sample.
     end: f64,
 }
 
 impl<'a> Dense<'a> {
-    fn new(trace: &'a Trace) -> Self {
-        Self { trace, end: (trace.len() - 1) as f64 * trace.dt() }
+    fn new(formula: &Formula, trace: &'a Trace) -> Self {
+        let unit = Unit::of(formula, trace);
+        Self { trace, unit, end: unit.of_ticks(trace.len() - 1) }
     }
 
     /// Computes the worth of the formula from time 0 at least to `needed`. `keep` gets the worth for the recorded
@@ -120,7 +125,7 @@ impl<'a> Dense<'a> {
             None => linear(left)?.sum(&linear(right)?.scaled(-1.0)),
         };
         if let Some((time, _)) = margin.points().iter().find(|point| !point.1.is_finite()) {
-            return Err(EvaluationError::NoValue { what: formula.to_string(), time: *time });
+            return Err(EvaluationError::NoValue { what: formula.to_string(), time: self.unit.to_seconds(*time) });
         }
         let distance = |margin: Wave| margin.max(&margin.clone().scaled(-1.0));
         Ok(match comparison {
@@ -180,9 +185,9 @@ impl<'a> Dense<'a> {
         let samples = self.trace.signal(name).ok_or_else(|| EvaluationError::unknown(name, self.trace.signals()))?;
         let mut points = Vec::with_capacity(samples.len());
         for (tick, sample) in samples.enumerate() {
-            let time = tick as f64 * self.trace.dt();
+            let time = self.unit.of_ticks(tick);
             if !sample.is_finite() {
-                return Err(EvaluationError::NoValue { what: name.to_owned(), time });
+                return Err(EvaluationError::NoValue { what: name.to_owned(), time: self.unit.to_seconds(time) });
             }
             points.push((time, sample));
         }
@@ -193,6 +198,7 @@ impl<'a> Dense<'a> {
         if !interval.is_valid() {
             return Err(EvaluationError::Interval(interval));
         }
+        let interval = self.unit.of_interval(interval);
         let asked = if past { needed } else { self.end.min(needed + interval.end) };
         let ends = interval.end.is_infinite() && self.trace.is_complete();
         Ok(Scope { interval, past, dual, needed, asked, ends, outside: None })

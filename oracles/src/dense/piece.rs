@@ -1,5 +1,9 @@
 //! Straight lines between two instants, and the points at which they cross.
 
+/// The least time between a crossing and the instants around it, in units. Later sums round times by much less, so that an instant at which a
+/// function jumps never gets a crossing as a fourth breakpoint.
+const APART: f64 = 1e-8;
+
 /// Returns the value at an instant of the line through two points.
 pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
     if time <= t0 || v0 == v1 {
@@ -44,8 +48,7 @@ impl<const N: usize> Piece<N> {
         let mut last = from;
         for share in &crossings[..count] {
             let time = from + (to - from) * share;
-            // After rounding, the crossing may have no instant of its own.
-            if time != last && time != to {
+            if (time - last).abs() > APART && (to - time).abs() > APART {
                 let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
                 push(points, (time, join(values)));
                 last = time;
