@@ -1,10 +1,13 @@
-//! Rank-1 lattices with the step of Korobov (Doklady Akademii Nauk SSSR 132, 1960), for any number of coordinates.
+//! Rank-1 lattices for any number of coordinates and any number of points.
 //!
-//! Point i of n points is (i z_1 / n, .., i z_d / n) modulo 1, where z_j is the step to the power j - 1, modulo n. A step
-//! without a common divisor with n gives every coordinate the values 0, 1/n, .., (n-1)/n. The step decides how even the
-//! lattice is. We take the step with the least wraparound discrepancy (Hickernell, A generalized discrepancy and quadrature error
-//! bound, Math. Comp. 67, 1998). For a lattice, the double sum of this measure is a single sum, so one step takes O(n d) time.
-//! The measure is the classical criterion P_2 of lattices with weights.
+//! Point i of n points is (i z_1 / n, .., i z_d / n) modulo 1. The generating vector z decides how even the lattice is. We take the vector
+//! with the least wraparound discrepancy (Hickernell, A generalized discrepancy and quadrature error bound, Math. Comp. 67, 1998) of two
+//! kinds: vectors of powers of one step (Korobov, Doklady Akademii Nauk SSSR 132, 1960), and the vector that is built component by component
+//! (Sloan, Reztsov, Component-by-component construction of good lattice rules, Math. Comp. 71, 2002). The powers of a step repeat if n has many divisors:
+//! with 60 points, the fifth component of each such vector equals the first one.
+//!
+//! For a lattice, the double sum of the discrepancy is a single sum, so one vector takes O(n d) time. The measure is the classical criterion
+//! P_2 of lattices with weights.
 
 use super::Sequence;
 use super::per_row::PerRow;
@@ -13,14 +16,14 @@ use crate::GeneratorError;
 use crate::deal::Deal;
 use crate::strategy::{ANY, Descriptor, Look, MOST_COORDINATES, MarkShape, Method, MethodKind, Strategy};
 
-/// The most factors that the search for a step multiplies. If all steps take more, it tries some that are evenly spread.
-const MOST_FACTORS: u64 = 400_000_000;
+/// The most factors that a search for a vector multiplies. If all vectors take more, it tries some that are evenly spread.
+const MOST_FACTORS: u64 = 200_000_000;
 
 impl Strategy {
-    /// The strategy "lattice", which takes the Korobov lattice with the least wraparound discrepancy; a seed shifts the lattice.
+    /// The strategy "lattice", which takes a rank-1 lattice with a low wraparound discrepancy; a seed shifts the lattice.
     pub const LATTICE: Self = Self::of(&Descriptor {
         name: "lattice",
-        about: "the rank-1 lattice with the best step, made for exactly the budget",
+        about: "a rank-1 lattice that is searched for, made for exactly the budget",
         dims: ANY,
         look: Look::filled(0x8c_510a, MarkShape::Diamond),
         method: Method(MethodKind::Sets { plain: true, in_a_part: None, build }),
@@ -54,51 +57,64 @@ impl RowSet for Lattice {
     }
 }
 
-/// Returns the generating vector of the best step for `size` points.
+/// Returns the better one of the best vector of powers and the vector that is built component by component.
 fn generator(dims: usize, size: u64) -> Vec<u64> {
     let kernel: Vec<f64> = (0..size).map(|i| ratio(i.into(), size.into())).map(|x| 1.5 - x * (1.0 - x)).collect();
-    let mut best = (f64::INFINITY, powers(dims, 1, size));
-    for step in steps(dims, size) {
-        let generator = powers(dims, step, size);
-        let sum = sum_of_products(&generator, &kernel);
-        if sum < best.0 {
-            best = (sum, generator);
-        }
-    }
-    best.1
+    let ones = vec![1.0; kernel.len()];
+    let sum = |generator: &[u64]| -> f64 {
+        generator.iter().fold(ones.clone(), |of, z| times(&of, *z, &kernel)).iter().sum()
+    };
+    let powers =
+        candidates(size, dims as u64).filter(|step| divisor(*step, size) == 1).map(|step| powers(dims, step, size));
+    let powers = least(powers, |generator| sum(generator)).unwrap_or_else(|| vec![1; dims]);
+    let built = by_components(dims, &kernel);
+    if sum(&built) < sum(&powers) { built } else { powers }
 }
 
-/// Iterates over the steps that are tried. The steps a and n - a give mirror images, so half of the steps are enough.
-fn steps(dims: usize, size: u64) -> impl Iterator<Item = u64> {
-    let half = size / 2;
-    let tries = (MOST_FACTORS / (size * dims as u64).max(1)).clamp(1, half.max(1));
-    let spread = (0..tries).map(move |i| 1 + i * half / tries);
-    spread.filter_map(move |from| (from..=half.max(1)).find(|&step| divisor(step, size) == 1))
+/// Builds a vector. Each component gives the least discrepancy together with the components before it.
+fn by_components(dims: usize, kernel: &[f64]) -> Vec<u64> {
+    let size = kernel.len() as u64;
+    let mut generator = vec![1];
+    let mut products = times(&vec![1.0; kernel.len()], 1, kernel);
+    for _ in 1..dims {
+        let sum = |z: &u64| -> f64 { times(&products, *z, kernel).iter().sum() };
+        let z = least(candidates(size, dims as u64), sum).unwrap_or(1);
+        products = times(&products, z, kernel);
+        generator.push(z);
+    }
+    generator
+}
+
+/// Iterates over the components that are tried, of which each takes `per_candidate` times the number of points. The components z and
+/// n - z give mirror images, so half of them are enough.
+fn candidates(size: u64, per_candidate: u64) -> impl Iterator<Item = u64> {
+    let half = (size / 2).max(1);
+    let tries = (MOST_FACTORS / (size * per_candidate).max(1)).clamp(1, half);
+    (0..tries).map(move |i| 1 + i * half / tries)
+}
+
+/// Returns the first candidate with the least sum.
+fn least<T>(candidates: impl Iterator<Item = T>, sum: impl Fn(&T) -> f64) -> Option<T> {
+    let summed = candidates.map(|candidate| (sum(&candidate), candidate));
+    summed.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|best| best.1)
 }
 
 /// The powers 0 to d - 1 of a step, modulo `size`.
 fn powers(dims: usize, step: u64, size: u64) -> Vec<u64> {
-    let powers = std::iter::successors(Some(1), |z| Some(z * step % size.max(1)));
-    powers.take(dims).collect()
+    std::iter::successors(Some(1), |z| Some(z * step % size.max(1))).take(dims).collect()
 }
 
-/// The sum over all points of the product of the kernel's values. It orders lattices of a size by their wraparound discrepancy.
-fn sum_of_products(generator: &[u64], kernel: &[f64]) -> f64 {
+/// Multiplies the products of all points by the factors of a further component. The sum of the products of all components orders
+/// lattices of a size by their wraparound discrepancy.
+fn times(products: &[f64], z: u64, kernel: &[f64]) -> Vec<f64> {
     let size = kernel.len() as u64;
-    let mut places = vec![0; generator.len()];
-    let mut sum = 0.0;
-    for _ in 0..size {
-        let mut product = 1.0;
-        for (place, z) in places.iter_mut().zip(generator) {
-            product *= kernel[*place as usize];
-            *place += z;
-            if *place >= size {
-                *place -= size;
-            }
-        }
-        sum += product;
-    }
-    sum
+    let mut place = 0;
+    let factor = |product: &f64| {
+        let product = product * kernel[place as usize];
+        place = (place + z) % size;
+        product
+    };
+    products.iter().map(factor).collect()
 }
 
 /// The greatest common divisor.
@@ -118,12 +134,16 @@ mod tests {
         wraparound(&PointSet::new(points[0].len(), points).unwrap(), Deadline::never()).unwrap()
     }
 
+    fn lattice(dims: usize, size: usize) -> Vec<Vec<f64>> {
+        let space = Space::unit_cube(dims);
+        let set = Strategy::LATTICE.build(&Request::new(&space, size)).unwrap().ask(size);
+        set.into_iter().map(|point| point.continuous).collect()
+    }
+
     #[test]
-    fn no_other_step_gives_a_lower_wraparound_discrepancy() {
+    fn no_step_of_korobov_gives_a_lower_wraparound_discrepancy() {
         for (dims, size) in [(1, 7), (2, 1), (2, 2), (2, 12), (3, 30), (5, 64), (4, 97)] {
-            let space = Space::unit_cube(dims);
-            let set = Strategy::LATTICE.build(&Request::new(&space, size)).unwrap().ask(size);
-            let ours = measured(set.into_iter().map(|point| point.continuous).collect());
+            let ours = measured(lattice(dims, size));
             let n = size as u64;
             for step in (1..=n).filter(|step| divisor(*step, n) == 1) {
                 let of = |i: u64| (0..dims as u32).map(|j| ((i * step.pow(j)) % n) as f64 / n as f64).collect();
@@ -134,12 +154,25 @@ mod tests {
     }
 
     #[test]
-    fn a_large_lattice_tries_some_steps_and_each_coordinate_is_even() {
+    fn no_two_coordinates_are_the_same_if_the_number_of_points_has_many_divisors() {
+        for (dims, size) in [(5, 60), (5, 240), (7, 60), (10, 240), (5, 20)] {
+            let points = lattice(dims, size);
+            for axis in 0..dims {
+                for other in 0..axis {
+                    let same = points.iter().all(|point| (point[axis] - point[other]).abs() < 1e-12);
+                    let mirrored = points.iter().all(|point| (point[axis] + point[other]).fract().abs() < 1e-12);
+                    assert!(!same && !mirrored, "{size} points: axes {other} and {axis} of {dims}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_large_lattice_tries_some_components_only() {
         let (dims, size) = (5, 200_000);
-        assert!(steps(dims, size).count() <= 400);
-        let mut firsts: Vec<u64> = generator(dims, size);
-        assert!(firsts.iter().all(|&z| divisor(z, size) == 1), "{firsts:?}");
-        firsts.dedup();
-        assert_eq!(firsts.len(), dims);
+        assert!(candidates(size, dims as u64).count() <= 200);
+        let mut generator: Vec<u64> = generator(dims, size);
+        generator.dedup();
+        assert_eq!(generator.len(), dims);
     }
 }

@@ -152,7 +152,7 @@ class Fibonacci(_Engine):
 
 
 class Lattice(_Engine):
-    """The rank-1 lattice with the best step of Korobov. It draws once."""
+    """A rank-1 lattice that is searched for. It draws once."""
 
     method = "lattice"
 

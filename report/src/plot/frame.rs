@@ -42,7 +42,21 @@ pub struct Entry {
 type Areas<B> = (DrawingArea<B, Shift>, DrawingArea<B, Shift>);
 type Result<T, B> = std::result::Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
+/// The height of a chart whose legend is short, in pixels of the SVG.
+const HEIGHT: u32 = 520;
+
+/// Returns the height of the middle of a line of the legend, in pixels of the SVG.
+fn line(number: usize) -> f64 {
+    TEXT * (1.2 + 1.55 * number as f64)
+}
+
 impl PlotFrame {
+    /// Returns the height of the whole chart, in pixels of the SVG, with room for all lines of the legend.
+    pub(super) fn height(&self) -> u32 {
+        let last = self.entries.len() + if self.cross.is_some() { 2 } else { 0 };
+        HEIGHT.max(HEADER + line(last + 1) as u32)
+    }
+
     /// Draws the lines above the planes. Returns the area of the planes, `width` pixels wide, and the area of the
     /// legend.
     pub(super) fn split<B: DrawingBackend>(
@@ -67,17 +81,16 @@ impl PlotFrame {
             area.draw(&Text::new(name.to_owned(), (name_at, y), level(size, HPos::Left)))?;
             area.draw(&Text::new(number.to_owned(), (number_at, y), level(size, HPos::Right)))
         };
-        let line = |i: usize| px(TEXT * (1.2 + 1.55 * i as f64));
-        write(&self.legend[0], &self.legend[1], line(0))?;
+        write(&self.legend[0], &self.legend[1], px(line(0)))?;
         for (i, entry) in self.entries.iter().enumerate() {
-            let y = line(i + 1);
+            let y = px(line(i + 1));
             let stroke = rgb(entry.look).stroke_width(px(LINE) as u32);
             area.draw(&PathElement::new([(px(4.0), y), (px(28.0), y)], stroke))?;
             area.draw(&(EmptyElement::at((px(16.0), y)) + Symbol::of(entry.look, scale)))?;
             write(&entry.name, &entry.number, y)?;
         }
         if let Some(cross) = &self.cross {
-            let y = line(self.entries.len() + 2);
+            let y = px(line(self.entries.len() + 2));
             area.draw(&(EmptyElement::at((px(16.0), y)) + Symbol::cross(INK, scale)))?;
             write(cross, "", y)?;
         }

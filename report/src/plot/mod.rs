@@ -103,13 +103,14 @@ impl Picture {
 
     /// Makes a picture of a chart with logarithmic axes.
     pub fn of_log_log(chart: LogLog) -> Self {
-        let size = (frame::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
+        let size = (frame::LEGEND + log_log::PLANE * chart.planes.len() as u32, chart.frame.height());
         Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
     }
 
     /// Makes a picture of a chart of shares.
     pub fn of_shares(chart: Shares) -> Self {
-        Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
+        let size = (frame::LEGEND + shares::PLANE, chart.frame.height());
+        Self { panels: vec![Panel::Shares(chart)], columns: 1, size }
     }
 
     /// Makes a picture of a chart of survival curves, which show the share of runs that still wait for an event.
