@@ -9,10 +9,11 @@ use crate::{Done, scenario};
 use indicatif::ProgressBar;
 use std::path::Path;
 
-const SIZES: [usize; 3] = [25, 100, 500];
+/// The numbers of tests in the samples.
+pub const SIZES: [usize; 3] = [25, 100, 500];
 const SEEDS: u64 = 30;
 /// The number of tests on each side of the map.
-const SIDE: usize = 100;
+pub const SIDE: usize = 100;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {

@@ -21,6 +21,7 @@ mod fig10c;
 mod fig9;
 #[cfg(feature = "neural")]
 mod fig9_cnn;
+mod recalls;
 mod recovery;
 #[cfg(feature = "neural")]
 mod saliency;
@@ -134,9 +135,15 @@ const STUDIES: &[Study] = &[
         run: fig9::run,
     },
     Study {
+        name: "fig9-recalls",
+        about: "how much 200 sets of each of five strategies tell about the failures of both maps of Figure 9",
+        time: "20 s",
+        run: recalls::run,
+    },
+    Study {
         name: "samplers",
         about: "which strategy covers a space most evenly: sixteen strategies by eight measures in 2 to 10 dimensions",
-        time: "4 min",
+        time: "1 h",
         run: samplers::run,
     },
     #[cfg(feature = "neural")]

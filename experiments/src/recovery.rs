@@ -1,10 +1,6 @@
 //! Measures how well places tell which tests fail: by the nearest test of a sample, compared with a dense map, and by
 //! simple explanations, compared with the tests themselves.
 
-use paracosm::analysis::statistics::quantile;
-use paracosm::generators::{Request, Strategy};
-use paracosm::space::Space;
-
 /// A test: its place in the unit square, and whether it failed.
 pub type Mark = ([f64; 2], bool);
 
@@ -67,51 +63,6 @@ impl Sorted {
     }
 }
 
-/// The number of sets whose recalls are compared, of each strategy.
-const SETS: u64 = 400;
-
-/// The recalls of shifted Halton sets and of random sets of one size. One set says little, because the recalls of sets
-/// of one size are spread widely.
-#[derive(Debug, Clone, Copy)]
-pub struct Recalls {
-    /// The median recall of the Halton sets.
-    pub halton: f64,
-    /// The median recall of the random sets.
-    pub random: f64,
-    /// The probability that a Halton set has a larger recall than a random set. Equal recalls count as half.
-    pub better: f64,
-}
-
-impl Recalls {
-    /// Measures sets of `size` tests on a square map, whose rows follow each other. A test has the verdict of its cell.
-    pub fn on(map: &[Mark], size: usize) -> Self {
-        let side = map.len().isqrt();
-        let space = Space::unit_cube(2);
-        let recalls = |strategy: Strategy| -> Vec<f64> {
-            let sets = (0..SETS).map(|seed| {
-                let request = Request { seed: Some(seed), ..Request::new(&space, size) };
-                let points = strategy.build(&request).expect("a plain request").ask(size);
-                let verdict = |at: [f64; 2]| {
-                    let [column, row] = at.map(|share| (share * side as f64) as usize);
-                    (at, map[side * row + column].1)
-                };
-                let places = points.iter().map(|point| [point.continuous[0], point.continuous[1]]);
-                recovery(&places.map(verdict).collect::<Vec<_>>(), map).recall
-            });
-            let mut recalls: Vec<f64> = sets.collect();
-            recalls.sort_by(f64::total_cmp);
-            recalls
-        };
-        let (halton, random) = (recalls(Strategy::HALTON), recalls(Strategy::RANDOM));
-        let wins = |of: f64| {
-            let (less, most) = (random.partition_point(|r| *r < of), random.partition_point(|r| *r <= of));
-            0.5 * (less + most) as f64
-        };
-        let better = halton.iter().map(|recall| wins(*recall)).sum::<f64>() / (SETS * SETS) as f64;
-        Self { halton: quantile(&halton, 0.5), random: quantile(&random, 0.5), better }
-    }
-}
-
 /// Returns the share of tests that fail.
 pub fn failing(tests: &[Mark]) -> f64 {
     tests.iter().filter(|test| test.1).count() as f64 / tests.len() as f64
@@ -162,6 +113,8 @@ pub fn straight_line(tests: &[Mark]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use paracosm::generators::{Request, Strategy};
+    use paracosm::space::Space;
 
     #[test]
     fn a_straight_line_explains_what_lies_on_two_sides_and_not_what_lies_between() {
@@ -200,40 +153,6 @@ mod tests {
             let distance = |at: [f64; 2]| square(at[0] - place[0]) + square(at[1] - place[1]);
             let naive = tests.iter().min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))).unwrap();
             assert_eq!(sorted.nearest(place, None), naive.1);
-        }
-    }
-
-    /// The recalls of 400 sets of each size on both maps of Figure 9, as the pages say them.
-    #[test]
-    fn the_pages_of_figure_9_have_the_recalls_of_400_shifted_halton_sets() {
-        let rows = include_str!("../data/fig9-cnn-reference.csv").lines().skip(1);
-        let verdicts = rows.enumerate().map(|(row, line)| {
-            let share = |place: usize| (place as f64 + 0.5) / 50.0;
-            ([share(row % 50), share(row / 50)], line.contains(",fail,"))
-        });
-        let with_network: Vec<Mark> = verdicts.collect();
-        let study = crate::scenario("pedestrian-crossing").unwrap().build().unwrap();
-        let trials = crate::sampling::grid(&study, 100, &indicatif::ProgressBar::hidden()).unwrap();
-        let without = crate::sampling::marks(&study, &trials).unwrap();
-        let pages = [
-            (with_network, [25, 50, 100], include_str!("../fig9-cnn.md")),
-            (without, [25, 100, 500], include_str!("../fig9.md")),
-        ];
-        for (map, sizes, page) in pages {
-            let found = sizes.map(|size| Recalls::on(&map, size));
-            let percent = |of: fn(&Recalls) -> f64| {
-                let [a, b, c] = found.each_ref().map(|recalls| format!("{:.0}", 100.0 * of(recalls)));
-                format!("{a}, {b} and {c} %")
-            };
-            let [a, b, c] = found.each_ref().map(|recalls| format!("{:.2}", recalls.better));
-            let said = [
-                format!("400 shifted Halton sets have median recalls of {}", percent(|recalls| recalls.halton)),
-                format!("400 random sets {}", percent(|recalls| recalls.random)),
-                format!("with a probability of {a}, {b} and {c}"),
-            ];
-            let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-            let missing: Vec<&String> = said.iter().filter(|said| !page.contains(said.as_str())).collect();
-            assert!(missing.is_empty(), "expected on the page: {missing:#?}");
         }
     }
 }

@@ -4,7 +4,7 @@
 //! both samplers, shows how much a sample tells: the share of the map that is right if every place is given the verdict
 //! of the nearest test. Random sampling has many seeds; the seed in the picture is a typical one.
 
-use crate::recovery::{Mark, Recalls, Recovery, failing, nearest_neighbour, recovery, straight_line};
+use crate::recovery::{Mark, Recovery, failing, nearest_neighbour, recovery, straight_line};
 use crate::{Done, logged, print, write};
 use indicatif::ProgressBar;
 use paracosm::analysis::statistics::quantile;
@@ -71,18 +71,7 @@ impl Comparison<'_> {
         let halton = panels.iter().find(|panel| panel.seed.is_none() && panel.log.trials().len() == self.most());
         let halton = halton.expect("Halton has a panel of every size");
         write_csv(&out.join("shape.csv"), &shape(self.map, &marks(self.study, halton.log.trials())?))?;
-        write_csv(&out.join("recalls.csv"), &self.recalls())?;
         print(&self.table(&summary))
-    }
-
-    /// Returns the recalls of many sets of each size.
-    fn recalls(&self) -> Vec<Vec<String>> {
-        let header = ["tests", "halton_median_recall", "random_median_recall", "probability_halton_is_larger"];
-        let row = |size: &usize| {
-            let Recalls { halton, random, better } = Recalls::on(self.map, *size);
-            [size.to_string()].into_iter().chain([halton, random, better].map(|x| format!("{x:.4}"))).collect()
-        };
-        [header.map(str::to_owned).to_vec()].into_iter().chain(self.sizes.iter().map(row)).collect()
     }
 
     fn panels(&self, bar: &ProgressBar) -> Result<Vec<Panel>, Error> {

@@ -1,8 +1,9 @@
 //! Measures how often strategies find the failure of random functions with decoys.
 //! `cargo run --release -p paracosm-generators --example families [FIRST [COUNT [STRATEGY..]]]`
 //!
-//! A run ends after 300 tests in batches of 16. Prints how many of the runs found the failure, and the median of
-//! their tests, where a run without a failure counts as 301.
+//! A run ends after 300 tests in batches of 16. Prints a row of CSV for each run, with the number of tests to the failure, which is empty if
+//! there is none. Says on standard error how many of the runs found the failure, and the median of their tests, where a run
+//! without a failure counts as 301.
 
 use paracosm_generators::functions::Function;
 use paracosm_generators::{Request, Strategy};
@@ -39,19 +40,18 @@ fn main() {
     let named: Vec<String> = words.collect();
     let named =
         if named.is_empty() { vec!["random".into(), "gp-cmaes".into(), "bayes".into(), "auto".into()] } else { named };
+    println!("strategy,function,tests");
     for name in named {
         let strategy = Strategy::all().find(|strategy| strategy.name() == name).expect("a strategy");
-        let runs = (first..first + count).into_par_iter().map(|number| {
-            let function = Function::random(number);
-            (tests_to_failure(&function, strategy, number), function)
-        });
-        let runs: Vec<(usize, Function)> = runs.collect();
-        let mut tests: Vec<usize> = runs.iter().map(|run| run.0).collect();
-        tests.sort_unstable();
-        let found = tests.iter().filter(|tests| **tests <= BUDGET).count();
-        println!("{name:<12} {found} of {count}, median {}", tests[tests.len() / 2]);
-        if std::env::var_os("EACH").is_some() {
-            runs.iter().for_each(|(tests, function)| println!("  {tests:>4} {}: {}", function.name, function.about));
+        let runs = (first..first + count).into_par_iter();
+        let runs: Vec<usize> =
+            runs.map(|number| tests_to_failure(&Function::random(number), strategy, number)).collect();
+        for (number, tests) in (first..).zip(&runs) {
+            println!("{name},{number},{}", if *tests <= BUDGET { tests.to_string() } else { String::new() });
         }
+        let mut sorted = runs;
+        sorted.sort_unstable();
+        let found = sorted.iter().filter(|tests| **tests <= BUDGET).count();
+        eprintln!("{name:<16} {found} of {count}, median {}", sorted[sorted.len() / 2]);
     }
 }
