@@ -32,7 +32,7 @@ const STRATEGIES: [Strategy; 15] = [
     Strategy::BEST,
 ];
 
-/// Most sizes have a shipped set with a low star discrepancy.
+/// Some sizes have a shipped set with a low star discrepancy.
 const BUDGETS: [usize; 6] = [20, 60, 100, 240, 500, 1000];
 
 const SEEDS: usize = 10;

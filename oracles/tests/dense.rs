@@ -79,6 +79,25 @@ fn a_crossing_that_rounds_to_the_instant_of_a_jump_leaves_the_jump_its_value() {
 }
 
 #[test]
+fn a_crossing_counts_however_near_to_a_sample_it_is() {
+    let steep = |rows: &[[f64; 2]]| {
+        let mut trace = Trace::new(0.1, vec!["x".to_owned(), "y".to_owned()]);
+        rows.iter().for_each(|row| trace.record(row));
+        trace.finish();
+        trace
+    };
+    let of = |text: &str, trace: &Trace| dense(text, trace).unwrap().robustness;
+    let found = of("always (x != 0)", &steep(&[[1.0, 0.0], [-1e9, 0.0]]));
+    assert!(found.abs() < 1e-6, "{found}");
+    let found = of("always (x != 0)", &steep(&[[1e9, 0.0], [-1.0, 0.0]]));
+    assert!(found.abs() < 1e-6, "{found}");
+    let found = of("always (x > 0 or y > 0)", &steep(&[[1.0, -3.0], [-1e9, 1e9]]));
+    assert!((found + 1.0).abs() < 1e-6, "{found}");
+    // A finite bound is not the same as none, however large it is.
+    assert_eq!(dense("always[0,1e308] (x > 0)", &steep(&[[1.0, 0.0]; 3])).unwrap().truth, Truth::Undecided);
+}
+
+#[test]
 fn windows_of_the_past_are_closed_where_they_reach_the_first_instant() {
     let mut falling = Trace::new(0.5, vec!["a".to_owned(), "b".to_owned()]);
     [[-1.0, 1.0], [1.0, 1.0], [1.0, 1.0]].iter().for_each(|row| falling.record(row));

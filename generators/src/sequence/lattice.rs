@@ -4,7 +4,8 @@
 //! with the least wraparound discrepancy (Hickernell, A generalized discrepancy and quadrature error bound, Math. Comp. 67, 1998) of two
 //! kinds: vectors of powers of one step (Korobov, Doklady Akademii Nauk SSSR 132, 1960), and the vector that is built component by component
 //! (Sloan, Reztsov, Component-by-component construction of good lattice rules, Math. Comp. 71, 2002). The powers of a step repeat if n has many divisors:
-//! with 60 points, the fifth component of each such vector equals the first one.
+//! with 60 points, the fifth component of each such vector equals the first one. A component may share a factor with n. Then fewer than n values
+//! of this coordinate differ.
 //!
 //! For a lattice, the double sum of the discrepancy is a single sum, so one vector takes O(n d) time. The measure is the classical criterion
 //! P_2 of lattices with weights.
@@ -36,7 +37,9 @@ fn build(dims: usize, seed: Option<u64>, deal: Deal) -> Result<Box<dyn Sequence>
         return Err(GeneratorError::SetLimit { strategy: Strategy::LATTICE.name(), points, dims });
     }
     let sizes = [0, deal.rows - 1].map(|row| deal.tests_of(row));
-    let generators = sizes.map(|size| generator(dims, size));
+    let first = generator(dims, sizes[0]);
+    let second = if sizes[1] == sizes[0] { first.clone() } else { generator(dims, sizes[1]) };
+    let generators = [first, second];
     Ok(Box::new(PerRow::new(deal, Lattice { sizes, generators, seed })))
 }
 
@@ -68,25 +71,35 @@ fn generator(dims: usize, size: u64) -> Vec<u64> {
         candidates(size, dims as u64).filter(|step| divisor(*step, size) == 1).map(|step| powers(dims, step, size));
     let powers = least(powers, |generator| sum(generator)).unwrap_or_else(|| vec![1; dims]);
     let built = by_components(dims, &kernel);
-    if sum(&built) < sum(&powers) { built } else { powers }
+    let rank = |generator: &[u64]| (repeats(generator, size), sum(generator));
+    if rank(&built) < rank(&powers) { built } else { powers }
 }
 
-/// Builds a vector. Each component gives the least discrepancy together with the components before it.
+/// Returns the number of components that an earlier component equals, up to a mirror image.
+fn repeats(generator: &[u64], size: u64) -> usize {
+    let folded: Vec<u64> =
+        generator.iter().map(|z| (z % size.max(1)).min(size.saturating_sub(z % size.max(1)))).collect();
+    (1..folded.len()).filter(|&i| folded[..i].contains(&folded[i])).count()
+}
+
+/// Builds a vector. Each component gives the least discrepancy together with the components before it. A component does not repeat an
+/// earlier one while others are left.
 fn by_components(dims: usize, kernel: &[f64]) -> Vec<u64> {
     let size = kernel.len() as u64;
     let mut generator = vec![1];
     let mut products = times(&vec![1.0; kernel.len()], 1, kernel);
     for _ in 1..dims {
         let sum = |z: &u64| -> f64 { times(&products, *z, kernel).iter().sum() };
-        let z = least(candidates(size, dims as u64), sum).unwrap_or(1);
+        let fresh = candidates(size, dims as u64).filter(|z| !generator.contains(z));
+        let z = least(fresh, sum).or_else(|| least(candidates(size, dims as u64), sum)).unwrap_or(1);
         products = times(&products, z, kernel);
         generator.push(z);
     }
     generator
 }
 
-/// Iterates over the components that are tried, of which each takes `per_candidate` times the number of points. The components z and
-/// n - z give mirror images, so half of them are enough.
+/// Iterates over the components that are tried. Each takes `per_candidate` times as many steps as there are points. The components z and n - z give
+/// mirror images, so half of them are enough.
 fn candidates(size: u64, per_candidate: u64) -> impl Iterator<Item = u64> {
     let half = (size / 2).max(1);
     let tries = (MOST_FACTORS / (size * per_candidate).max(1)).clamp(1, half);
@@ -155,7 +168,7 @@ mod tests {
 
     #[test]
     fn no_two_coordinates_are_the_same_if_the_number_of_points_has_many_divisors() {
-        for (dims, size) in [(5, 60), (5, 240), (7, 60), (10, 240), (5, 20)] {
+        for (dims, size) in [(5, 60), (5, 240), (7, 60), (10, 240), (5, 20), (7, 20), (10, 20)] {
             let points = lattice(dims, size);
             for axis in 0..dims {
                 for other in 0..axis {

@@ -2,7 +2,7 @@
 //!
 //! A search begins with a random Latin hypercube. It swaps the coordinates of two points on one axis, which keeps the hypercube a
 //! hypercube. It accepts swaps up to a threshold that falls to 0 (threshold accepting: Dueck, Scheuer, Journal of Computational Physics 90,
-//! 1990). The number of swaps depends on the size alone, so that the same request always has the same points.
+//! 1990). The number of swaps depends on the number of points, of coordinates and of rows alone, so that the same request always has the same points.
 
 use rand::Rng;
 use rand_pcg::Pcg64;
@@ -12,6 +12,9 @@ const MOST_DIFFERENCES: u64 = 1_000_000_000;
 
 /// The most swaps per coordinate of a set. More swaps hardly make a set better.
 const SWAPS: u64 = 500;
+
+/// The number of random swaps that decide where the threshold begins. With fewer swaps, there is no search.
+const FIRST: u64 = 64;
 
 /// A sum over pairs of points, which a search makes small.
 pub(super) trait Criterion {
@@ -71,8 +74,11 @@ pub(super) fn improve<C: Criterion>(coordinates: &mut [f64], dims: usize, rows: 
         return;
     }
     let tries = swaps(points as u64, dims as u64, rows);
+    if tries < FIRST {
+        return;
+    }
     // A higher threshold at the beginning loses time, and without a threshold the search ends too early.
-    let changes = (0..64).map(|_| Swap::random(points, dims, rng).change::<C>(coordinates).abs());
+    let changes = (0..FIRST).map(|_| Swap::random(points, dims, rng).change::<C>(coordinates).abs());
     let threshold = changes.fold(f64::INFINITY, f64::min);
     for i in 0..tries {
         let left = 1.0 - i as f64 / tries as f64;

@@ -1,7 +1,7 @@
 //! Straight lines between two instants, and the points at which they cross.
 
-/// The least time between a crossing and the instants around it, in units. Later sums round times by much less, so that an instant at which a
-/// function jumps never gets a crossing as a fourth breakpoint.
+/// The least time between a crossing and the instants around it, in units. A nearer crossing is moved, and keeps its value. Later sums round
+/// times by much less, so that an instant at which a function jumps never gets a crossing as a fourth breakpoint.
 const APART: f64 = 1e-8;
 
 /// Returns the value at an instant of the line through two points.
@@ -46,13 +46,20 @@ impl<const N: usize> Piece<N> {
             crossings[..count].sort_by(f64::total_cmp);
         }
         let mut last = from;
-        for share in &crossings[..count] {
-            let time = from + (to - from) * share;
-            if (time - last).abs() > APART && (to - time).abs() > APART {
-                let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
-                push(points, (time, join(values)));
-                last = time;
+        let apart = APART.copysign(to - from);
+        let has_room = (to - from).abs() > APART * (count + 1) as f64;
+        for (place, share) in crossings[..count].iter().enumerate() {
+            let mut time = from + (to - from) * share;
+            if has_room {
+                let ends = [last + apart, to - apart * (count - place) as f64];
+                time = time.clamp(ends[0].min(ends[1]), ends[0].max(ends[1]));
+            } else if time == last || time == to {
+                // After rounding, the crossing has no instant of its own.
+                continue;
             }
+            let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
+            push(points, (time, join(values)));
+            last = time;
         }
         push(points, (to, join(lines.map(|line| line.1))));
     }

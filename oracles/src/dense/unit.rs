@@ -1,4 +1,4 @@
-//! Counts time in a unit of which the sample period and the time bounds of a formula are whole multiples.
+//! Counts time in a unit. The sample period and the time bounds of a formula are whole multiples of the unit.
 //!
 //! A robustness jumps at sums of sample times and time bounds. In seconds, such sums are rounded, so that two jumps at the same instant could
 //! be parted: 0.1 + 0.2 is not 0.3 for a computer. Whole numbers are added exactly.
@@ -29,8 +29,9 @@ impl Unit {
         let mut bounds = Vec::new();
         formula.for_each_interval(&mut |interval| bounds.extend([interval.start, interval.end]));
         let most = MOST_UNITS / trace.len().max(1) as u64;
-        let parts = bounds.into_iter().filter_map(|bound| parts(bound / trace.dt(), most));
-        let per_period = parts.fold(1, |all, parts| {
+        let mut parts: Vec<u64> = bounds.into_iter().filter_map(|bound| parts(bound / trace.dt(), most)).collect();
+        parts.sort_unstable();
+        let per_period = parts.into_iter().fold(1, |all, parts| {
             let common = all / divisor(all, parts) * parts;
             if common <= most { common } else { all }
         });
@@ -44,7 +45,9 @@ impl Unit {
 
     /// Returns a time bound in units, which is a whole number wherever possible.
     pub fn of_seconds(self, seconds: f64) -> f64 {
-        let units = seconds / self.dt * self.per_period as f64;
+        // A finite bound stays finite.
+        let most = if seconds.is_finite() { f64::MAX } else { f64::INFINITY };
+        let units = (seconds / self.dt * self.per_period as f64).min(most);
         if is_near(units, units.round()) { units.round() } else { units }
     }
 
@@ -110,6 +113,8 @@ mod tests {
             ("always[0,0.123] once[0,0.07] (x > 0)", 0.01, 100, 10),
             // A bound that would need too many units keeps its rounding, and the other bounds do not suffer.
             ("always[0,3.14159265358979] (x > 0) and eventually[0,0.25] (x > 1)", 0.1, 100_000, 2),
+            // The bound with the small denominator counts, whatever stands first.
+            ("always[0,0.00039] (x > 0) and eventually[0,0.1] (x > 1)", 0.3, 1000, 3),
             ("always (x > 0)", 0.1, 100, 1),
         ] {
             let unit = unit(formula, dt, samples);

@@ -69,8 +69,9 @@ fn median(cell: &ComparisonCell, least: f64) -> String {
     let number = in_math(&three_digits(cell.median));
     let number = if cell.median == least { format!("\\mathbf{{{number}}}") } else { number };
     let differs = cell.versus.as_ref().is_some_and(|versus| versus.p_holm <= LEVEL);
-    if cell.median < cell.median_upper {
-        return format!("$[{number}, {}]$", in_math(&three_digits(cell.median_upper)));
+    let upper = three_digits(cell.median_upper);
+    if upper != three_digits(cell.median) {
+        return format!("$[{number}, {}]$", in_math(&upper));
     }
     format!("${number}{}$", if differs { "^{\\dagger}" } else { "" })
 }
