@@ -1,11 +1,12 @@
 //! Checks the tables of recalls on the pages of Figure 9: they say what the CSV of all sets says. If a table is old, the test prints it;
 //! UPDATE_GOLDEN=1 writes it into the page.
 
+mod page;
+
+use page::assert_tables;
 use paracosm::analysis::statistics::{bootstrap_interval, median_and_quartiles, vargha_delaney};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::Path;
-use std::{env, fs};
 
 const STRATEGIES: [&str; 5] = ["random", "halton", "sobol-owen", "lhs", "greedy"];
 
@@ -58,17 +59,6 @@ fn the_tables_of_the_pages_say_what_the_csv_says() {
         ("fig9-cnn.md", include_str!("../data/fig9-cnn-recalls.csv"), [25, 50, 100]),
     ];
     for (name, csv, sizes) in pages {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
-        let page = fs::read_to_string(&path).unwrap();
-        let (begin, end) = ("<!-- table: recalls -->\n\n", "\n<!-- end -->");
-        let from = page.find(begin).expect("the page has the mark") + begin.len();
-        let to = from + page[from..].find(end).unwrap();
-        let table = table(csv, sizes);
-        let new = format!("{}{table}{}", &page[..from], &page[to..]);
-        if env::var_os("UPDATE_GOLDEN").is_some_and(|update| update == "1") {
-            fs::write(&path, new).unwrap();
-        } else {
-            assert!(page == new, "{name} is old; with UPDATE_GOLDEN=1 the test writes this:\n{table}");
-        }
+        assert_tables(name, &[("recalls", table(csv, sizes))]);
     }
 }

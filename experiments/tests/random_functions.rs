@@ -1,9 +1,10 @@
 //! Checks the table of random functions with decoys on the page on strategies: it says what the CSV of all runs says. If it is old, the test
 //! prints it; UPDATE_GOLDEN=1 writes it into the page.
 
+mod page;
+
+use page::assert_tables;
 use std::fmt::Write;
-use std::path::Path;
-use std::{env, fs};
 
 const RUNS: &str = include_str!("../data/random-functions.csv");
 
@@ -43,17 +44,7 @@ fn table() -> String {
 
 #[test]
 fn the_table_of_the_page_says_what_the_csv_says() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("strategies.md");
-    let page = fs::read_to_string(&path).unwrap();
-    let (begin, end) = ("<!-- table: random-functions -->\n\n", "\n<!-- end -->");
-    let from = page.find(begin).expect("the page has the mark") + begin.len();
-    let to = from + page[from..].find(end).unwrap();
-    let new = format!("{}{}{}", &page[..from], table(), &page[to..]);
-    if env::var_os("UPDATE_GOLDEN").is_some_and(|update| update == "1") {
-        fs::write(&path, new).unwrap();
-    } else {
-        assert!(page == new, "the table of the page is old; with UPDATE_GOLDEN=1 the test writes this:\n{}", table());
-    }
+    assert_tables("strategies.md", &[("random-functions", table())]);
 }
 
 #[test]

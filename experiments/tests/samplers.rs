@@ -1,12 +1,15 @@
-//! Checks the page on samplers: its tables say what the CSV of all sets says. If a table is old, the test prints it; UPDATE_GOLDEN=1 writes it
+//! Checks the page on samplers: its tables say what the CSV of all sets says. If a table is old, UPDATE_GOLDEN=1 writes it
 //! into the page.
 
+mod page;
+
 use flate2::read::GzDecoder;
+use page::assert_tables;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::fs;
 use std::io::Read;
 use std::path::Path;
-use std::{env, fs};
 
 const DIMS: [u32; 5] = [2, 3, 5, 7, 10];
 
@@ -161,8 +164,6 @@ fn exactness(study: &Study) -> String {
 #[test]
 fn the_tables_of_the_page_say_what_the_csv_says() {
     let study = Study::read();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samplers.md");
-    let page = fs::read_to_string(&path).unwrap();
     let tables = [
         ("dispersion-100", medians(&study, "dispersion", 100)),
         ("dispersion-1000", medians(&study, "dispersion", 1000)),
@@ -174,18 +175,7 @@ fn the_tables_of_the_page_say_what_the_csv_says() {
         ("k-wise-1000", medians(&study, "k-wise-dispersion", 1000)),
         ("exactness", exactness(&study)),
     ];
-    let mut new = page.clone();
-    for (name, table) in &tables {
-        let (begin, end) = (format!("<!-- table: {name} -->\n\n"), "\n<!-- end -->");
-        let from = new.find(&begin).unwrap_or_else(|| panic!("the page has no mark {begin}")) + begin.len();
-        let to = from + new[from..].find(end).unwrap();
-        new.replace_range(from..to, table);
-    }
-    if env::var_os("UPDATE_GOLDEN").is_some_and(|update| update == "1") {
-        fs::write(&path, &new).unwrap();
-    } else {
-        assert!(page == new, "the tables of the page are old; with UPDATE_GOLDEN=1 the test writes these:\n{new}");
-    }
+    assert_tables("samplers.md", &tables);
 }
 
 #[test]

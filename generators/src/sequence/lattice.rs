@@ -62,6 +62,9 @@ impl RowSet for Lattice {
 
 /// Returns the better one of the best vector of powers and the vector that is built component by component.
 fn generator(dims: usize, size: u64) -> Vec<u64> {
+    if size < 2 {
+        return vec![1; dims];
+    }
     let kernel: Vec<f64> = (0..size).map(|i| ratio(i.into(), size.into())).map(|x| 1.5 - x * (1.0 - x)).collect();
     let ones = vec![1.0; kernel.len()];
     let sum = |generator: &[u64]| -> f64 {
@@ -77,8 +80,7 @@ fn generator(dims: usize, size: u64) -> Vec<u64> {
 
 /// Returns the number of components that an earlier component equals, up to a mirror image.
 fn repeats(generator: &[u64], size: u64) -> usize {
-    let folded: Vec<u64> =
-        generator.iter().map(|z| (z % size.max(1)).min(size.saturating_sub(z % size.max(1)))).collect();
+    let folded: Vec<u64> = generator.iter().map(|z| *z.min(&(size - z))).collect();
     (1..folded.len()).filter(|&i| folded[..i].contains(&folded[i])).count()
 }
 
@@ -101,8 +103,8 @@ fn by_components(dims: usize, kernel: &[f64]) -> Vec<u64> {
 /// Iterates over the components that are tried. Each takes `per_candidate` times as many steps as there are points. The components z and n - z give
 /// mirror images, so half of them are enough.
 fn candidates(size: u64, per_candidate: u64) -> impl Iterator<Item = u64> {
-    let half = (size / 2).max(1);
-    let tries = (MOST_FACTORS / (size * per_candidate).max(1)).clamp(1, half);
+    let half = size / 2;
+    let tries = (MOST_FACTORS / (size * per_candidate)).clamp(1, half);
     (0..tries).map(move |i| 1 + i * half / tries)
 }
 
@@ -114,7 +116,7 @@ fn least<T>(candidates: impl Iterator<Item = T>, sum: impl Fn(&T) -> f64) -> Opt
 
 /// The powers 0 to d - 1 of a step, modulo `size`.
 fn powers(dims: usize, step: u64, size: u64) -> Vec<u64> {
-    std::iter::successors(Some(1), |z| Some(z * step % size.max(1))).take(dims).collect()
+    std::iter::successors(Some(1), |z| Some(z * step % size)).take(dims).collect()
 }
 
 /// Multiplies the products of all points by the factors of a further component. The sum of the products of all components orders

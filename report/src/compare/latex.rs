@@ -31,7 +31,8 @@ fn table(text: &mut String, compared: &Compared, measure: Measure) {
         "\n\\begin{{table}}\n\\centering\n\\caption{{{}: median over {} seeds at $n$ points in $d$ dimensions, lowest in \
          bold; the fitted slope of $\\log$ median over $\\log n$; and at the largest $n$ the median ratio to {baseline} \
          with its 95\\,\\% bootstrap interval, the probability $A_{{12}}$ of being lower, and Wilcoxon's signed-rank $p$ \
-         after Holm's correction. Brackets enclose a median that is not known exactly. $\\dagger$: differs from {baseline} at that $n$ ($p \\le {LEVEL}$).}}\n\
+         after Holm's correction. Brackets enclose a median that is not known exactly. $\\dagger$: differs from \
+         {baseline} at that $n$ ($p \\le {LEVEL}$).}}\n\
          \\label{{tab:{}}}\n",
         escaped(&capitalised(&compared.label(measure))),
         comparison.seeds,
