@@ -75,7 +75,7 @@ fn three(value: f64) -> String {
     if value < 1e-3 {
         return format!("{value:.2e}");
     }
-    let digits = 2 - value.log10().floor() as i32;
+    let digits = 2 - libm::log10(value).floor() as i32;
     format!("{value:.*}", digits.clamp(0, 12) as usize)
 }
 

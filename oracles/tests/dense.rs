@@ -274,6 +274,24 @@ proptest! {
 }
 
 #[test]
+fn moved_crossings_change_no_value_beyond_rounding() {
+    let signals = ["x", "y", "z"].map(str::to_owned).to_vec();
+    let mut trace = Trace::new(1.0, signals);
+    for row in [[-1.0, 3.0, 3.0], [2.0, 2.0, -1.0], [0.0, -2.0, 3.0], [0.0, 0.0, 0.0]] {
+        trace.record(&row);
+    }
+    trace.finish();
+    let text = "((y < 0) release[0,0.75] ((max(abs(x), y) == 1) since[0,0.75] (z > x * 0.5))) release[0.5,1.5] \
+                (once[0,0.5] (x > z * 0.5) and not (((x < 0) since[0,0] (y < 0.5)) or not ((x < 0) since[0,0] (y > x * 0.5))))";
+    let mut cut = Trace::new(trace.dt(), trace.signals().to_vec());
+    trace.rows().take(3).for_each(|row| cut.record(row));
+    for trace in [&trace, &cut] {
+        let found = dense(text, trace).unwrap();
+        assert!((found.robustness + 0.125).abs() < 1e-10, "{found:?}");
+    }
+}
+
+#[test]
 fn where_one_rises_as_another_falls_at_one_instant_nothing_between_is_seen() {
     let mut trace = Trace::new(1.0, vec!["x".into(), "y".into(), "z".into()]);
     (0..3).for_each(|_| trace.record(&[0.0, 1.0, 0.0]));

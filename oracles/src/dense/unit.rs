@@ -13,6 +13,10 @@ const ROUNDING: f64 = 1e-12;
 /// by too much.
 const MOST_UNITS: u64 = 10_000_000;
 
+/// The number of units in a short trace, at least half of it. A crossing near an instant is moved by a share of a unit, so that small units keep
+/// the values of a function exact. In a trace of this length, rounded sums of times are off by less than a hundredth of the move.
+const FINE_UNITS: u64 = 1 << 20;
+
 /// A unit of time, which is the sample period or a whole part of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unit {
@@ -35,7 +39,9 @@ impl Unit {
             let common = all / divisor(all, parts) * parts;
             if common <= most { common } else { all }
         });
-        Self { dt: trace.dt(), per_period }
+        // A power of two changes no rounding.
+        let finer = FINE_UNITS / (per_period * trace.len().max(1) as u64);
+        Self { dt: trace.dt(), per_period: per_period << finer.max(1).ilog2() }
     }
 
     /// Returns the number of units in a number of sample periods.
@@ -118,11 +124,16 @@ mod tests {
             ("always (x > 0)", 0.1, 100, 1),
         ] {
             let unit = unit(formula, dt, samples);
-            assert_eq!(unit.per_period, per_period, "{formula}");
+            let finer = unit.per_period / per_period;
+            assert_eq!(unit.per_period, finer * per_period, "{formula}");
+            assert!(finer.is_power_of_two(), "{formula}");
             assert_eq!(unit.to_seconds(unit.of_ticks(7)), 7.0 * dt);
+            let units = unit.per_period * samples as u64;
+            assert!((FINE_UNITS / 2..=MOST_UNITS).contains(&units), "{formula}: {units}");
         }
         let unit = unit("always[0.05,0.3] (x > 0)", 0.1, 10);
-        assert_eq!(unit.of_interval(Interval::from(0.05..=0.3)), Interval::from(1.0..=6.0));
-        assert_eq!(unit.of_interval(Interval::from(0.15..)), Interval::from(3.0..));
+        let half = unit.of_ticks(1) / 2.0;
+        assert_eq!(unit.of_interval(Interval::from(0.05..=0.3)), Interval::from(half..=6.0 * half));
+        assert_eq!(unit.of_interval(Interval::from(0.15..)), Interval::from(3.0 * half..));
     }
 }
