@@ -1,11 +1,10 @@
 //! Runs the studies of the paper and our own, each by its name.
 //!
-//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints its findings. One of the
-//! studies tests a system, which can also be tested from the command line.
+//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints its findings. Systems of a benchmark
+//! can be tested from the command line.
 
 mod alks;
 mod audit;
-mod automatic_transmission;
 mod boundary;
 #[cfg(feature = "neural")]
 mod cloning;
@@ -27,8 +26,7 @@ mod recovery;
 mod saliency;
 mod samplers;
 mod sampling;
-mod system;
-mod transmission;
+mod systems;
 #[cfg(feature = "neural")]
 mod vision;
 
@@ -88,12 +86,6 @@ const STUDIES: &[Study] = &[
         about: "whether suites of even strategies kill more mutants than random suites, in all scenarios",
         time: "1 h",
         run: audit::run_strategies,
-    },
-    Study {
-        name: "automatic-transmission",
-        about: "after how many simulations each strategy falsifies a model of an automatic transmission",
-        time: "1 min",
-        run: automatic_transmission::run,
     },
     Study {
         name: "boundary",
@@ -248,8 +240,11 @@ const STUDIES: &[Study] = &[
 struct Arguments {
     /// The name of the study; `list` lists all; `system` answers tests from standard input, as a system under test
     name: String,
-    /// The system that `system` runs: `automatic-transmission`
+    /// The system that `system` runs, such as `chasing-cars`
     system: Option<String>,
+    /// Let the system answer with the robustness of a formula, and not with a trace
+    #[arg(long, value_name = "FORMULA", requires = "system")]
+    spec: Option<String>,
     /// The folder to write to [default: experiments/out/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -274,12 +269,9 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Done {
     match (arguments.name.as_str(), arguments.system.as_deref()) {
-        ("system", Some(system::NAME)) => return system::serve(),
-        ("system", Some(other)) => {
-            return Err(format!("no system is called `{other}`, expected `{}`", system::NAME).into());
-        }
+        ("system", Some(name)) => return systems::serve::serve(name, arguments.spec.as_deref()),
         ("system", None) => {
-            return Err(format!("`system` needs the name of a system, expected `{}`", system::NAME).into());
+            return Err(format!("`system` needs the name of a system: {}", systems::serve::listed()).into());
         }
         (_, Some(more)) => {
             return Err(

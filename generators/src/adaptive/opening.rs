@@ -12,7 +12,7 @@
 //! parameters, and failures may lie at the last levels. The opening takes at most a third of the budget.
 //!
 //! Signals count as one parameter here too: many points in many coordinates tell a search less than the tests that
-//! they take are worth (experiments/automatic-transmission.md). Halton points that break a constraint on continuous parameters
+//! they take are worth (docs/decisions/040). Halton points that break a constraint on continuous parameters
 //! are passed over.
 
 use crate::{
