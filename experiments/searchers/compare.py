@@ -2,7 +2,8 @@
 
 Usage: python compare.py PROGRAM OUT.csv [--seeds N] [--budget N] [--search NAME]... [--requirement NAME]... [--jobs N]
 
-PROGRAM is `target/release/paracosm-experiments`. A run without a failure has an empty entry. Runs that OUT.csv has already are not made again.
+PROGRAM is `target/release/paracosm-experiments`. A run without a failure has an empty entry. Runs that OUT.csv has already, with the same budget, are not
+made again: remove the file if a system or a requirement has changed. Slow searches run only if they are named.
 """
 
 import argparse
@@ -16,9 +17,9 @@ for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(threads, "1")
 
 from problems import Ended, Requirement, Run, System, requirements
-from searchers import SEARCHES
+from searchers import SEARCHES, SLOW
 
-COLUMNS = ["requirement", "search", "seed", "tests"]
+COLUMNS = ["requirement", "search", "seed", "budget", "tests"]
 
 
 def made(program: Path, requirement: Requirement, search: str, seed: int, budget: int) -> tuple[str, str, int, int | None, float]:
@@ -47,13 +48,13 @@ def main() -> None:
     given = arguments.parse_args()
     known = set()
     if given.out.exists():
-        known = {(row["requirement"], row["search"], int(row["seed"])) for row in csv.DictReader(given.out.open())}
+        known = {(row["requirement"], row["search"], int(row["seed"])) for row in rows(given.out) if row["budget"] == str(given.budget)}
     else:
         given.out.write_text(",".join(COLUMNS) + "\n")
     chosen = [one for one in requirements() if not given.requirement or one.name in given.requirement]
     runs = [
         (one, search, seed)
-        for search in given.search or SEARCHES
+        for search in given.search or [name for name in SEARCHES if name not in SLOW]
         for one in chosen
         for seed in range(given.seeds)
         if (one.name, search, seed) not in known
@@ -63,7 +64,7 @@ def main() -> None:
         futures = [pool.submit(made, given.program, *run, given.budget) for run in runs]
         for count, future in enumerate(as_completed(futures), 1):
             name, search, seed, tests, seconds = future.result()
-            out.write(f"{name},{search},{seed},{'' if tests is None else tests}\n")
+            out.write(f"{name},{search},{seed},{given.budget},{'' if tests is None else tests}\n")
             out.flush()
             spent[search] = spent.get(search, 0.0) + seconds
             if count % 100 == 0 or count == len(runs):
@@ -71,13 +72,21 @@ def main() -> None:
     sort(given.out)
 
 
+def rows(path: Path) -> list[dict[str, str]]:
+    """The runs of a file, without a last line that a crash has cut short."""
+    lines = path.read_text().splitlines(keepends=True)
+    whole = lines if not lines or lines[-1].endswith("\n") else lines[:-1]
+    if len(whole) < len(lines):
+        path.write_text("".join(whole))
+    return list(csv.DictReader(whole))
+
+
 def sort(path: Path) -> None:
     """Puts the runs into the order of requirements, searches and seeds."""
     order = {one.name: place for place, one in enumerate(requirements())}
     names = list(SEARCHES)
-    rows = list(csv.DictReader(path.open()))
-    rows.sort(key=lambda row: (order[row["requirement"]], names.index(row["search"]), int(row["seed"])))
-    lines = [",".join(COLUMNS)] + [",".join(row[column] for column in COLUMNS) for row in rows]
+    runs = sorted(rows(path), key=lambda row: (order[row["requirement"]], names.index(row["search"]), int(row["seed"])))
+    lines = [",".join(COLUMNS)] + [",".join(row[column] for column in COLUMNS) for row in runs]
     path.with_suffix(".new").write_text("\n".join(lines) + "\n")
     path.with_suffix(".new").replace(path)
 

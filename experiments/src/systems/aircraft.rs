@@ -1,10 +1,10 @@
 //! The benchmark F16: a fighter that pulls up before it hits the ground. The inputs are its roll, pitch and yaw at first.
 //!
 //! Heidlauf, Collins, Bolender and Bak, "Verification challenges in F-16 ground collision avoidance and other automated maneuvers", ARCH 2018. The
-//! equations of motion and the engine are those of Stevens and Lewis, "Aircraft control and simulation"; the aerodynamics are the polynomials of
+//! equations of motion and the engine come from Stevens and Lewis, "Aircraft control and simulation"; the aerodynamics are the polynomials of
 //! Morelli, "Global nonlinear parametric modeling with application to F-16 aerodynamics", ACC 1998, with the damping terms of Stevens and Lewis added,
-//! as in the benchmark. The controllers and all constants are those of the benchmark; it begins at 2,330 ft and 540 ft/s in the mode that rolls
-//! the wings level.
+//! as in the benchmark. The controllers and all constants come from the benchmark. A run begins at 2,330 ft and 540 ft/s, in the mode that rolls the
+//! wings level.
 //!
 //! Units are feet, seconds, slugs and radians; control surfaces are in degrees. The integration is by classical Runge-Kutta with steps of 1/240 s,
 //! where the benchmark has an adaptive method; both decide on modes 30 times in a second.

@@ -10,9 +10,9 @@
 //! | a car that keeps | `dv/dt = 0`, `dx/dt = v`, until the gap is at least 15: then it chases; or at most 5: then it brakes |
 //! | a car that brakes | `dv/dt = -v`, `dx/dt = -v`, until the gap is at least 20: then it chases |
 //!
-//! The cars drive towards negative `x`. The gap of car i is `x_i - x_(i-1)`; it is 10 at first. All cars stand at first, and the others keep. A car that
-//! keeps moves away from the car before it at its own speed, as in the benchmark. The modes change at the ends of steps of 0.01 s, while
-//! Simulink looks for the instant itself; within a step the motion of the followers is exact.
+//! The cars drive towards negative `x`, except that a car that keeps moves away from the car before it at its own speed, as in the benchmark. The
+//! gap of car i is `x_i - x_(i-1)`; it is 10 at first. All cars stand at first, and the others keep. The modes change at the ends of steps of 0.01 s,
+//! while Simulink looks for the instant itself; within a step the motion of the followers is exact.
 
 use super::{Input, Recorder};
 

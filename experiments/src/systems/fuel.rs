@@ -11,7 +11,7 @@
 //! | measured air per fuel | the quotient, late by a variable transport delay, then through two lags of 0.1 s and 0.02 s |
 //! | controller | each 10 ms, in single precision: an estimate of `p`, feed-forward, and a PI feedback after 10 s outside of power mode |
 //!
-//! The sensor does not fail before the end. With an open throttle the pressure follows a hundred times faster than a step of 5 ms allows, so that an
+//! The sensor does not fail before the end. With an open throttle the pressure follows much faster than a step of 5 ms allows, so that an
 //! explicit method would jump around the solution. The pressure is therefore integrated by a second-order, L-stable method (R. Alexander,
 //! "Diagonally implicit Runge-Kutta methods for stiff O.D.E.'s", 1977), the throttle exactly, and the rest by classical Runge-Kutta.
 
@@ -78,6 +78,7 @@ pub fn run(inputs: &[Input], record: &mut Recorder) {
             record(&[pedal, (state[SENSOR] - reference) / reference, f64::from(u8::from(!controller.is_open_loop))]);
         }
         let fuel = f64::from(controller.fuel);
+        // As in the model, what enters the pipe is a straight line from step to step, also where the fuel jumps.
         line.push(state[TRANSPORT], Mixture::of(state[PUDDLE], manifold.pressure, omega, fuel).ratio);
         let next = manifold.after(pedal, omega, &decay);
         let mut share = 0.0;
@@ -292,9 +293,9 @@ impl Controller {
         } else {
             let error = measured - self.reference;
             self.integral += 0.14 * error * 0.01;
-            (1.0 + 0.04 * error + self.integral).max(0.0)
+            (1.0 + (0.04 * error + self.integral)).max(0.0)
         };
-        self.fuel = (feedback * out / self.reference).clamp(0.13, 1.66);
+        self.fuel = (feedback * (out / self.reference)).clamp(0.13, 1.66);
     }
 }
 
