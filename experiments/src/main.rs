@@ -20,6 +20,7 @@ mod fig10c;
 mod fig9;
 #[cfg(feature = "neural")]
 mod fig9_cnn;
+mod propositions;
 mod recalls;
 mod recovery;
 #[cfg(feature = "neural")]
@@ -131,6 +132,12 @@ const STUDIES: &[Study] = &[
         about: "how much 200 sets of each of five strategies tell about the failures of both maps of Figure 9",
         time: "20 s",
         run: recalls::run,
+    },
+    Study {
+        name: "propositions",
+        about: "the paper's propositions on tests: random families that cover, and the dispersion of Halton's sequence",
+        time: "20 s",
+        run: propositions::run,
     },
     Study {
         name: "samplers",
