@@ -43,7 +43,7 @@ def main() -> None:
     arguments.add_argument("--seeds", type=int, default=30)
     arguments.add_argument("--budget", type=int, default=300)
     arguments.add_argument("--search", action="append", choices=list(SEARCHES))
-    arguments.add_argument("--requirement", action="append")
+    arguments.add_argument("--requirement", action="append", choices=[one.name for one in requirements()])
     arguments.add_argument("--jobs", type=int, default=os.cpu_count())
     given = arguments.parse_args()
     known = set()

@@ -136,7 +136,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "propositions",
         about: "the paper's propositions on tests: random families that cover, and the dispersion of Halton's sequence",
-        time: "20 s",
+        time: "3 s",
         run: propositions::run,
     },
     Study {

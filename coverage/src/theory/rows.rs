@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 /// number is `2^k (k ln N - ln delta)`, not rounded.
 ///
 /// The formula comes from `ln(1 - 2^-k) <= -2^-k` and `C(N,k) 2^k <= N^k`. The second inequality does not hold for
-/// small `N`: at `N = k = 1`, `delta = 0.9` the formula asks for 0.21, and one row cannot hold both values. Use
+/// every `N` if `k` is below 4, and the slack of the first inequality often makes up for this. Not always: at
+/// `N = k = 1`, `delta = 0.9` the formula asks for 0.21, and one row cannot hold both values. Use
 /// [`RandomRows::family_size`] for a number that is always sufficient.
 pub fn proposition_3_2(parameters: usize, k: usize, delta: f64) -> f64 {
     let k = k as f64;

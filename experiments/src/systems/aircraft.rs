@@ -62,7 +62,7 @@ pub fn run(inputs: &[Input], record: &mut Recorder) {
         if step % STEPS_PER_SAMPLE == 0 {
             record(&[state[ALTITUDE], state[PHI], state[THETA], f64::from(autopilot.mode as u8)]);
         }
-        state = advance(state, STEP, |state| slope(&state, autopilot.commands(&state)));
+        state = advance(state, STEP, |_, state| slope(&state, autopilot.commands(&state)));
     }
 }
 

@@ -80,7 +80,7 @@ pub fn run(inputs: &[Input], record: &mut Recorder) {
             before = x;
         }
         let [throttle, brake] = [&inputs[0], &inputs[1]].map(|input| input.at(step, STEPS));
-        first = super::advance(first, STEP, |[_, v]| [v, -throttle - brake * v]);
+        first = super::advance(first, STEP, |_, [_, v]| [v, -throttle - brake * v]);
         followers.iter_mut().for_each(|car| car.advance(decay));
     }
 }

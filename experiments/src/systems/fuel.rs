@@ -81,25 +81,12 @@ pub fn run(inputs: &[Input], record: &mut Recorder) {
         // As in the model, what enters the pipe is a straight line from step to step, also where the fuel jumps.
         line.push(state[TRANSPORT], Mixture::of(state[PUDDLE], manifold.pressure, omega, fuel).ratio);
         let next = manifold.after(pedal, omega, &decay);
-        let mut share = 0.0;
-        let pressures = [manifold.pressure, next.pressure];
         let late = &mut line;
-        // The stages of a step are at its begin, twice in its middle, and at its end.
-        state = advance(state, STEP, |state| {
-            let pressure = pressures[0] + (pressures[1] - pressures[0]) * share_of_stage(&mut share);
+        state = advance(state, STEP, |share, state| {
+            let pressure = manifold.pressure + (next.pressure - manifold.pressure) * share;
             slope(&state, pressure, omega, fuel, late)
         });
         manifold = next;
-    }
-}
-
-/// Returns the share of the step at which a stage of the Runge-Kutta method lies, and goes on to the next stage.
-fn share_of_stage(stage: &mut f64) -> f64 {
-    *stage += 1.0;
-    match *stage {
-        1.0 => 0.0,
-        4.0 => 1.0,
-        _ => 0.5,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Benchmarks of falsification tools, as systems that `paracosm-fuzz --system` and the study of searches test.
 //!
-//! The benchmarks are those of the falsification category of ARCH-COMP, the yearly comparison of tools. Each model is written from the published equations
-//! and tables; its module says what differs from the Simulink model. The file `systems/requirements.toml` has the requirements.
+//! The falsification category of ARCH-COMP, a yearly comparison of tools, has these benchmarks. Each model is written from the published equations
+//! and tables. Its module says how it differs from the published model. The file `systems/requirements.toml` has the requirements.
 
 pub mod serve;
 
@@ -106,13 +106,13 @@ impl Input {
     }
 }
 
-/// Advances a state by a step of the classical Runge-Kutta method.
-fn advance<const N: usize>(from: [f64; N], step: f64, mut slope: impl FnMut([f64; N]) -> [f64; N]) -> [f64; N] {
+/// Advances a state by a step of the classical Runge-Kutta method. `slope` gets the share of the step that has passed, and the state.
+fn advance<const N: usize>(from: [f64; N], step: f64, mut slope: impl FnMut(f64, [f64; N]) -> [f64; N]) -> [f64; N] {
     let after = |slope: &[f64; N], time: f64| std::array::from_fn(|i| from[i] + slope[i] * time);
-    let a = slope(from);
-    let b = slope(after(&a, step / 2.0));
-    let c = slope(after(&b, step / 2.0));
-    let d = slope(after(&c, step));
+    let a = slope(0.0, from);
+    let b = slope(0.5, after(&a, step / 2.0));
+    let c = slope(0.5, after(&b, step / 2.0));
+    let d = slope(1.0, after(&c, step));
     std::array::from_fn(|i| from[i] + step / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
 }
 

@@ -108,7 +108,7 @@ pub fn run(inputs: &[Input], record: &mut Recorder) {
             record(&[car.speed(), car.state[0], (car.gear + 1) as f64]);
         }
         let ratio = GEARS[car.gear] * FINAL_DRIVE;
-        car.state = super::advance(car.state, STEP, |state| slope(state, ratio, throttle, brake));
+        car.state = super::advance(car.state, STEP, |_, state| slope(state, ratio, throttle, brake));
         car.state[0] = car.state[0].clamp(600.0, 6000.0);
     }
 }
