@@ -61,8 +61,8 @@ pub(crate) fn run(out: &Path, bar: &ProgressBar) -> Done {
         }
     }
     bar.finish_and_clear();
-    write_samples(&out.join("boundary.csv"), &samples)?;
     let passing = map.robustness.iter().filter(|robustness| !robustness.is_sign_negative()).count();
+    write_samples(&out.join("boundary.csv"), &samples, passing as f64 / MAP as f64)?;
     print(&format!("{}always \"passes\": {:.3}\n", table(&samples), passing as f64 / MAP as f64))
 }
 
@@ -111,8 +111,10 @@ fn sample(strategy: Strategy, seed: u64, tests: &Tests, map: &Tests) -> Result<S
     Ok(Sample { strategy, seed, tests: tests.points.len(), failures, nearest, model, brier, sure, sure_right })
 }
 
-fn write_samples(path: &Path, samples: &[Sample]) -> Done {
+/// Writes a row for each sample, after a row for the prediction that all tests pass.
+fn write_samples(path: &Path, samples: &[Sample], passing: f64) -> Done {
     let mut text = "strategy,seed,tests,failures,nearest,model,brier,sure,sure_right\n".to_owned();
+    text += &format!("none,,0,0,{passing},{passing},,,\n");
     for Sample { strategy, seed, tests, failures, nearest, model, brier, sure, sure_right } in samples {
         text += &format!("{strategy},{seed},{tests},{failures},{nearest},{model},{brier},{sure},{sure_right}\n");
     }

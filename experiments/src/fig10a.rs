@@ -10,7 +10,6 @@ use crate::cloning::{FOLLOW, trials};
 use crate::{Done, logged, print, scenario, write};
 use indicatif::ProgressBar;
 use paracosm::Trial;
-use paracosm::report::{FailureMap, Picture, Tints};
 use paracosm::space::Value;
 use std::path::Path;
 
@@ -30,18 +29,6 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     bar.finish_and_clear();
     let collided: Vec<bool> = trials.iter().map(|trial| trial.violates("no-collision")).collect();
     let covered: Vec<f64> = trials.iter().map(travelled).collect();
-
-    let mut map = FailureMap::of(&log).expect("fog and light are open");
-    map.title = "Figure 10a: a cloned driver behind a slow leader".to_owned();
-    map.note = format!(
-        "{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {EXAMINED} tests pass"
-    );
-    let (least, most) = covered.iter().fold((f64::INFINITY, 0.0_f64), |(lo, hi), &d| (lo.min(d), hi.max(d)));
-    let range = (10.0 * (0.1 * least).floor(), 10.0 * (0.1 * most).ceil());
-    map.tints = Some(Tints { label: "distance covered (m)".to_owned(), range, values: covered.clone() });
-    let picture = Picture::of(map);
-    write(&out.join("fig10a.svg"), picture.svg()?)?;
-    write(&out.join("fig10a.png"), picture.png()?)?;
 
     let mut rows = vec!["fog,light,travelled,collided,verdict,violated".to_owned()];
     for ((trial, covered), collided) in trials.iter().zip(&covered).zip(&collided) {

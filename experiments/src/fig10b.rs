@@ -1,15 +1,14 @@
 //! The paper's Figure 10b: driving round a loop of T-intersections with right turns only, in more and more fog.
 //!
-//! A network that was taught without fog drives until it runs into something, or for 200 s. The upper chart also shows
-//! when the network left its way or stood still for too long, because it may do either without a collision. The lower
-//! chart shows how the network steers in low, medium and high fog.
+//! A network that was taught without fog drives until it runs into something, or for 200 s. The study also notes
+//! when the network left its way or stood still for too long, because it may do either without a collision, and how the
+//! network steers in low, medium and high fog.
 
 use crate::cloning::LOOP;
 use crate::{Done, print, scenario, write};
 use indicatif::ProgressBar;
 use paracosm::campaign::{Problem, Worker};
 use paracosm::oracles::{Trace, Verdict};
-use paracosm::report::{Axis, Lines, Picture};
 use paracosm::space::{Value, Values};
 use rayon::prelude::*;
 use std::path::Path;
@@ -20,9 +19,9 @@ use thiserror::Error;
 const TESTS: usize = 21;
 /// Seconds after which a test is over.
 const TIME_OUT: f64 = 200.0;
-/// The fogs for which the steering is shown.
-const SHOWN: [(&str, f64); 4] = [("no fog", 0.0), ("low, 0.2", 0.2), ("medium, 0.35", 0.35), ("high, 0.8", 0.8)];
-/// The number of seconds for which the steering is shown.
+/// The fogs for which the steering is written: none, low, medium and high.
+const SHOWN: [f64; 4] = [0.0, 0.2, 0.35, 0.8];
+/// The number of seconds for which the steering is written.
 const SECONDS: f64 = 20.0;
 /// The speed of the car in m/s.
 const SPEED: f64 = 8.0;
@@ -76,25 +75,23 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         .collect::<Result<_, Undriven>>()?;
     bar.finish_and_clear();
 
-    let picture = Picture::of_lines(vec![times(&drives), steering(&drives)]);
-    write(&out.join("fig10b.svg"), picture.svg()?)?;
-    write(&out.join("fig10b.png"), picture.png()?)?;
     let mut rows =
         vec!["fog,verdict,seconds_to_collision,seconds_to_departure,seconds_to_standstill,travelled".to_owned()];
     let mut over_time = vec!["fog,time,steering,speed".to_owned()];
     for Drive { fog, verdict, collision, departure, standstill, travelled, steering } in &drives {
         rows.push(format!("{fog},{verdict},{collision:.2},{departure:.2},{standstill:.2},{travelled:.1}"));
-        let lines = steering.iter().map(|[time, turned, speed]| format!("{fog},{time:.2},{turned},{speed}"));
+        let early = steering.iter().filter(|[time, ..]| *time <= SECONDS);
+        let lines = early.map(|[time, turned, speed]| format!("{fog},{time:.2},{turned:.4},{speed:.3}"));
         over_time.extend(lines.filter(|_| shown(*fog)));
     }
     let table = rows.join("\n") + "\n";
     write(&out.join("fig10b.csv"), &table)?;
-    write(&out.join("steering.csv"), over_time.join("\n") + "\n")?;
+    write(&out.join("fig10b-steering.csv"), over_time.join("\n") + "\n")?;
     print(&table)
 }
 
 fn shown(fog: f64) -> bool {
-    SHOWN.iter().any(|shown| (shown.1 - fog).abs() < 1e-9)
+    SHOWN.iter().any(|shown| (shown - fog).abs() < 1e-9)
 }
 
 fn drive(worker: &mut Worker<'_>, index: usize, fog: f64) -> Result<Drive, Undriven> {
@@ -116,41 +113,4 @@ fn drive(worker: &mut Worker<'_>, index: usize, fog: f64) -> Result<Drive, Undri
 
 fn time(trace: &Trace, tick: usize) -> f64 {
     tick as f64 * trace.dt()
-}
-
-fn axis(label: &str, range: (f64, f64)) -> Axis {
-    Axis { label: label.to_owned(), range }
-}
-
-fn times(drives: &[Drive]) -> Lines {
-    let curve = |name: &str, of: fn(&Drive) -> f64| {
-        (name.to_owned(), drives.iter().map(|drive| (drive.fog, of(drive))).collect())
-    };
-    Lines {
-        title: "Figure 10b: round the loop in fog".to_owned(),
-        note: format!("taught without fog; a test is over after {TIME_OUT} s"),
-        x: axis("fog", (0.0, 1.0)),
-        y: axis("time [s]", (0.0, TIME_OUT)),
-        curves: vec![
-            curve("until the first collision", |drive| drive.collision),
-            curve("until it is 2 m off its way", |drive| drive.departure),
-            curve("until it has stood for 10 s", |drive| drive.standstill),
-        ],
-    }
-}
-
-fn steering(drives: &[Drive]) -> Lines {
-    let curve = |(name, fog): (&str, f64)| {
-        let drive = drives.iter().find(|drive| (drive.fog - fog).abs() < 1e-9).expect("it is one of the tests");
-        let points = drive.steering.iter().map(|[time, turned, _]| (*time, *turned));
-        (name.to_owned(), points.filter(|point| point.0 <= SECONDS).collect())
-    };
-    Lines {
-        title: "How it steers".to_owned(),
-        note: "share of the wheels' full turn, negative to the right; a curve ends where the car runs into something"
-            .to_owned(),
-        x: axis("time [s]", (0.0, SECONDS)),
-        y: axis("steering", (-1.0, 1.0)),
-        curves: SHOWN.into_iter().map(curve).collect(),
-    }
 }

@@ -19,7 +19,7 @@ pub const SIDE: usize = 100;
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let study = scenario("pedestrian-crossing")?.build()?;
     bar.set_length((SIDE * SIDE) as u64);
-    let map = marks(&study, &reference_map(&study, SIDE, out, bar)?)?;
+    let map = marks(&study, &reference_map(&study, SIDE, out, "fig9", bar)?)?;
     let comparison = Comparison { study: &study, sizes: &SIZES, seeds: SEEDS, map: &map };
     bar.inc_length(comparison.tests() as u64);
     comparison.run(out, "fig9", bar)

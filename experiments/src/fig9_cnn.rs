@@ -30,7 +30,7 @@ fn study() -> Result<Study, paracosm::Error> {
 /// Makes the reference map and the maps of the other drivers, and writes them to a folder.
 pub fn reference(out: &Path, bar: &ProgressBar) -> Done {
     bar.set_length((SIDE * SIDE * (1 + OTHERS.len())) as u64);
-    let map = reference_map(&study()?, SIDE, out, bar)?;
+    let map = reference_map(&study()?, SIDE, out, "fig9-cnn", bar)?;
     let failing = |trials: &[Trial]| trials.iter().map(Trial::is_failure).collect::<Vec<bool>>();
     let network = failing(&map);
     let total = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
@@ -48,7 +48,7 @@ pub fn reference(out: &Path, bar: &ProgressBar) -> Done {
         let values = trial.test.iter().map(|(_, value)| value.to_string());
         values.chain(columns.iter().map(|fails| fails[i].to_string())).collect::<Vec<_>>().join(",")
     }));
-    write(&out.join("other-drivers.csv"), rows.join("\n") + "\n")?;
+    write(&out.join("fig9-cnn-drivers.csv"), rows.join("\n") + "\n")?;
     print(&text)
 }
 

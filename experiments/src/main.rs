@@ -7,6 +7,8 @@ mod alks;
 mod audit;
 mod boundary;
 #[cfg(feature = "neural")]
+mod braked;
+#[cfg(feature = "neural")]
 mod cloning;
 #[cfg(feature = "neural")]
 mod crossing;
@@ -20,6 +22,8 @@ mod fig10c;
 mod fig9;
 #[cfg(feature = "neural")]
 mod fig9_cnn;
+mod fig9_sides;
+mod figures;
 mod propositions;
 mod recalls;
 mod recovery;
@@ -27,6 +31,7 @@ mod recovery;
 mod saliency;
 mod samplers;
 mod sampling;
+mod searches;
 mod systems;
 #[cfg(feature = "neural")]
 mod vision;
@@ -128,16 +133,34 @@ const STUDIES: &[Study] = &[
         run: fig9::run,
     },
     Study {
+        name: "fig9-sides",
+        about: "the pedestrian study of Figure 9 from both sides, with an acceleration, and with other noise of the sensor",
+        time: "30 s",
+        run: fig9_sides::run,
+    },
+    Study {
         name: "fig9-recalls",
         about: "how much 200 sets of each of five strategies tell about the failures of both maps of Figure 9",
         time: "20 s",
         run: recalls::run,
     },
     Study {
+        name: "figures",
+        about: "the figures of the pages, drawn for one column of a paper from the CSV files of this repository",
+        time: "2 s",
+        run: figures::run,
+    },
+    Study {
         name: "propositions",
         about: "the paper's propositions on tests: random families that cover, and the dispersion of Halton's sequence",
         time: "3 s",
         run: propositions::run,
+    },
+    Study {
+        name: "strategies",
+        about: "which strategy finds failures, and whether a low dispersion helps, on problems that no choice was made on",
+        time: "40 min",
+        run: searches::run,
     },
     Study {
         name: "samplers",
@@ -207,6 +230,13 @@ const STUDIES: &[Study] = &[
         about: "the reference map of fig9-cnn: 2,500 tests on a grid",
         time: "6 min",
         run: fig9_cnn::reference,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig9-cnn-braked",
+        about: "the failures of fig9-cnn that a driver who never brakes would not have had, one by one",
+        time: "20 s",
+        run: braked::run,
     },
     #[cfg(feature = "neural")]
     Study {

@@ -9,10 +9,8 @@ use crate::{Done, logged, print, write};
 use indicatif::ProgressBar;
 use paracosm::analysis::statistics::quantile;
 use paracosm::analysis::{Coverage, Limit};
-use paracosm::campaign::Learned;
 use paracosm::coverage::Measure;
 use paracosm::generators::Strategy;
-use paracosm::report::{FailureMap, Picture};
 use paracosm::space::{Point, Values};
 use paracosm::{Campaign, Error, Log, Sampling, Study, Trial};
 use std::path::Path;
@@ -52,7 +50,7 @@ impl Comparison<'_> {
         *self.sizes.last().expect("there is a size")
     }
 
-    /// Runs the comparison, draws the picture of this name, writes all numbers to the folder and prints the summary.
+    /// Runs the comparison, writes all numbers to files that begin with the name, and prints the summary.
     pub fn run(&self, out: &Path, name: &str, bar: &ProgressBar) -> Done {
         let panels = self.panels(bar)?;
         bar.finish_and_clear();
@@ -61,16 +59,12 @@ impl Comparison<'_> {
         let rows = STRATEGIES.into_iter();
         let figure: Vec<&Panel> =
             rows.flat_map(|strategy| panels.iter().filter(shown).filter(move |p| p.strategy == strategy)).collect();
-        let maps = figure.iter().map(|panel| panel.draw()).collect();
-        draw(out, name, &Picture::grid(self.sizes.len(), maps))?;
-
-        write_panels(&out.join("panels.csv"), &panels)?;
-        write_tests(&out.join("tests.csv"), self.study, &figure)?;
+        write_panels(&out.join(format!("{name}-panels.csv")), &panels)?;
+        write_tests(&out.join(format!("{name}-tests.csv")), self.study, &figure)?;
         let summary = self.summary(&panels);
-        write_csv(&out.join("summary.csv"), &summary)?;
         let halton = panels.iter().find(|panel| panel.seed.is_none() && panel.log.trials().len() == self.most());
         let halton = halton.expect("Halton has a panel of every size");
-        write_csv(&out.join("shape.csv"), &shape(self.map, &marks(self.study, halton.log.trials())?))?;
+        write_csv(&out.join(format!("{name}-shape.csv")), &shape(self.map, &marks(self.study, halton.log.trials())?))?;
         print(&self.table(&summary))
     }
 
@@ -89,7 +83,7 @@ impl Comparison<'_> {
         Ok(panels)
     }
 
-    /// Returns the seed whose smallest sample has the median dispersion; of two medians, the upper one.
+    /// Returns the seed of the random samples in the figure: the seed whose smallest sample has the median dispersion; of two medians, the upper one.
     fn typical_seed(&self, panels: &[Panel]) -> Option<u64> {
         let smallest = panels.iter().filter(|panel| panel.seed.is_some() && panel.log.trials().len() == self.sizes[0]);
         let mut smallest: Vec<&Panel> = smallest.collect();
@@ -150,14 +144,16 @@ pub fn grid(study: &Study, side: usize, bar: &ProgressBar) -> Result<Vec<Trial>,
     Ok(trials)
 }
 
-/// Runs the tests of a grid, and writes them as a picture and a table with the name `reference-map`.
-pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) -> Result<Vec<Trial>, Failure> {
+/// Runs the tests of a grid, and writes them to a table whose name begins with the name of the study.
+pub fn reference_map(
+    study: &Study,
+    side: usize,
+    out: &Path,
+    name: &str,
+    bar: &ProgressBar,
+) -> Result<Vec<Trial>, Failure> {
     let trials = grid(study, side, bar)?;
-    let mut map = failure_map(&Log::new(study.clone(), Learned::new(), None, trials.clone()));
-    map.title = format!("Reference map: {side} x {side} tests");
-    map.note = "the middle of every cell of a grid".into();
-    draw(out, "reference-map", &Picture::of(map))?;
-    write_trials(&out.join("reference-map.csv"), study, &trials)?;
+    write_trials(&out.join(format!("{name}-reference.csv")), study, &trials)?;
     Ok(trials)
 }
 
@@ -189,29 +185,6 @@ impl Panel {
     fn failures(&self) -> usize {
         self.log.trials().iter().filter(|trial| trial.is_failure()).count()
     }
-
-    fn draw(&self) -> FailureMap {
-        let mut map = failure_map(&self.log);
-        let seed = self.seed.map_or(String::new(), |seed| format!(" (seed {seed})"));
-        map.title = format!("{}{seed}, {} tests", self.strategy, self.log.trials().len());
-        map.note = format!(
-            "dispersion {:.4}, star discrepancy {:.4}, map accuracy {:.1} %",
-            self.dispersion,
-            self.star,
-            100.0 * self.recovery.accuracy
-        );
-        map
-    }
-}
-
-fn failure_map(log: &Log) -> FailureMap {
-    FailureMap::of(log).expect("the study has two continuous parameters")
-}
-
-/// Writes a picture as SVG and as PNG.
-pub fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
-    write(&out.join(format!("{name}.svg")), picture.svg()?)?;
-    write(&out.join(format!("{name}.png")), picture.png()?)
 }
 
 /// Writes a table, whose first row is the header.
@@ -258,15 +231,10 @@ fn shape(map: &[Mark], halton: &[Mark]) -> Vec<Vec<String>> {
         let mut row = |measure: String, share: f64| rows.push(vec![of.to_owned(), measure, format!("{share:.4}")]);
         row("failing".into(), failing(marks));
         (0..4).for_each(|i| row(format!("failing in quarter {} of the speeds", i + 1), quarter(marks, i)));
+        row("explained by all passing".into(), 1.0 - failing(marks));
+        row("explained by best straight line".into(), straight_line(marks));
+        row("explained by nearest neighbour".into(), nearest_neighbour(marks));
     }
-    let explained = [
-        ("all passing", 1.0 - failing(halton)),
-        ("best straight line", straight_line(halton)),
-        ("nearest neighbour", nearest_neighbour(halton)),
-    ];
-    rows.extend(
-        explained.map(|(by, share)| vec![of_halton.clone(), format!("explained by {by}"), format!("{share:.4}")]),
-    );
     rows
 }
 

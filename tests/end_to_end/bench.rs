@@ -150,23 +150,18 @@ fn a_run_is_the_campaign_of_its_seed() {
 }
 
 #[test]
-fn the_map_that_is_kept_here_is_the_one_that_is_made() {
+fn a_map_that_was_written_judges_runs_as_the_map_that_was_made() {
     let dir = tempfile::tempdir().unwrap();
-    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments/maps");
     let small = ["bench", "--strategies", "random", "--budget", "30", "--seeds", "2", "--quiet"];
-    let reference = kept.to_str().unwrap();
-    succeeds(fuzz(dir.path(), &[small.as_slice(), &["--out", "kept", "--reference", reference]].concat()));
     succeeds(fuzz(dir.path(), &[small.as_slice(), &["--out", "made", "--reference-tests", "400"]].concat()));
-    let verdicts = |path: &Path| -> Vec<String> {
-        let map: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-        map["verdicts"].as_array().unwrap().iter().map(|line| line.as_str().unwrap().to_owned()).collect()
-    };
-    let all = verdicts(&kept.join("pedestrian-crossing.json"));
-    assert_eq!(all.iter().map(String::len).sum::<usize>(), 100_000);
-    assert_eq!(all[..4], verdicts(&dir.path().join("made/maps/pedestrian-crossing.json")));
-    // Four hundred tests of the map judge a run about as a hundred thousand do.
-    let recall = |folder: &str| number(&rows(&dir.path().join(folder).join("runs.csv"))[0], "recall").unwrap();
-    assert!((recall("kept") - recall("made")).abs() < 0.2);
+    let map = dir.path().join("made/maps/pedestrian-crossing.json");
+    let written: Value = serde_json::from_str(&fs::read_to_string(map).unwrap()).unwrap();
+    let verdicts = written["verdicts"].as_array().unwrap().iter().map(|line| line.as_str().unwrap().len());
+    assert_eq!(verdicts.sum::<usize>(), 400);
+    succeeds(fuzz(dir.path(), &[small.as_slice(), &["--out", "read", "--reference", "made/maps"]].concat()));
+    let runs = |folder: &str| fs::read_to_string(dir.path().join(folder).join("runs.csv")).unwrap();
+    assert_eq!(runs("made"), runs("read"));
+    assert!(number(&rows(&dir.path().join("made/runs.csv"))[0], "recall").is_some());
 }
 
 /// A bench of a system with three switches that fails for one setting of them; its table and its folder.

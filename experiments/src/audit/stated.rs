@@ -1,8 +1,7 @@
 //! The grids that UN R157 and Euro NCAP state, on trial: the largest hole, the witness, the mutation score, and a better suite.
 
 use super::{SCREEN, files, known_rows, name_of, study, write_rows};
-use crate::sampling::draw;
-use crate::{Done, print};
+use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::Study;
 use paracosm::analysis::audit::{Audit, Audited, Runs, Screen, Suite};
@@ -103,7 +102,9 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    draw(out, "audit", &Picture::of_shares(chart(&rows)))
+    let picture = Picture::of_shares(chart(&rows));
+    write(&out.join("audit.svg"), picture.svg()?)?;
+    write(&out.join("audit.png"), picture.png()?)
 }
 
 /// Returns a chart of the largest holes over the numbers of tests, of the stated suites and of the better suites.

@@ -16,7 +16,7 @@ use indicatif::ProgressBar;
 use occlusion::{NOTHING, changes, covered, share, touching};
 use paracosm::engine::object::Colour;
 use paracosm::engine::sensor::Image;
-use paracosm::report::{Axis, HeatMap, Lines, Picture};
+use paracosm::report::{HeatMap, Picture};
 use paracosm_neural::{AnswerError, Model};
 use std::path::Path;
 use thiserror::Error;
@@ -39,8 +39,7 @@ const GRASS: f64 = -6.0;
 const FRAMES: [(&str, Option<Colour>); 3] =
     [("red leader", Some(RED)), ("white leader", Some(WHITE)), ("nobody", None)];
 
-/// The network's answers, in the network's order.
-const OUTPUTS: [&str; 2] = ["Steering", "Throttle"];
+/// The places of the network's answers.
 const STEERING: usize = 0;
 const THROTTLE: usize = 1;
 
@@ -69,18 +68,14 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let rectangle = rectangle_of(&red.seen)?;
     let red_anywhere = changes(&model, &nobody.seen.image, SPEED, rectangle.size, rectangle.colour)?;
 
-    let picture = Picture::of_images(3, panels(&model, &all, &red_anywhere, &rectangle)?);
-    write(&out.join("saliency.svg"), picture.svg()?)?;
-    write(&out.join("saliency.png"), picture.png()?)?;
-    write(&out.join("maps.csv"), maps(&all, &red_anywhere))?;
+    let picture = Picture::of_images(2, images(&model, &all, &rectangle)?);
+    write(&out.join("saliency-images.png"), picture.png()?)?;
+    write(&out.join("saliency-maps.csv"), maps(&all, &red_anywhere))?;
     let shares = shares(&all);
     write(&out.join("saliency.csv"), &shares)?;
 
-    let (chart, table) = by_gap(&model, &mut studio)?;
-    let picture = Picture::of_lines(vec![chart]);
-    write(&out.join("saliency-gap.svg"), picture.svg()?)?;
-    write(&out.join("saliency-gap.png"), picture.png()?)?;
-    write(&out.join("gap.csv"), &table)?;
+    let table = by_gap(&model, &mut studio)?;
+    write(&out.join("saliency-gap.csv"), &table)?;
     print(&format!("{shares}{}{table}", anywhere(&red_anywhere, &nobody.seen, &rectangle)))
 }
 
@@ -102,63 +97,20 @@ fn rectangle_of(seen: &Seen) -> Result<Rectangle, Unseen> {
     Ok(Rectangle { size, middle: [left + size[0] / 2, top + size[1] / 2], colour: seen.leaders_colour() })
 }
 
-/// Returns a row of panels for each frame: the image, and how covering each place changes the throttle and the
-/// steering. The last row shows how a red rectangle changes them.
-fn panels(
-    model: &Model,
-    all: &[Covered],
-    red_anywhere: &[[f64; 2]],
-    rectangle: &Rectangle,
-) -> Result<Vec<HeatMap>, AnswerError> {
-    let mut panels = Vec::new();
-    for frame in all {
-        let most = [0, 1].map(|output| largest(all.iter().flat_map(|frame| &frame.changes), output));
-        panels.extend(row(frame.name, &frame.seen.image, frame.answer, &frame.changes, most, "covering it"));
-    }
-    let Rectangle { size: [width, height], middle, colour } = *rectangle;
-    let nobody = &all[2].seen.image;
-    let painted = covered(nobody, middle, [width, height], colour);
-    let answer = model.answer(&painted, SPEED)?;
-    let most = [0, 1].map(|output| largest(red_anywhere.iter(), output));
-    let what = format!("{width} x {height} red pixels around it");
-    let mut last = row("red rectangle", &painted, answer, red_anywhere, most, &what);
-    // Behind the changes by the rectangle, the panels show the empty road.
-    last[1..].iter_mut().for_each(|panel| panel.rgb.clone_from(&nobody.rgb));
-    panels.extend(last);
-    Ok(panels)
-}
-
-fn largest<'a>(changes: impl Iterator<Item = &'a [f64; 2]>, output: usize) -> f64 {
-    changes.map(|change| change[output].abs()).fold(0.0, f64::max)
-}
-
-fn row(
-    name: &str,
-    image: &Image,
-    [steering, throttle]: [f32; 2],
-    changes: &[[f64; 2]],
-    most: [f64; 2],
-    what: &str,
-) -> [HeatMap; 3] {
-    let panel = |title: String, note: String, values: Vec<f64>, most: f64| HeatMap {
-        title,
-        note,
+/// Returns the images of all frames, and the empty road with a red rectangle at the place of a leader.
+fn images(model: &Model, all: &[Covered], rectangle: &Rectangle) -> Result<Vec<HeatMap>, AnswerError> {
+    let image = |name: &str, image: &Image, [steering, throttle]: [f32; 2]| HeatMap {
+        title: name.to_owned(),
+        note: format!("steering {steering:.2}, throttle {throttle:.2} at {SPEED} m/s"),
         width: image.width,
         rgb: image.rgb.clone(),
-        values,
-        most,
+        values: Vec::new(),
+        most: 1.0,
     };
-    let map = |output: usize, more: &str, less: &str| {
-        let note = format!("{what}: {more} (orange), {less} (blue), by up to {:.2}", most[output]);
-        let values = changes.iter().map(|change| change[output]).collect();
-        panel(format!("{}, {name}", OUTPUTS[output]), note, values, most[output])
-    };
-    let note = format!("steering {steering:.2}, throttle {throttle:.2} at {SPEED} m/s");
-    [
-        panel(format!("What it sees: {name}"), note, vec![], 1.0),
-        map(THROTTLE, "more power", "less"),
-        map(STEERING, "to the left", "right"),
-    ]
+    let mut images: Vec<HeatMap> = all.iter().map(|frame| image(frame.name, &frame.seen.image, frame.answer)).collect();
+    let painted = covered(&all[2].seen.image, rectangle.middle, rectangle.size, rectangle.colour);
+    images.push(image("red rectangle", &painted, model.answer(&painted, SPEED)?));
+    Ok(images)
 }
 
 /// Returns all numbers of the maps as CSV.
@@ -206,8 +158,8 @@ fn anywhere(changes: &[[f64; 2]], seen: &Seen, rectangle: &Rectangle) -> String 
     )
 }
 
-/// Returns the throttle by the distance of each thing that may be taken for a leader, as a chart and as CSV.
-fn by_gap(model: &Model, studio: &mut Studio) -> Result<(Lines, String), Box<dyn std::error::Error + Send + Sync>> {
+/// Returns the throttle by the distance of each thing that may be taken for a leader, as CSV.
+fn by_gap(model: &Model, studio: &mut Studio) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
     let gaps: Vec<f64> = (3..=FARTHEST).map(f64::from).collect();
     let scenes = |beside: f64, colour: Colour| -> Vec<Scene> {
         gaps.iter().map(|gap| Scene { gap: Some(*gap), beside, colour }).collect()
@@ -244,16 +196,7 @@ fn by_gap(model: &Model, studio: &mut Studio) -> Result<(Lines, String), Box<dyn
         let numbers: Vec<String> = curves.iter().map(|curve| format!("{:.4}", curve.1[i])).collect();
         rows.push(format!("{gap},{pixels},{}", numbers.join(",")));
     }
-    let over = |values: Vec<f64>| gaps.iter().copied().zip(values).collect();
-    let axis = |label: &str, range| Axis { label: label.to_owned(), range };
-    let chart = Lines {
-        title: "What makes the cloned driver brake".to_owned(),
-        note: format!("one image each, at {SPEED} m/s; trained behind red leaders alone"),
-        x: axis("gap to it [m]", (0.0, f64::from(FARTHEST))),
-        y: axis("throttle", (-1.0, 1.0)),
-        curves: curves.into_iter().map(|(name, values)| (name, over(values))).collect(),
-    };
-    Ok((chart, rows.join("\n") + "\n"))
+    Ok(rows.join("\n") + "\n")
 }
 
 fn throttles<'a>(model: &Model, seen: impl Iterator<Item = &'a Seen>) -> Result<Vec<f64>, AnswerError> {

@@ -6,7 +6,7 @@
 //! is taken for road, in percent of the rest. The paper has one network; here five networks were taught with different
 //! seeds, and five more with all focal lengths, to see whether that mends it.
 
-use super::road::{COURSES, Course, RESOLUTION, SEEDS};
+use super::road::{COURSES, RESOLUTION, SEEDS};
 use super::sheet::{enlarged, mark, pixels, png};
 use super::{Failure, LENS, cameras};
 use crate::{Done, print, scenario, write};
@@ -15,7 +15,6 @@ use paracosm::campaign::Metric;
 use paracosm::campaign::gallery::Gallery;
 use paracosm::perception::{Perceiver, Percept, Segmenter};
 use paracosm::render::Look;
-use paracosm::report::{Axis, Lines, Picture};
 use paracosm::space::{Value, Values};
 use paracosm::{Campaign, Study, StudyBuilder, Trial};
 use paracosm_neural::vision::learn::Goal;
@@ -146,68 +145,19 @@ fn samples() -> Result<Vec<u8>, Failure> {
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     bar.set_length((COURSES.len() * SEEDS.len() * LENGTHS.2) as u64);
     let mut table = vec!["course,seed,focal_mm,true_positives,false_positives,overlap".to_owned()];
-    let mut courses = Vec::new();
     for (course, networks) in COURSES.into_iter().zip(NETWORKS) {
-        let mut curves = Vec::new();
         for (seed, network) in SEEDS.into_iter().zip(networks) {
             let found = shares(network, bar)?;
             for (length, Shares { true_positives, false_positives, overlap }) in lengths().zip(&found) {
                 let name = course.name;
                 table.push(format!("{name},{seed},{length},{true_positives:.4},{false_positives:.4},{overlap:.4}"));
             }
-            curves.push(found);
         }
-        courses.push((course, curves));
     }
     bar.finish_and_clear();
-    let picture = Picture::of_lines(SHARES.map(|share| chart(share, &courses)).into());
-    write(&out.join("fig6.svg"), picture.svg()?)?;
-    write(&out.join("fig6.png"), picture.png()?)?;
     write(&out.join("fig5.png"), samples()?)?;
     write(&out.join("fig6.csv"), table.join("\n") + "\n")?;
     print(&(table.join("\n") + "\n"))
-}
-
-/// A share in charts: its title, the range of the axis in percent, and the fold that finds the worst network.
-type Share = (&'static str, (f64, f64), fn(&Shares) -> f64, fn(&[f64]) -> f64);
-
-/// The shares of the two charts.
-const SHARES: [Share; 2] = [
-    (
-        "Road that is recognised",
-        (90.0, 100.0),
-        |shares| shares.true_positives,
-        |all| all.iter().copied().fold(f64::INFINITY, f64::min),
-    ),
-    (
-        "Other things that are taken for road",
-        (0.0, 20.0),
-        |shares| shares.false_positives,
-        |all| all.iter().copied().fold(0.0, f64::max),
-    ),
-];
-
-/// Returns the chart of a share: for each course the mean of the networks, and the worst network at each length.
-fn chart((title, range, share, worst): Share, courses: &[(Course, Vec<Vec<Shares>>)]) -> Lines {
-    let mean: fn(&[f64]) -> f64 = |all| all.iter().sum::<f64>() / all.len() as f64;
-    let line = |networks: &[Vec<Shares>], fold: fn(&[f64]) -> f64| -> Vec<(f64, f64)> {
-        let at = |(i, length): (usize, f64)| {
-            let percent: Vec<f64> = networks.iter().map(|network| 100.0 * share(&network[i])).collect();
-            (length, fold(&percent))
-        };
-        lengths().enumerate().map(at).collect()
-    };
-    let curves = courses.iter().flat_map(|(course, networks)| {
-        let taught = course.taught();
-        [(taught.clone(), line(networks, mean)), (format!("{taught}, worst"), line(networks, worst))]
-    });
-    Lines {
-        title: title.to_owned(),
-        note: format!("mean of {} networks, and the worst network at each focal length", SEEDS.len()),
-        x: Axis { label: "focal length [mm]".to_owned(), range: (10.0, 50.0) },
-        y: Axis { label: "share [%]".to_owned(), range },
-        curves: curves.collect(),
-    }
 }
 
 #[cfg(test)]
@@ -224,28 +174,6 @@ mod tests {
             Shares { true_positives, false_positives, overlap }
         });
         shares.collect()
-    }
-
-    #[test]
-    fn the_page_has_the_means_and_the_ranges_of_the_table() {
-        let page = include_str!("../../fig6.md");
-        for length in [10.0, 14.0, 20.0, 26.0, 34.0, 42.0, 50.0] {
-            let mut row = format!("| {length} |");
-            for course in COURSES {
-                let networks = of_table(course.name, length);
-                assert_eq!(networks.len(), SEEDS.len());
-                for share in
-                    [|one: &Shares| one.true_positives, |one: &Shares| one.false_positives, |one: &Shares| one.overlap]
-                {
-                    let percent: Vec<f64> = networks.iter().map(|one| 100.0 * share(one)).collect();
-                    let mean = percent.iter().sum::<f64>() / percent.len() as f64;
-                    let least = percent.iter().copied().fold(f64::INFINITY, f64::min);
-                    let most = percent.iter().copied().fold(0.0, f64::max);
-                    row += &format!(" {mean:.1} ({least:.1} to {most:.1}) |");
-                }
-            }
-            assert!(page.contains(&row), "expected on the page: {row}");
-        }
     }
 
     #[test]

@@ -22,14 +22,6 @@ pub struct Course {
     pub focal_mm: (f64, f64),
 }
 
-impl Course {
-    /// Returns the focal lengths of the lessons in words.
-    pub fn taught(&self) -> String {
-        let (first, last) = self.focal_mm;
-        if first == last { format!("taught at {first} mm") } else { format!("taught at {first} to {last} mm") }
-    }
-}
-
 /// The focal length at which the first networks were taught.
 pub const TAUGHT: f64 = 34.0;
 

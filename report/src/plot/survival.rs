@@ -127,6 +127,11 @@ impl Survivals {
 }
 
 impl Waiting {
+    /// Returns `true` if the curve looks the same as another curve.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.steps == other.steps && self.censored == other.censored
+    }
+
     /// Returns the share of runs that still wait after a time.
     fn at(&self, time: f64) -> f64 {
         self.steps.iter().take_while(|step| step.0 <= time).last().map_or(1.0, |step| step.1)

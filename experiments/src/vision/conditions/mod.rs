@@ -5,8 +5,6 @@
 mod paired;
 mod pairs;
 mod risk;
-#[cfg(test)]
-mod tests;
 mod world;
 
 use super::detectors::{ALARMS, Named, RESOLUTION, all, easy};
@@ -14,7 +12,6 @@ use super::{Failure, LENS, varied};
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::campaign::Metric;
-use paracosm::report::Picture;
 use paracosm::space::{Domain, Parameter, Value, Values};
 use paracosm::{Study, StudyBuilder, Trial};
 use std::collections::BTreeMap;
@@ -43,7 +40,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let (mut detectors, absent) = all()?;
     let easy = easy(bar)?;
     let mut text = format!("thresholds at {ALARMS} false alarms an image of {} images of easy scenes\n", easy.len());
-    let (mut tables, mut curves, mut sheet) = (BTreeMap::<&str, Vec<String>>::new(), Vec::new(), None);
+    let (mut tables, mut sheet) = (BTreeMap::<&str, Vec<String>>::new(), None);
     bar.reset();
     bar.set_length(3 * detectors.len() as u64);
     for detector in &mut detectors {
@@ -59,9 +56,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         };
         add(pairs::of(detector, threshold)?);
         add(risk::of(detector, threshold)?);
-        let (findings, of_detector) = paired::of(detector, threshold)?;
-        add(findings);
-        curves.push((name, of_detector));
+        add(paired::of(detector, threshold)?);
         if name == SHOWN || sheet.is_none() {
             sheet = Some(paired::sheet(detector, threshold)?);
         }
@@ -70,9 +65,6 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         text += &format!("{name:<18}absent: experiments/detectors/fetch.py fetches it\n");
     }
     bar.finish_and_clear();
-    let picture = Picture::of_lines(paired::charts(&curves));
-    write(&out.join("conditions.svg"), picture.svg()?)?;
-    write(&out.join("conditions.png"), picture.png()?)?;
     sheet.map_or(Ok(()), |sheet| write(&out.join("conditions-images.png"), sheet))?;
     for (file, rows) in &tables {
         write(&out.join(file), rows.join("\n") + "\n")?;

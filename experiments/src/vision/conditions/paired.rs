@@ -7,7 +7,6 @@ use paracosm::analysis::statistics::bootstrap_interval;
 use paracosm::campaign::gallery::Gallery;
 use paracosm::generators::{Request, Strategy};
 use paracosm::render::Look;
-use paracosm::report::{Axis, Lines};
 use paracosm::space::{Domain, Parameter, Space, Value, Values};
 use paracosm::{Campaign, Study};
 
@@ -29,17 +28,11 @@ const SHEET: [[f64; 4]; 3] = [[0.0, 0.06, 0.15, 0.3], [1.0, 0.3, 0.1, 0.05], [14
 const SHEET_WORLD: usize = 4;
 const SHEET_TIME: f64 = 1.0;
 
-/// The recall over a condition: values and shares.
-type Curve = Vec<(f64, f64)>;
-
-/// The recall over fog, light and focal length.
-type Curves = [Curve; CONDITIONS.len()];
-
 /// The counts of a test: cars that should be detected, and found cars.
 type Counts = [f64; 2];
 
 /// Renders all tests under all conditions, and counts the found cars.
-pub fn of(detector: &Named, threshold: f64) -> Result<(Findings, Curves), Failure> {
+pub fn of(detector: &Named, threshold: f64) -> Result<Findings, Failure> {
     let worlds = worlds()?;
     let [fog, light, lens] = CONDITIONS.map(|(_, values)| numbers(values));
     let of_world = worlds.1.parameters().iter().map(|parameter| (parameter.name.as_str(), parameter.domain.clone()));
@@ -48,8 +41,8 @@ pub fn of(detector: &Named, threshold: f64) -> Result<(Findings, Curves), Failur
     let campaign = Campaign::new(&study)?;
     let mut rows = Vec::new();
     let mut text = String::new();
-    let mut curves = CONDITIONS.map(|_| Curve::new());
-    for ((condition, values), curve) in CONDITIONS.into_iter().zip(&mut curves) {
+    for (condition, values) in CONDITIONS {
+        let mut curve = Vec::new();
         let tests: Vec<Values> =
             values.iter().flat_map(|value| worlds.0.iter().map(|world| rendered(world, condition, *value))).collect();
         let mut counts: Vec<Counts> = Vec::new();
@@ -71,32 +64,12 @@ pub fn of(detector: &Named, threshold: f64) -> Result<(Findings, Curves), Failur
                 difference(&all)
             ));
         }
-        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curve.sort_by(|a: &(f64, f64), b| a.0.total_cmp(&b.0));
         let points: Vec<String> = curve.iter().map(|(value, recall)| format!("{value}: {recall:.2}")).collect();
         text += &format!("  recall over {condition}: {}\n", points.join(", "));
     }
     let columns = "detector,condition,value,cars,found,recall,difference,low,high".to_owned();
-    Ok((Findings { parts: vec![("conditions-paired.csv", columns, rows)], text }, curves))
-}
-
-/// Returns a chart for each condition, with a curve for each detector.
-pub fn charts(all: &[(&str, Curves)]) -> Vec<Lines> {
-    let labels = ["fog", "light", "focal length [mm]"];
-    let chart = |(place, label): (usize, &str)| {
-        let curves: Vec<(String, Curve)> =
-            all.iter().map(|(name, curves)| ((*name).to_owned(), curves[place].clone())).collect();
-        let values = CONDITIONS[place].1;
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = values.iter().copied().fold(0.0, f64::max);
-        Lines {
-            title: format!("Found cars by {label}"),
-            note: format!("the same {WORLDS} tests at each value; cars within 40 m, 75 % visible"),
-            x: Axis { label: label.to_owned(), range: (least, most) },
-            y: Axis { label: "recall".to_owned(), range: (0.0, 1.0) },
-            curves,
-        }
-    };
-    labels.into_iter().enumerate().map(chart).collect()
+    Ok(Findings { parts: vec![("conditions-paired.csv", columns, rows)], text })
 }
 
 /// Returns images of one test at one time under all conditions, with the answers of a detector.

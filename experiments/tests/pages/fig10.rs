@@ -1,0 +1,144 @@
+//! Computes the numbers of the pages on Figures 10a to 10c.
+
+use crate::page::Page;
+use crate::rows::{Row, count, mean, number, numbers_of, range, rows, visibility};
+use std::fmt::Write;
+
+/// Says how many tests of the training conditions pass with the network.
+fn exam(csv: &'static str) -> String {
+    let tests = rows(csv);
+    let own = |row: &Row| row["driver"] == "cnn";
+    format!("{} of {}", count(&tests, |row| own(row) && row["verdict"] == "pass"), count(&tests, own))
+}
+
+#[test]
+fn the_numbers_of_the_page_on_figure_10a_follow_from_its_tests() {
+    let tests = rows(include_str!("../../data/fig10a.csv"));
+    let mut page = Page::open("fig10a.md");
+    let fails = |row: &Row| row["verdict"] == "fail";
+    let fog = |row: &Row| number(row, "fog");
+    let is_light = |row: &Row| number(row, "light") >= 0.8;
+    let failing = count(&tests, fails);
+    assert_eq!(failing, count(&tests, |row| row["violated"] == "lane-keeping"), "all failing tests leave the lane");
+    assert_eq!(count(&tests, |row| row["collided"] == "true"), 0);
+    page.says(format!("{} Halton tests over fog and light", tests.len()));
+    page.says(format!("all {failing} failing tests fail because the car leaves the lane"));
+    page.says(format!("there is no collision in {} tests", tests.len()));
+    page.says(format!("{} tests of the training conditions pass", exam(include_str!("../../data/exam-follow.csv"))));
+
+    let thin = count(&tests, |row| fog(row) < 0.2);
+    assert_eq!(count(&tests, |row| fog(row) < 0.2 && fails(row)), 0);
+    page.says(format!("In fog below 0.2 (a visibility above {}), all {thin} tests pass", visibility(0.2)));
+    let [dense, lost] = [count(&tests, |row| fog(row) >= 0.6), count(&tests, |row| fog(row) >= 0.6 && fails(row))];
+    page.says(format!("In fog of 0.6 and more ({} and less), {lost} of {dense} tests fail", visibility(0.6)));
+    let [clear, thick] = [
+        numbers_of(&tests, "travelled", |row| is_light(row) && fog(row) < 0.2),
+        numbers_of(&tests, "travelled", |row| is_light(row) && fog(row) >= 0.6),
+    ];
+    let drop =
+        format!("drops from {:.0} m (fog below 0.2) to {:.0} m (fog of 0.6 and more)", mean(&clear), mean(&thick));
+    page.says(format!("at light of 0.8 and more, the mean {drop}"));
+    let dark = numbers_of(&tests, "travelled", |row| number(row, "light") < 0.2 && fog(row) < 0.2);
+    page.says(format!("{:.0} m at light below 0.2 and fog below 0.2", mean(&dark)));
+    page.given(&["red leaders of 2 to 12 m/s", "for 15 s behind a leader of 6 m/s, which is 25 m ahead at first"]);
+    page.given(&["Light 1 is our brightest light"]);
+    page.close();
+}
+
+#[test]
+fn the_numbers_of_the_page_on_figure_10b_follow_from_its_tests() {
+    let tests = rows(include_str!("../../data/fig10b.csv"));
+    let mut page = Page::open("fig10b.md");
+    let fog = |row: &Row| number(row, "fog");
+    let reaches = |row: &Row, event: &str| number(row, event) < 200.0;
+    assert_eq!(count(&tests, |row| reaches(row, "seconds_to_collision")), 0);
+    page.says(format!("in {} densities of fog, for 200 s or until it runs into something", tests.len()));
+    page.says(format!("There is no collision in {} tests", tests.len()));
+    let passing: Vec<&Row> = tests.iter().take_while(|row| row["verdict"] == "pass").collect();
+    assert_eq!(passing.len(), count(&tests, |row| row["verdict"] == "pass"), "all tests in thin fog pass");
+    let last = passing[passing.len() - 1];
+    page.says(format!(
+        "In fog up to {} (a visibility of {}), the network drives all 200 s, but ever slower ({} m without fog, {:.0} m in fog of {0})",
+        fog(last),
+        visibility(fog(last)),
+        thousands(number(&tests[0], "travelled")),
+        number(last, "travelled"),
+    ));
+    let leaves: Vec<&Row> = tests.iter().filter(|row| reaches(row, "seconds_to_departure")).collect();
+    let early = leaves[0];
+    assert!(number(early, "seconds_to_departure") < number(early, "seconds_to_standstill"));
+    page.says(format!(
+        "in fog of {}, a visibility of {}, after it has left its way at {:.0} s",
+        fog(early),
+        visibility(fog(early)),
+        number(early, "seconds_to_departure")
+    ));
+    let [from, to] = range(leaves[1..].iter().map(|row| fog(row)));
+    assert_eq!(
+        (to, leaves.len() - 1),
+        (1.0, count(&tests, |row| fog(row) >= from)),
+        "the network leaves its way from there on"
+    );
+    let [_, latest] = range(leaves[1..].iter().map(|row| number(row, "seconds_to_departure")));
+    page.says(format!(
+        "From {from} on ({}) it fails because it leaves its way within {:.0} s",
+        visibility(from),
+        latest.ceil()
+    ));
+    page.says(format!("{} tests pass", exam(include_str!("../../data/exam-loop.csv"))));
+    page.says(format!("in fog of 0.2 ({})", visibility(0.2)));
+    page.says(format!("in fog of 0.35 ({})", visibility(0.35)));
+    page.given(&["round the loop at 8 m/s", "about 100 s of driving, 10 images per second"]);
+    page.given(&[
+        "of 21 tests that last 200 s at most",
+        "174 s: in 52 s the expert drives, and in 122 s the network drives",
+    ]);
+    page.close();
+}
+
+/// Writes a whole number with a comma before the last three digits.
+fn thousands(value: f64) -> String {
+    let whole = value.round() as u64;
+    if whole < 1000 { whole.to_string() } else { format!("{},{:03}", whole / 1000, whole % 1000) }
+}
+
+#[test]
+fn the_numbers_of_the_page_on_figure_10c_follow_from_its_tests() {
+    let tests = rows(include_str!("../../data/fig10c.csv"));
+    let mut page = Page::open("fig10c.md");
+    let cases = ["red leader", "red leader and a red car coming", "white leader"];
+    let of = |case: &str, speed: &str| -> &Row {
+        tests.iter().find(|row| row["case"] == case && row["leader_speed"] == speed).unwrap()
+    };
+    let least = |case: &str, speed: &str| number(of(case, speed), "least_speed_m_per_s");
+    let speeds = ["4", "6", "8", "10", "12"];
+    let mut table = String::from(
+        "| leader's speed (m/s) | red leader: least speed (m/s) | a red car comes, too | white leader |\n| --- | --- | --- | --- |\n",
+    );
+    for speed in speeds {
+        let cells = cases.map(|case| {
+            let collides = of(case, speed)["verdict"] == "fail";
+            format!("{:.2}{}", least(case, speed), if collides { ", collides" } else { "" })
+        });
+        writeln!(table, "| {speed} | {} |", cells.join(" | ")).unwrap();
+    }
+    page.table("speeds", &table);
+
+    let alone = numbers_of(&tests, "clearance_or_missing_braking_m", |row| row["case"] == cases[0]);
+    let [near, far] = range(alone);
+    page.says(format!("keeps a distance of {near:.0} to {far:.0} m"));
+    let [_, drop] = range(speeds.map(|speed| least(cases[0], speed) - least(cases[1], speed)));
+    page.says(format!("the least speed of the car is at most {drop:.2} m/s lower than without the other car"));
+    assert_eq!(count(&tests, |row| row["verdict"] == "fail"), 0);
+    page.says("there is no collision in the five tests behind white leaders");
+    let lower = speeds.into_iter().filter(|speed| least(cases[2], speed) < least(cases[0], speed)).count();
+    assert_eq!((lower, speeds.len()), (4, 5));
+    page.says("At four of five speeds, the least speed is lower behind a white leader than behind a red leader");
+    page.given(&[
+        "for 15 s in three cases",
+        "4 to 12 m/s; the figure shows 8 and 4 m/s",
+        "behind leaders of 8 and of 4 m/s",
+        "ran into the white leader of 4 m/s",
+    ]);
+    page.close();
+}
