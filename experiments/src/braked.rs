@@ -2,6 +2,7 @@
 //! the way, and when each car is there.
 
 use crate::cloning::STOP;
+use crate::figures::table::Table;
 use crate::sampling::write_csv;
 use crate::{Done, crossing, print};
 use indicatif::ProgressBar;
@@ -11,8 +12,8 @@ use paracosm::oracles::Trace;
 use paracosm::space::{Value, Values};
 use std::path::Path;
 
-const MAP: &str = include_str!("../data/fig9-cnn-reference.csv");
-const OTHERS: &str = include_str!("../data/fig9-cnn-drivers.csv");
+const MAP: &[u8] = include_bytes!("../data/fig9-cnn-reference.csv");
+const OTHERS: &[u8] = include_bytes!("../data/fig9-cnn-drivers.csv");
 
 /// The walker is in the way of a car whose middle is not further away than this to the side, in metres.
 const BESIDE: f64 = 1.2;
@@ -21,23 +22,27 @@ const PASSED: f64 = 2.5;
 /// A car that has lost this much speed brakes, in m/s.
 const LOST: f64 = 0.5;
 
+/// The test, times with `cruise`, and times and the speed at the end with the network.
+const COLUMNS: [&str; 9] = [
+    "speed",
+    "distance",
+    "cruise_passes_s",
+    "cruise_walker_in_the_way_s",
+    "network_brakes_s",
+    "network_walker_sets_out_s",
+    "network_walker_in_the_way_s",
+    "collision_s",
+    "collision_m_per_s",
+];
+
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let network = STOP.drives(Study::of(crossing::PROGRAM)).build()?;
     let cruise = Study::of(crossing::PROGRAM).driver("cruise").build()?;
     let (mut network, mut cruise) = (Worker::new(&network)?, Worker::new(&cruise)?);
-    let tests = tests();
+    let tests = tests()?;
     bar.set_length(tests.len() as u64);
-    let columns = [
-        "speed",
-        "distance",
-        "cruise_passes_s",
-        "walker_in_the_way_s",
-        "network_brakes_s",
-        "collision_s",
-        "collision_m_per_s",
-    ];
-    let mut rows = vec![columns.map(str::to_owned).to_vec()];
+    let mut rows = vec![COLUMNS.map(str::to_owned).to_vec()];
     for [speed, distance] in tests {
         let value = |name: &str, value: f64| (name.to_owned(), Value::Number(value));
         let test: Values = [value("speed", speed), value("distance", distance)].into_iter().collect();
@@ -47,10 +52,13 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         let (going_on, braking) = (going_on?, braking?);
         let own = signal(&braking, "car.speed");
         let begun = own.first().copied().unwrap_or_default();
+        let walking = signal(&braking, "pedestrian.speed");
         let times = [
             first(&going_on, |tick| apart(&going_on, "x", tick) < -PASSED),
             first(&going_on, |tick| apart(&going_on, "y", tick).abs() < BESIDE),
             first(&braking, |tick| own[tick] < begun - LOST),
+            first(&braking, |tick| walking[tick] > 0.0),
+            first(&braking, |tick| apart(&braking, "y", tick).abs() < BESIDE),
             trial.ticks as f64 * braking.dt(),
         ];
         let numbers = [speed, distance].into_iter().chain(times).chain(own.last().copied());
@@ -63,11 +71,11 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
 }
 
 /// Returns the speed and the distance of the tests that fail with the network and not with `cruise`.
-fn tests() -> Vec<[f64; 2]> {
-    let cells = |line: &'static str| line.split(',').collect::<Vec<_>>();
-    let both = MAP.lines().zip(OTHERS.lines()).skip(1).map(|(own, other)| (cells(own), cells(other)));
-    let only_braking = both.filter(|(own, other)| own[2] == "fail" && other[4] == "false");
-    only_braking.map(|(own, _)| [0, 1].map(|column| own[column].parse().expect("the map has numbers"))).collect()
+fn tests() -> Result<Vec<[f64; 2]>, csv::Error> {
+    let (own, others) = (Table::read(MAP)?, Table::read(OTHERS)?);
+    let both = own.rows().zip(others.rows());
+    let only_braking = both.filter(|(own, other)| own.word("verdict") == "fail" && other.word("cruise") == "false");
+    Ok(only_braking.map(|(own, _)| ["speed", "distance"].map(|column| own.number(column))).collect())
 }
 
 fn signal(trace: &Trace, name: &str) -> Vec<f64> {

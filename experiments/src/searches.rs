@@ -1,7 +1,7 @@
 //! Compares strategies on problems that no choice was made on: scenarios of the catalogue, each with several drivers.
 //!
-//! The problems follow from a rule, so that nobody picks them by their results. The scenarios are those that take a few milliseconds a
-//! test and were not used to choose anything about a strategy. Each is tried with each driver, with the friction open besides
+//! The problems follow from a rule, so that nobody picks them by their results. Each scenario takes a few
+//! milliseconds a test, and no choice about a strategy used it. Each is tried with each driver, with the friction open besides
 //! its usual open parameters. A problem is one in which some but not many random tests fail.
 
 use crate::sampling::write_csv;

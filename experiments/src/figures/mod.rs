@@ -5,7 +5,7 @@ mod driven;
 mod outline;
 mod plot;
 mod seen;
-mod table;
+pub mod table;
 
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
@@ -63,12 +63,13 @@ mod tests {
     fn the_figures_of_the_pages_are_drawn_from_the_data_with_text_that_a_column_of_a_paper_shows() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("figures");
         let is_update = env::var_os("UPDATE_GOLDEN").is_some_and(|update| update == "1");
-        for (name, files, draw) in FIGURES {
-            let (svg, path) = (drawn(files, draw).unwrap(), folder.join(format!("{name}.svg")));
-            if is_update {
-                fs::write(&path, &svg).unwrap();
-            }
-            assert!(fs::read_to_string(&path).unwrap() == svg, "{name}.svg is old; UPDATE_GOLDEN=1 draws it again");
+        let figures = FIGURES.map(|(name, files, draw)| (name, drawn(files, draw).unwrap()));
+        if is_update {
+            figures.iter().for_each(|(name, svg)| fs::write(folder.join(format!("{name}.svg")), svg).unwrap());
+        }
+        for (name, svg) in figures {
+            let old = fs::read_to_string(folder.join(format!("{name}.svg"))).unwrap();
+            assert!(old == svg, "{name}.svg is old; UPDATE_GOLDEN=1 draws all figures again");
             // At a width of 8.5 cm, which is 241 points, a text of this size has six points.
             let least = plot::width() * 6.0 / 241.0;
             let sizes = svg.split("font-size=\"").skip(1).map(|rest| rest.split('"').next().unwrap());

@@ -15,6 +15,8 @@ pub struct Page {
     prose: String,
     /// The parts of the prose whose numbers are accounted for.
     told: Vec<Range<usize>>,
+    /// The computed tables.
+    tables: Vec<String>,
     flaws: Vec<String>,
 }
 
@@ -23,7 +25,7 @@ impl Page {
     pub fn open(name: &'static str) -> Self {
         let old = fs::read_to_string(path(name)).unwrap();
         let prose = prose(&old);
-        Self { name, new: old.clone(), old, prose, told: Vec::new(), flaws: Vec::new() }
+        Self { name, new: old.clone(), old, prose, told: Vec::new(), tables: Vec::new(), flaws: Vec::new() }
     }
 
     /// Puts a computed table between its marks `<!-- table: NAME -->` and `<!-- end -->`.
@@ -35,6 +37,7 @@ impl Page {
         let from = self.new.find(&begin).unwrap_or_else(|| panic!("{} has no mark {begin}", self.name)) + begin.len();
         let to = from + self.new[from..].find("\n<!-- end -->").expect("a table ends");
         self.new.replace_range(from..to, table);
+        self.tables.push(name.to_owned());
     }
 
     /// Checks that the prose says this text, whose numbers the test has computed.
@@ -82,7 +85,23 @@ impl Page {
             let text = &self.prose[from..to.min(self.prose.len())];
             format!("nothing accounts for {} in `{text}`", &self.prose[number])
         };
-        let flaws: Vec<String> = self.flaws.iter().cloned().chain(untold.map(around)).chain(self.settled()).collect();
+        let marked = self.old.split("<!-- table: ").skip(1).filter_map(|rest| rest.split(" -->").next());
+        let empty = marked.filter(|name| !self.tables.iter().any(|table| table == name));
+        let empty = empty.map(|name| format!("nothing computes the table `{name}`"));
+        let pictures = self.old.split("](figures/").skip(1).filter_map(|rest| rest.split(')').next());
+        let absent = pictures.filter(|file| !path("figures").join(file).exists());
+        let absent = absent.map(|file| format!("there is no figures/{file}"));
+        let odd = (self.prose.matches('`').count() % 2 == 1).then(|| "a backtick has no partner".to_owned());
+        let flaws: Vec<String> = self
+            .flaws
+            .iter()
+            .cloned()
+            .chain(untold.map(around))
+            .chain(self.settled())
+            .chain(empty)
+            .chain(absent)
+            .chain(odd)
+            .collect();
         assert!(flaws.is_empty(), "{}:\n{}", self.name, flaws.join("\n"));
     }
 

@@ -63,7 +63,8 @@ fn survival(benched: &Benched, scenario: &str) -> Survivals {
 const MOST: usize = 8;
 
 /// Returns a chart of recall over dispersion, with a mark for every run; `None` if a value is unknown, or a dispersion
-/// is 0. If there are many strategies, the searches with the lowest recall are left out.
+/// is 0. If there are many strategies, it shows the ones
+/// in open loop first, and then the ones with the highest recall.
 fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     let rank = |cell: &BenchCell| cell.recall.unwrap_or(0.0);
     let by_recall: Vec<Strategy> = ranked(benched, scenario, rank).into_iter().map(|cell| cell.strategy).collect();
@@ -83,7 +84,7 @@ fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     let words: Vec<String> = correlations.map(|c| format!("{} {:.2}", c.among, c.spearman)).collect();
     let words = words.join(", ").replace('-', "\u{2212}");
     let hidden = benched.bench.strategies.len() - shown.len();
-    let hidden = if hidden > 0 { format!("; not drawn: {hidden} searches with a lower recall") } else { String::new() };
+    let hidden = if hidden > 0 { format!("; not drawn: {hidden} strategies") } else { String::new() };
     Some(Shares {
         frame: PlotFrame {
             title: format!("Does a low dispersion find failures? {scenario}"),
