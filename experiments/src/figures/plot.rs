@@ -274,7 +274,7 @@ fn line(area: &Area<'_>, points: &[(i32, i32)], colour: RGBColor) -> Drawn {
 }
 
 fn dashes(area: &Area<'_>, points: &[(i32, i32)], colour: RGBColor) -> Drawn {
-    Ok(area.draw(&DashedPathElement::new(points.to_vec().into_iter(), 50, 35, colour.stroke_width(14)))?)
+    Ok(area.draw(&DashedPathElement::new(points.iter().copied(), 50, 35, colour.stroke_width(14)))?)
 }
 
 impl Panel {

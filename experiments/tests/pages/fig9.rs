@@ -56,8 +56,10 @@ fn better_interval(own: &[f64], random: &[f64]) -> [f64; 2] {
     })
 }
 
+type Measure = (&'static str, &'static str, fn(f64) -> String);
+
 /// The measures of a sample: the column of the file, the title in the table, and how a value is written.
-const MEASURES: [(&str, &str, fn(f64) -> String); 6] = [
+const MEASURES: [Measure; 6] = [
     ("failures", "failing tests", whole),
     ("dispersion", "dispersion", |value| format!("{value:.4}")),
     ("star_discrepancy", "star discrepancy", |value| format!("{value:.4}")),
@@ -233,6 +235,9 @@ fn the_numbers_of_the_page_follow_from_its_samples() {
     page.close();
 }
 
+/// A part of the map: its name, and whether a speed and a distance belong to it.
+type Region = (&'static str, fn(f64, f64) -> bool);
+
 /// The tests of the map with a network as the driver.
 struct Map {
     tests: Vec<Row>,
@@ -254,7 +259,7 @@ impl Map {
     }
 
     fn regions(&self) -> String {
-        let regions: [(&str, fn(f64, f64) -> bool); 6] = [
+        let regions: [Region; 6] = [
             ("0.5 to 0.9 m/s, slower than in training", |speed, _| speed < 0.9),
             ("0.9 to 1.1 m/s", |speed, _| (0.9..1.1).contains(&speed)),
             ("1.1 to 4 m/s", |speed, _| (1.1..4.0).contains(&speed)),
@@ -396,7 +401,11 @@ fn the_numbers_of_the_page_with_a_network_follow_from_its_map() {
         samples(&panels, "dispersion", "random", 25).len()
     ));
     page.says(format!("{} randomised sets of each strategy", recalls[&("halton", 25)].len()));
-    page.given(&["a driver taught with walkers of 1 m/s meets other speeds", "Near 1 m/s, the", "Shifted Halton sets of 100 tests"]);
+    page.given(&[
+        "a driver taught with walkers of 1 m/s meets other speeds",
+        "Near 1 m/s, the",
+        "Shifted Halton sets of 100 tests",
+    ]);
     page.given(&[
         "with pedestrians that walk at 1 m/s and set out when the car, at 30 km/h, is 5 to 60 m away",
         "at 0.5 to 10 m/s. Every image",

@@ -257,7 +257,6 @@ fn the_numbers_of_the_page_follow_from_its_runs() {
         "compared with the 20,000 random tests",
         "Its 95 % bootstrap interval",
         "A value below 0 means",
-        
         "Within 150 tests, `auto`",
     ]);
     page.given(&[
