@@ -116,7 +116,7 @@ pub struct Panel {
     pub layers: Vec<Layer>,
 }
 
-/// How an entry of the legend looks.
+/// The look of an entry of the legend.
 pub enum Key {
     Mark(Mark, RGBColor),
     Line(RGBColor),
