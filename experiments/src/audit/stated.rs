@@ -1,12 +1,10 @@
 //! The grids that UN R157 and Euro NCAP state, on trial: the largest hole, the witness, the mutation score, and a better suite.
 
 use super::{SCREEN, files, known_rows, name_of, study, write_rows};
-use crate::{Done, print, write};
+use crate::{Done, print};
 use indicatif::ProgressBar;
 use paracosm::Study;
 use paracosm::analysis::audit::{Audit, Audited, Runs, Screen, Suite};
-use paracosm::generators::{Look, MarkShape};
-use paracosm::report::{Entry, Picture, PlotFrame, Series, Shares};
 use paracosm::space::Value;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -16,10 +14,6 @@ use std::time::Duration;
 const MUTANTS: usize = 128;
 /// The time for the coverage and the holes of a suite, and the search for a better suite.
 const LIMIT: Duration = Duration::from_secs(600);
-
-/// The marks of stated suites and of better suites.
-const STATED: Look = Look::filled(0xd5_5e00, MarkShape::Square);
-const BETTER: Look = Look::filled(0x00_72b2, MarkShape::Circle);
 
 /// A stated suite with the results of its audit, and the better suite.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -55,7 +49,7 @@ struct KindRow {
     killed: usize,
 }
 
-/// Runs the study and writes `audit.csv` and `audit-kinds.csv`, and draws `audit.svg` and `audit.png`.
+/// Runs the study and writes `audit.csv` and `audit-kinds.csv`.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let files = files();
     if files.is_empty() {
@@ -102,34 +96,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let picture = Picture::of_shares(chart(&rows));
-    write(&out.join("audit.svg"), picture.svg()?)?;
-    write(&out.join("audit.png"), picture.png()?)
-}
-
-/// Returns a chart of the largest holes over the numbers of tests, of the stated suites and of the better suites.
-fn chart(rows: &[Row]) -> Shares {
-    let stated: Vec<(f64, f64)> =
-        rows.iter().filter(|row| row.hole_lower > 0.0).map(|row| (row.tests as f64, row.hole_lower)).collect();
-    let better: Vec<(f64, f64)> =
-        rows.iter().filter_map(|row| Some((row.better_tests? as f64, row.better_hole_upper?))).collect();
-    let tests = || stated.iter().chain(&better).map(|mark| mark.0);
-    let range = (tests().fold(f64::INFINITY, f64::min), tests().fold(1.0, f64::max));
-    let entry =
-        |look, name: &str, marks: &[(f64, f64)]| Entry { look, name: name.to_owned(), number: marks.len().to_string() };
-    Shares {
-        frame: PlotFrame {
-            title: "What the grids of UN R157 and Euro NCAP cannot see".to_owned(),
-            note: "a mark for each logical scenario; stated: at least so large; better: at most so large".to_owned(),
-            legend: ["suite".to_owned(), "scenarios".to_owned()],
-            entries: vec![entry(STATED, "stated grid", &stated), entry(BETTER, "better suite", &better)],
-            cross: None,
-        },
-        x: "number of tests".to_owned(),
-        y: "largest box without a test, as a share of the valid part".to_owned(),
-        range,
-        series: vec![Series { look: STATED, marks: stated }, Series { look: BETTER, marks: better }],
-    }
+    Ok(())
 }
 
 /// Returns two screens with every second mutant each.

@@ -1,5 +1,6 @@
 //! Draws the figures of the pages from the CSV files of the studies, without running a study.
 
+mod covered;
 mod crossing;
 mod driven;
 mod outline;
@@ -24,7 +25,7 @@ macro_rules! file {
 type Drawing = fn(&[Table]) -> Figure;
 
 /// The figures: the name, the files of data, and the drawing.
-const FIGURES: [(&str, &[&[u8]], Drawing); 11] = [
+const FIGURES: [(&str, &[&[u8]], Drawing); 13] = [
     ("fig9", &[file!("fig9-tests.csv.gz"), file!("fig9-reference.csv.gz")], crossing::samples),
     ("fig9-cnn", &[file!("fig9-cnn-tests.csv"), file!("fig9-cnn-reference.csv")], crossing::samples),
     ("fig9-cnn-reference", &[file!("fig9-cnn-reference.csv"), file!("fig9-cnn-drivers.csv")], crossing::map),
@@ -33,6 +34,8 @@ const FIGURES: [(&str, &[&[u8]], Drawing); 11] = [
     ("fig10c", &[file!("fig10c-speeds.csv")], driven::leaders),
     ("saliency", &[file!("saliency-maps.csv.gz")], driven::saliency),
     ("saliency-gap", &[file!("saliency-gap.csv")], driven::gaps),
+    ("samplers", &[file!("samplers-sets.csv.gz")], covered::samplers),
+    ("audit", &[file!("audit.csv")], covered::suites),
     ("fig6", &[file!("fig6.csv")], seen::lenses),
     ("fig8", &[file!("fig8.csv")], seen::vehicles),
     ("conditions", &[file!("conditions-paired.csv")], seen::conditions),

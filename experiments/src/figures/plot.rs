@@ -44,6 +44,8 @@ pub struct Axis {
     pub range: (f64, f64),
     /// The places of the numbers.
     pub ticks: Vec<f64>,
+    /// The number that is written at a place.
+    written: fn(f64) -> String,
     /// A second number below each number of a horizontal axis, such as a visibility.
     pub second: Option<fn(f64) -> String>,
 }
@@ -53,7 +55,17 @@ impl Axis {
     pub fn new(label: &str, range: (f64, f64), step: f64) -> Self {
         let steps = ((range.1 - range.0) / step + 1e-9).floor() as usize;
         let ticks = (0..=steps).map(|i| range.0 + i as f64 * step).collect();
-        Self { label: label.to_owned(), range, ticks, second: None }
+        Self { label: label.to_owned(), range, ticks, written: short, second: None }
+    }
+
+    /// Makes an axis of decimal logarithms from the first to the last of these numbers.
+    ///
+    /// # Panics
+    /// There is no number.
+    pub fn logarithmic(label: &str, numbers: &[f64]) -> Self {
+        let ticks: Vec<f64> = numbers.iter().map(|number| libm::log10(*number)).collect();
+        let range = (ticks[0], ticks[ticks.len() - 1]);
+        Self { label: label.to_owned(), range, ticks, written: |power| short(libm::pow(10.0, power)), second: None }
     }
 
     pub fn at(mut self, ticks: &[f64]) -> Self {
@@ -286,7 +298,8 @@ impl Panel {
         (wide, plane): (i32, i32),
         [label_x, label_y]: [bool; 2],
     ) -> Drawn {
-        let margin = if self.x.second.is_some() { 140 } else { 70 };
+        let last = self.x.ticks.last().map_or(0, |tick| length(&(self.x.written)(*tick), NUMBER));
+        let margin = if self.x.second.is_some() { 140 } else { 70.max(last / 2 + 20) };
         let (x0, x1) = (left + 330, left + wide - margin);
         let (y0, y1) = (top + ABOVE, top + ABOVE + plane);
         let across = |x: f64| x0 + (self.x.share(x) * f64::from(x1 - x0)).round() as i32;
@@ -306,7 +319,7 @@ impl Panel {
         for tick in &self.x.ticks {
             let x = across(*tick);
             area.draw(&PathElement::new([(x, y0), (x, y1)], GRID.stroke_width(5)))?;
-            area.draw(&Text::new(short(*tick), (x, y1 + 30), text(NUMBER, HPos::Center, VPos::Top)))?;
+            area.draw(&Text::new((self.x.written)(*tick), (x, y1 + 30), text(NUMBER, HPos::Center, VPos::Top)))?;
             if let Some(second) = self.x.second {
                 area.draw(&Text::new(second(*tick), (x, y1 + 30 + SECOND), text(NUMBER, HPos::Center, VPos::Top)))?;
             }
@@ -314,7 +327,7 @@ impl Panel {
         for tick in &self.y.ticks {
             let y = up(*tick);
             area.draw(&PathElement::new([(x0, y), (x1, y)], GRID.stroke_width(5)))?;
-            area.draw(&Text::new(short(*tick), (x0 - 30, y), text(NUMBER, HPos::Right, VPos::Center)))?;
+            area.draw(&Text::new((self.y.written)(*tick), (x0 - 30, y), text(NUMBER, HPos::Right, VPos::Center)))?;
         }
         area.draw(&PathElement::new([(x0, y0), (x0, y1), (x1, y1)], INK.stroke_width(8)))?;
         self.layers.iter().try_for_each(|layer| layer.draw(area, &place))?;
