@@ -11,7 +11,7 @@ const SIZES: [f64; 6] = [20.0, 60.0, 100.0, 240.0, 500.0, 1000.0];
 fn median(sets: &[Row<'_>], points: f64, measure: &str) -> Option<f64> {
     let ends = |row: &Row<'_>| ["lower", "upper"].map(|end| row.number(&format!("{measure}_{end}")));
     let own = sets.iter().filter(|row| row.number("n") == points);
-    let exact: Option<Vec<f64>> = own.map(|row| ends(row)).map(|[low, high]| (low == high).then_some(low)).collect();
+    let exact: Option<Vec<f64>> = own.map(ends).map(|[low, high]| (low == high).then_some(low)).collect();
     let mut values = exact?;
     values.sort_by(f64::total_cmp);
     Some(f64::midpoint(*values.get(values.len().checked_sub(1)? / 2)?, values[values.len() / 2]))
