@@ -1,7 +1,7 @@
 //! Runs the studies of the paper and our own, each by its name.
 //!
-//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints its findings. Systems of a benchmark
-//! can be tested from the command line.
+//! A study writes its numbers as CSV and prints its findings. The study `figures` draws the charts of the pages from these files. Systems of
+//! a benchmark can be tested from the command line.
 
 mod alks;
 mod audit;
@@ -159,7 +159,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "strategies",
         about: "which strategy finds failures, and whether a low dispersion helps, on problems that no choice was made on",
-        time: "40 min",
+        time: "1 h",
         run: searches::run,
     },
     Study {
@@ -221,7 +221,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "fig9-cnn",
         about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, with a cloned driver",
-        time: "4 min",
+        time: "6 min",
         run: fig9_cnn::run,
     },
     #[cfg(feature = "neural")]

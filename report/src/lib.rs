@@ -42,7 +42,7 @@ mod xml;
 pub use blame::BlameTable;
 pub use junit::{Junit, command_option, shell_word};
 pub use plot::{
-    Axis, Entry, FailureMap, HeatMap, Lines, Mark, Picture, PlotFrame, Series, Shares, Tints, drawing_png, film_gif,
+    Axis, Entry, FailureMap, HeatMap, Mark, Picture, PlotFrame, Series, Shares, Tints, drawing_png, film_gif,
 };
 pub use step_summary::StepSummary;
 pub use trials::TrialTable;

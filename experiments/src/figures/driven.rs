@@ -2,22 +2,16 @@
 
 use super::outline::outline;
 use super::plot::{Axis, BLUE, Bar, CURVES, Figure, GREEN, INK, Key, Layer, Mark, ORANGE, Panel};
-use super::table::Table;
+use super::table::{Row, Table};
+use paracosm::report::Tints;
 use plotters::style::RGBColor;
 
 /// The range of the distances that the shades show, in metres.
 const COVERED: (f64, f64) = (60.0, 110.0);
-/// Some colours of ColorBrewer's YlGnBu (Brewer), from pale to dark, so that they are ordered in grey, too.
-const SHADES: [[f64; 3]; 5] =
-    [[255.0, 255.0, 204.0], [161.0, 218.0, 180.0], [65.0, 182.0, 196.0], [44.0, 127.0, 184.0], [37.0, 52.0, 148.0]];
 
 fn shade(metres: f64) -> RGBColor {
-    let share = ((metres - COVERED.0) / (COVERED.1 - COVERED.0)).clamp(0.0, 1.0) * (SHADES.len() - 1) as f64;
-    let below = (share as usize).min(SHADES.len() - 2);
-    let channel = |i: usize| {
-        (SHADES[below][i] + (share - below as f64) * (SHADES[below + 1][i] - SHADES[below][i])).round() as u8
-    };
-    RGBColor(channel(0), channel(1), channel(2))
+    let [red, green, blue] = Tints::shade(metres, COVERED);
+    RGBColor(red, green, blue)
 }
 
 fn fog() -> Axis {
@@ -27,7 +21,7 @@ fn fog() -> Axis {
 /// Draws the distance that the network covers over fog and light.
 pub fn fog_and_light(tables: &[Table]) -> Figure {
     let tests = &tables[0];
-    let at = |row: super::table::Row<'_>| (row.number("fog"), row.number("light"));
+    let at = |row: Row<'_>| (row.number("fog"), row.number("light"));
     let dots = tests.rows().map(|row| (at(row).0, at(row).1, shade(row.number("travelled")))).collect();
     let failing = tests.rows().filter(|row| row.word("verdict") == "fail").map(at).collect();
     let layers = vec![
@@ -132,7 +126,7 @@ pub fn saliency(tables: &[Table]) -> Figure {
         let [width, height] =
             ["column", "row"].map(|column| own().map(|row| row.number(column)).fold(0.0, f64::max) + 1.0);
         // Neighbours in a row that have the same of a few shades are one rectangle.
-        let shade = |row: super::table::Row<'_>| (40.0 * row.number("throttle") / CHANGE).round() / 40.0 * CHANGE;
+        let shade = |row: Row<'_>| (40.0 * row.number("throttle") / CHANGE).round() / 40.0 * CHANGE;
         let mut layers: Vec<Layer> = Vec::new();
         let mut run: Option<(f64, f64, f64, f64)> = None;
         let mut close = |run: (f64, f64, f64, f64)| {

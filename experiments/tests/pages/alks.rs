@@ -4,7 +4,7 @@ use crate::page::Page;
 use crate::rows::{Row, different, number, rows};
 use std::fmt::Write;
 
-const CSV: &str = include_str!("../../data/alks.csv");
+const CSV: &[u8] = include_bytes!("../../data/alks.csv");
 
 /// The number of valid combinations of the cut-in, which is known from the published files.
 const VALID_CUT_INS: &str = "29750";

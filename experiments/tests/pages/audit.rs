@@ -5,10 +5,10 @@ use crate::rows::{Row, count, mean, numbers_of, rows};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-const SUITES: &str = include_str!("../../data/audit.csv");
-const KINDS: &str = include_str!("../../data/audit-kinds.csv");
-const STATISTICS: &str = include_str!("../../data/audit-statistics.csv");
-const STRATEGIES: &str = include_str!("../../data/audit-strategies.csv");
+const SUITES: &[u8] = include_bytes!("../../data/audit.csv");
+const KINDS: &[u8] = include_bytes!("../../data/audit-kinds.csv");
+const STATISTICS: &[u8] = include_bytes!("../../data/audit-statistics.csv");
+const STRATEGIES: &[u8] = include_bytes!("../../data/audit-strategies.csv");
 
 fn number(row: &Row, name: &str) -> Option<f64> {
     row[name].parse().ok()

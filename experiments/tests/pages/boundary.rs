@@ -19,7 +19,7 @@ fn median(samples: &[Row], column: &str, strategy: &str, tests: u32) -> f64 {
 
 #[test]
 fn the_numbers_of_the_page_follow_from_its_campaigns() {
-    let samples = rows(include_str!("../../data/boundary.csv"));
+    let samples = rows(include_bytes!("../../data/boundary.csv"));
     let mut page = Page::open("boundary.md");
     let mut table = String::from(
         "| strategy | tests | nearest test | model | where the model is 95 % sure | right where sure |\n| --- | --- | --- | --- | --- | --- |\n",

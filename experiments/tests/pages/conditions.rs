@@ -5,11 +5,11 @@ use crate::rows::{Row, count, different, number, numbers_of, rows, visibility};
 use paracosm::analysis::statistics::bootstrap_interval;
 use std::fmt::Write;
 
-const PAIRED: &str = include_str!("../../data/conditions-paired.csv");
-const PAIRS: &str = include_str!("../../data/conditions-pairs.csv");
-const GUILTY: &str = include_str!("../../data/conditions-guilty.csv");
-const SHRUNK: &str = include_str!("../../data/conditions-shrunk.csv");
-const RISK: &str = include_str!("../../data/conditions-risk.csv");
+const PAIRED: &[u8] = include_bytes!("../../data/conditions-paired.csv");
+const PAIRS: &[u8] = include_bytes!("../../data/conditions-pairs.csv");
+const GUILTY: &[u8] = include_bytes!("../../data/conditions-guilty.csv");
+const SHRUNK: &[u8] = include_bytes!("../../data/conditions-shrunk.csv");
+const RISK: &[u8] = include_bytes!("../../data/conditions-risk.csv");
 const LENS: &str = "camera.front.focal_mm";
 
 fn points(share: f64) -> String {
@@ -204,7 +204,7 @@ fn the_numbers_of_the_page_follow_from_its_tests() {
     ));
     page.says(format!("fog 0, 0.1, 0.2 ({} and {})", visibility(0.1), visibility(0.2)));
     page.says(format!("fog 0 to 0.2 (a visibility above {})", visibility(0.2)));
-    let recalls = rows(include_str!("../../data/recall.csv"));
+    let recalls = rows(include_bytes!("../../data/recall.csv"));
     let coco = number(recalls.iter().find(|row| row["detector"] == "ssd-coco").unwrap(), "threshold");
     page.says(format!("`ssd-coco` has {coco:.2}"));
     page.given(&[

@@ -5,15 +5,15 @@ use crate::rows::{Row, count, mean, number, numbers_of, range, rows, visibility}
 use std::fmt::Write;
 
 /// Says how many tests of the training conditions pass with the network.
-fn exam(csv: &'static str) -> String {
-    let tests = rows(csv);
+fn exam(file: &[u8]) -> String {
+    let tests = rows(file);
     let own = |row: &Row| row["driver"] == "cnn";
     format!("{} of {}", count(&tests, |row| own(row) && row["verdict"] == "pass"), count(&tests, own))
 }
 
 #[test]
 fn the_numbers_of_the_page_on_figure_10a_follow_from_its_tests() {
-    let tests = rows(include_str!("../../data/fig10a.csv"));
+    let tests = rows(include_bytes!("../../data/fig10a.csv"));
     let mut page = Page::open("fig10a.md");
     let fails = |row: &Row| row["verdict"] == "fail";
     let fog = |row: &Row| number(row, "fog");
@@ -24,7 +24,7 @@ fn the_numbers_of_the_page_on_figure_10a_follow_from_its_tests() {
     page.says(format!("{} Halton tests over fog and light", tests.len()));
     page.says(format!("all {failing} failing tests fail because the car leaves the lane"));
     page.says(format!("there is no collision in {} tests", tests.len()));
-    page.says(format!("{} tests of the training conditions pass", exam(include_str!("../../data/exam-follow.csv"))));
+    page.says(format!("{} tests of the training conditions pass", exam(include_bytes!("../../data/exam-follow.csv"))));
 
     let thin = count(&tests, |row| fog(row) < 0.2);
     assert_eq!(count(&tests, |row| fog(row) < 0.2 && fails(row)), 0);
@@ -47,7 +47,7 @@ fn the_numbers_of_the_page_on_figure_10a_follow_from_its_tests() {
 
 #[test]
 fn the_numbers_of_the_page_on_figure_10b_follow_from_its_tests() {
-    let tests = rows(include_str!("../../data/fig10b.csv"));
+    let tests = rows(include_bytes!("../../data/fig10b.csv"));
     let mut page = Page::open("fig10b.md");
     let fog = |row: &Row| number(row, "fog");
     let reaches = |row: &Row, event: &str| number(row, event) < 200.0;
@@ -85,8 +85,8 @@ fn the_numbers_of_the_page_on_figure_10b_follow_from_its_tests() {
         visibility(from),
         latest.ceil()
     ));
-    page.says(format!("{} tests pass", exam(include_str!("../../data/exam-loop.csv"))));
-    let steering = rows(include_str!("../../data/fig10b-steering.csv"));
+    page.says(format!("{} tests pass", exam(include_bytes!("../../data/exam-loop.csv"))));
+    let steering = rows(include_bytes!("../../data/fig10b-steering.csv"));
     let turns = |fog: &str| {
         let turning = steering.iter().find(|row| row["fog"] == fog && number(row, "steering") < -0.15).unwrap();
         number(turning, "time")
@@ -123,7 +123,7 @@ fn speeds_over_time(all: &[Row], case: &str, leader: &str) -> Vec<(f64, f64)> {
 
 /// Returns by how much the car is slower at most, in the 3 s before another car passes, than without the other car.
 pub fn slowed_by_a_red_car() -> f64 {
-    let all = rows(include_str!("../../data/fig10c-speeds.csv"));
+    let all = rows(include_bytes!("../../data/fig10c-speeds.csv"));
     let slower = LEADERS.map(|leader| {
         let [alone, with_car] =
             ["red leader", "red leader and a red car coming"].map(|case| speeds_over_time(&all, case, leader));
@@ -138,8 +138,8 @@ pub fn slowed_by_a_red_car() -> f64 {
 
 #[test]
 fn the_numbers_of_the_page_on_figure_10c_follow_from_its_tests() {
-    let tests = rows(include_str!("../../data/fig10c.csv"));
-    let over_time = rows(include_str!("../../data/fig10c-speeds.csv"));
+    let tests = rows(include_bytes!("../../data/fig10c.csv"));
+    let over_time = rows(include_bytes!("../../data/fig10c-speeds.csv"));
     let mut page = Page::open("fig10c.md");
     let least = |case: &str, leader: &str| {
         number(

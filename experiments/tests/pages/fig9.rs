@@ -2,11 +2,9 @@
 
 use crate::page::Page;
 use crate::rows::{Row, count, number, numbers_of, range, rows};
-use flate2::read::GzDecoder;
 use paracosm::analysis::statistics::{bootstrap_interval, median_and_quartiles, quantile, vargha_delaney};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::Read;
 
 const STRATEGIES: [&str; 5] = ["random", "halton", "sobol-owen", "lhs", "greedy"];
 
@@ -150,21 +148,14 @@ fn decided(recalls: &BTreeMap<(&'static str, usize), Vec<f64>>, sizes: [usize; 3
     decided
 }
 
-/// Returns the text of a compressed file. It lasts as long as the test.
-fn unpacked(file: &[u8]) -> &'static str {
-    let mut text = String::new();
-    GzDecoder::new(file).read_to_string(&mut text).unwrap();
-    text.leak()
-}
-
 #[test]
 fn the_numbers_of_the_page_follow_from_its_samples() {
     let sizes = [25, 100, 500];
-    let panels = rows(include_str!("../../data/fig9-panels.csv"));
+    let panels = rows(include_bytes!("../../data/fig9-panels.csv"));
     let recalls = recalls(include_str!("../../data/fig9-recalls.csv"));
-    let shape = rows(include_str!("../../data/fig9-shape.csv"));
-    let sides = rows(unpacked(include_bytes!("../../data/fig9-sides.csv.gz")));
-    let noise = rows(include_str!("../../data/fig9-noise.csv"));
+    let shape = rows(include_bytes!("../../data/fig9-shape.csv"));
+    let sides = rows(include_bytes!("../../data/fig9-sides.csv.gz"));
+    let noise = rows(include_bytes!("../../data/fig9-noise.csv"));
     let mut page = Page::open("fig9.md");
     page.table("samples", &sample_table(&panels, sizes));
     page.table("recalls", &recall_table(&recalls, sizes));
@@ -286,7 +277,7 @@ impl Map {
 
 /// The tests that fail with the network and not with `cruise`.
 fn says_why_braking_fails(page: &mut Page, map: &Map, only_braking: usize) {
-    let braked = rows(include_str!("../../data/fig9-cnn-braked.csv"));
+    let braked = rows(include_bytes!("../../data/fig9-cnn-braked.csv"));
     let is_one = |test: &usize| map.fails(*test, "network") && !map.fails(*test, "cruise");
     let tests: Vec<usize> = (0..map.tests.len()).filter(is_one).collect();
     let place = |row: &Row| ["speed", "distance"].map(|column| format!("{:.2}", number(row, column)));
@@ -319,13 +310,13 @@ fn says_why_braking_fails(page: &mut Page, map: &Map, only_braking: usize) {
 #[test]
 fn the_numbers_of_the_page_with_a_network_follow_from_its_map() {
     let sizes = [25, 50, 100];
-    let panels = rows(include_str!("../../data/fig9-cnn-panels.csv"));
+    let panels = rows(include_bytes!("../../data/fig9-cnn-panels.csv"));
     let recalls = recalls(include_str!("../../data/fig9-cnn-recalls.csv"));
-    let shape = rows(include_str!("../../data/fig9-cnn-shape.csv"));
-    let exams = rows(include_str!("../../data/exam-stop.csv"));
+    let shape = rows(include_bytes!("../../data/fig9-cnn-shape.csv"));
+    let exams = rows(include_bytes!("../../data/exam-stop.csv"));
     let map = Map {
-        tests: rows(include_str!("../../data/fig9-cnn-reference.csv")),
-        others: rows(include_str!("../../data/fig9-cnn-drivers.csv")),
+        tests: rows(include_bytes!("../../data/fig9-cnn-reference.csv")),
+        others: rows(include_bytes!("../../data/fig9-cnn-drivers.csv")),
     };
     let mut page = Page::open("fig9-cnn.md");
     page.table("samples", &sample_table(&panels, sizes));

@@ -54,7 +54,7 @@ fn the_numbers_of_the_page_follow_from_the_studies() {
     page.table("dispersion", &dispersions());
     page.given_cells("| section | the paper | here |", 2);
 
-    let images = rows(include_str!("../../data/fig8.csv"));
+    let images = rows(include_bytes!("../../data/fig8.csv"));
     let trucks: Vec<[usize; 2]> = different(&images, "detector")
         .iter()
         .map(|name| {
@@ -69,7 +69,7 @@ fn the_numbers_of_the_page_follow_from_the_studies() {
     let (last, first) = found.split_last().unwrap();
     page.says(format!("six detectors find it in {} and {last} of {} images", first.join(", "), trucks[0][0]));
 
-    let map = rows(include_str!("../../data/fig9-cnn-reference.csv"));
+    let map = rows(include_bytes!("../../data/fig9-cnn-reference.csv"));
     let fails = |row: &Row| row["verdict"] == "fail";
     page.says(format!("Agrees: {} of 2,500 tests with our network fail", count(&map, fails)));
     assert_eq!(map.len(), 2500);
@@ -78,7 +78,7 @@ fn the_numbers_of_the_page_follow_from_the_studies() {
         format!("{:.1}", 100.0 * count(&map, |row| own(row) && fails(row)) as f64 / count(&map, own) as f64)
     };
     page.says(format!("the share falls from {} to {} % over the quarters of the speeds", quarter(0), quarter(3)));
-    let sets = rows(include_str!("../../data/fig9-recalls.csv"));
+    let sets = rows(include_bytes!("../../data/fig9-recalls.csv"));
     let better = |tests: &str| {
         let of =
             |strategy: &str| numbers_of(&sets, "recall", |row| row["strategy"] == strategy && row["tests"] == tests);
@@ -90,10 +90,10 @@ fn the_numbers_of_the_page_follow_from_the_studies() {
         better("100"),
         better("500")
     ));
-    let fog = rows(include_str!("../../data/fig10a.csv"));
+    let fog = rows(include_bytes!("../../data/fig10a.csv"));
     assert_eq!(count(&fog, |row| row["collided"] == "true"), 0);
     page.says(format!("Does not agree: no collision in {} tests", fog.len()));
-    let leaders = rows(include_str!("../../data/fig10c.csv"));
+    let leaders = rows(include_bytes!("../../data/fig10c.csv"));
     assert_eq!(count(&leaders, |row| row["verdict"] == "fail"), 0);
     let slower = slowed_by_a_red_car();
     page.says(format!("it is at most {slower:.2} m/s slower in the 3 s before that car passes"));

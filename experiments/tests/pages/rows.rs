@@ -1,30 +1,20 @@
 //! Reads the CSV files of studies.
 
+use flate2::read::GzDecoder;
 use std::collections::BTreeMap;
+use std::io::Read;
 
 /// A row of a CSV: the cells by the names of their columns.
 pub type Row = BTreeMap<&'static str, &'static str>;
 
-/// Returns the rows of a CSV. A cell in quotes may contain commas.
-pub fn rows(csv: &'static str) -> Vec<Row> {
-    let names = cells(csv.lines().next().unwrap());
-    csv.lines().skip(1).map(|line| names.iter().copied().zip(cells(line)).collect()).collect()
-}
-
-fn cells(line: &'static str) -> Vec<&'static str> {
-    let (mut cells, mut from, mut quoted) = (Vec::new(), 0, false);
-    for (at, character) in line.char_indices() {
-        match character {
-            '"' => quoted = !quoted,
-            ',' if !quoted => {
-                cells.push(&line[from..at]);
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    cells.push(&line[from..]);
-    cells.into_iter().map(|cell| cell.trim_matches('"')).collect()
+/// Returns the rows of a CSV file, which may be compressed with gzip. Their texts last as long as the test.
+pub fn rows(file: &[u8]) -> Vec<Row> {
+    let mut unpacked = Vec::new();
+    let plain = if GzDecoder::new(file).read_to_end(&mut unpacked).is_ok() { &unpacked } else { file };
+    let mut csv = csv::Reader::from_reader(plain);
+    let cells = |record: &csv::StringRecord| record.iter().map(|cell| &*cell.to_owned().leak()).collect::<Vec<&str>>();
+    let names = cells(csv.headers().unwrap());
+    csv.records().map(|record| names.iter().copied().zip(cells(&record.unwrap())).collect()).collect()
 }
 
 /// Returns the number in a column.

@@ -1,7 +1,7 @@
 //! Computes the numbers of the page on samplers.
 
 use crate::page::Page;
-use crate::rows::{numbers_of, range};
+use crate::rows::{numbers_of, range, rows};
 use flate2::read::GzDecoder;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -177,9 +177,7 @@ fn the_numbers_of_the_page_follow_from_its_sets() {
     tables.iter().for_each(|(name, table)| page.table(name, table));
     let sets = study.rows.len();
     page.says(format!("are {},{:03} sets", sets / 1000, sets % 1000));
-    let mut text = String::new();
-    GzDecoder::new(&include_bytes!("../../data/samplers-summary.csv.gz")[..]).read_to_string(&mut text).unwrap();
-    let summary = crate::rows::rows(text.leak());
+    let summary = rows(include_bytes!("../../data/samplers-summary.csv.gz"));
     let [least, _] = range(numbers_of(&summary, "holm_p", |row| !row["holm_p"].is_empty()));
     page.says(format!(
         "no p-value that is corrected for all comparisons of a measure (Holm) falls below {:.2}",

@@ -1,22 +1,14 @@
 //! Checks what Figure 9 with a network shows, by the numbers in its tables.
 
+use crate::rows::{Row, count, number, rows};
 use std::ops::Range;
-
-/// The rows of a table, cell by cell, without its header.
-fn rows(table: &str) -> Vec<Vec<&str>> {
-    table.lines().skip(1).map(|line| line.split(',').collect()).collect()
-}
 
 /// The share of the reference map's tests at some speeds and distances that violate a requirement.
 fn failing(within: impl Fn(f64, f64) -> bool) -> f64 {
-    let map = rows(include_str!("../../data/fig9-cnn-reference.csv"));
+    let map = rows(include_bytes!("../../data/fig9-cnn-reference.csv"));
     assert_eq!(map.len(), 2500);
-    let of_part: Vec<bool> = map
-        .iter()
-        .filter(|row| within(row[0].parse().unwrap(), row[1].parse().unwrap()))
-        .map(|row| row[2] == "fail")
-        .collect();
-    of_part.iter().filter(|fails| **fails).count() as f64 / of_part.len() as f64
+    let is_within = |row: &Row| within(number(row, "speed"), number(row, "distance"));
+    count(&map, |row| is_within(row) && row["verdict"] == "fail") as f64 / count(&map, is_within) as f64
 }
 
 #[test]
@@ -32,10 +24,10 @@ fn the_cloned_driver_fails_more_before_slower_walkers_than_it_was_taught_with_an
 
 #[test]
 fn what_the_cloned_driver_cannot_do_others_can() {
-    let others = rows(include_str!("../../data/fig9-cnn-drivers.csv"));
-    let count = |column: usize| others.iter().filter(|row| row[column] == "true").count();
+    let others = rows(include_bytes!("../../data/fig9-cnn-drivers.csv"));
+    let fails = |driver: &str| count(&others, |row| row[driver] == "true");
     let network = (2500.0 * failing(|_, _| true)).round() as usize;
-    let [expert, cruise] = [2, 4].map(count);
+    let [expert, cruise] = ["expert", "cruise"].map(fails);
     // The expert who taught the network is better than it, and the network is far better than a driver that never
     // brakes.
     assert!(others.len() == 2500 && expert < network && 3 * network < cruise, "{expert}, {network}, {cruise}");

@@ -2,10 +2,8 @@
 
 use crate::page::Page;
 use crate::rows::{Row, different, mean, number, range, rows};
-use flate2::read::GzDecoder;
 use paracosm::analysis::statistics::{bootstrap_interval, spearman};
 use std::fmt::Write;
-use std::io::Read;
 
 const RUNS: &str = include_str!("../../data/random-functions.csv");
 
@@ -59,11 +57,9 @@ struct Runs {
 
 impl Runs {
     fn read() -> Self {
-        let mut text = String::new();
-        GzDecoder::new(&include_bytes!("../../data/strategies.csv.gz")[..]).read_to_string(&mut text).unwrap();
-        let rows = rows(text.leak());
-        let maps = crate::rows::rows(include_str!("../../data/strategies-maps.csv"));
-        Self { problems: different(&rows, "problem"), strategies: different(&rows, "strategy"), rows, maps }
+        let all = rows(include_bytes!("../../data/strategies.csv.gz"));
+        let maps = rows(include_bytes!("../../data/strategies-maps.csv"));
+        Self { problems: different(&all, "problem"), strategies: different(&all, "strategy"), rows: all, maps }
     }
 
     fn of(&self, problem: &str, strategy: &str) -> Vec<&Row> {
@@ -274,7 +270,7 @@ fn the_numbers_of_the_page_follow_from_its_runs() {
 #[test]
 fn each_problem_was_taken_by_the_rule_and_each_strategy_has_thirty_runs_on_it() {
     let runs = Runs::read();
-    let screened = rows(include_str!("../../data/strategies-screen.csv"));
+    let screened = rows(include_bytes!("../../data/strategies-screen.csv"));
     for row in &screened {
         let share = number(row, "failing") / number(row, "tests");
         assert_eq!(row["taken"] == "1", (0.001..=0.2).contains(&share), "{row:?}");

@@ -10,7 +10,7 @@ fn percent(share: f64) -> String {
 
 #[test]
 fn the_numbers_of_the_page_on_figure_6_follow_from_its_networks() {
-    let networks = rows(include_str!("../../data/fig6.csv"));
+    let networks = rows(include_bytes!("../../data/fig6.csv"));
     let of = |course: &str, length: &str, column: &str| {
         numbers_of(&networks, column, |row| row["course"] == course && row["focal_mm"] == length)
     };
@@ -75,7 +75,7 @@ fn the_numbers_of_the_page_on_figure_6_follow_from_its_networks() {
 
 #[test]
 fn the_numbers_of_the_page_on_figure_8_follow_from_its_images() {
-    let images = rows(include_str!("../../data/fig8.csv"));
+    let images = rows(include_bytes!("../../data/fig8.csv"));
     let mut page = Page::open("fig8.md");
     let mut table = String::from(
         "| detector | threshold | visible | found | false alarms | truck visible | truck found |\n\
@@ -129,7 +129,7 @@ fn the_numbers_of_the_page_on_figure_8_follow_from_its_images() {
 
 #[test]
 fn the_numbers_of_the_page_on_recall_follow_from_its_boxes() {
-    let sizes = rows(include_str!("../../data/recall.csv"));
+    let sizes = rows(include_bytes!("../../data/recall.csv"));
     let mut page = Page::open("recall.md");
     let mut table = String::from(
         "| detector | pixels of | threshold | found | recall in % | AP50 | false alarms |\n| --- | --- | --- | --- | --- | --- | --- |\n",

@@ -63,8 +63,7 @@ fn survival(benched: &Benched, scenario: &str) -> Survivals {
 const MOST: usize = 8;
 
 /// Returns a chart of recall over dispersion, with a mark for every run; `None` if a value is unknown, or a dispersion
-/// is 0. If there are many strategies, it shows the ones
-/// in open loop first, and then the ones with the highest recall.
+/// is 0. The chart shows at most eight strategies: strategies in open loop, and then searches with the highest recall.
 fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     let rank = |cell: &BenchCell| cell.recall.unwrap_or(0.0);
     let by_recall: Vec<Strategy> = ranked(benched, scenario, rank).into_iter().map(|cell| cell.strategy).collect();

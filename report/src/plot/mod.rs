@@ -10,7 +10,6 @@ mod contour;
 mod drawn;
 mod frame;
 mod heat;
-mod lines;
 mod log_axis;
 mod log_log;
 mod map;
@@ -31,7 +30,6 @@ pub use animation::film_gif;
 pub use animation::{Colours, Reel};
 pub use frame::{Entry, PlotFrame};
 pub use heat::HeatMap;
-pub use lines::Lines;
 pub use log_log::{LogLog, LogLogCurve, Plane};
 pub use map::{Axis, FailureMap};
 pub use map_files::MapFiles;
@@ -88,7 +86,6 @@ enum Panel {
     LogLog(LogLog),
     Shares(Shares),
     Survivals(Survivals),
-    Lines(Lines),
     Heat(HeatMap),
     Slices(Slices),
 }
@@ -117,24 +114,6 @@ impl Picture {
     pub fn of_survivals(chart: Survivals) -> Self {
         let size = (frame::LEGEND + survival::PLANE, frame::HEADER + chart.height());
         Self { panels: vec![Panel::Survivals(chart)], columns: 1, size }
-    }
-
-    /// Makes a picture of charts of curves, with the charts below each other.
-    ///
-    /// # Panics
-    /// Panics if there is no chart.
-    pub fn of_lines(charts: Vec<Lines>) -> Self {
-        assert!(!charts.is_empty(), "a picture shows something");
-        Self { panels: charts.into_iter().map(Panel::Lines).collect(), columns: 1, size: (900, 420) }
-    }
-
-    /// Makes a picture of several failure maps in rows of `columns` maps.
-    ///
-    /// # Panics
-    /// Panics if there is no map or no column.
-    pub fn grid(columns: usize, maps: Vec<FailureMap>) -> Self {
-        assert!(columns > 0 && !maps.is_empty(), "a picture shows something");
-        Self { panels: maps.into_iter().map(Panel::Map).collect(), columns, size: (480, 440) }
     }
 
     /// Makes a picture of several images of equal size, in rows of `columns` images.
@@ -200,7 +179,6 @@ impl Picture {
                     Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Shares(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Survivals(chart) => chart.draw(&part, f64::from(scale))?,
-                    Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Heat(image) => image.draw(&part, scale)?,
                     Panel::Slices(slices) => slices.draw(&part, f64::from(scale))?,
                 }

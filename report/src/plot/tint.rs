@@ -27,14 +27,19 @@ const COLOURS: [[f64; 3]; 5] =
 const STEPS: usize = 40;
 
 impl Tints {
-    /// Returns the colour of a number.
-    pub(super) fn colour(&self, value: f64) -> RGBColor {
-        let share = ((value - self.range.0) / (self.range.1 - self.range.0)).clamp(0.0, 1.0);
+    /// Returns the red, green and blue of a number in a range. A number beyond the range has the colour of that end.
+    pub fn shade(value: f64, range: (f64, f64)) -> [u8; 3] {
+        let share = ((value - range.0) / (range.1 - range.0)).clamp(0.0, 1.0);
         let place = share * (COLOURS.len() - 1) as f64;
         let below = (place as usize).min(COLOURS.len() - 2);
         let between = place - below as f64;
-        let channel = |i: usize| COLOURS[below][i] + between * (COLOURS[below + 1][i] - COLOURS[below][i]);
-        RGBColor(channel(0).round() as u8, channel(1).round() as u8, channel(2).round() as u8)
+        [0, 1, 2].map(|i| (COLOURS[below][i] + between * (COLOURS[below + 1][i] - COLOURS[below][i])).round() as u8)
+    }
+
+    /// Returns the colour of a number.
+    pub(super) fn colour(&self, value: f64) -> RGBColor {
+        let [red, green, blue] = Self::shade(value, self.range);
+        RGBColor(red, green, blue)
     }
 
     /// Draws the bar along the left side of an area, from `top` to `bottom`, with round numbers beside it.
