@@ -4,7 +4,7 @@ use crate::cameras::VariedCameras;
 use crate::perception::{Film, Notes, RoadUser, Taken, mask, road_users};
 use crate::{Error, Problem, Study, Worker};
 use paracosm_perception::{Extent, Mask, Picture};
-use paracosm_render::{Camera, Look};
+use paracosm_render::Camera;
 use paracosm_space::Values;
 
 /// A camera on the ego vehicle of a study, which takes images of tests with their ground truth.
@@ -24,10 +24,10 @@ impl<'a> Gallery<'a> {
     ///
     /// # Errors
     /// The study cannot be run, or the machine has nothing to draw with.
-    pub fn new(study: &'a Study, cameras: VariedCameras, look: Look) -> Result<Self, Error> {
+    pub fn new(study: &'a Study, cameras: VariedCameras) -> Result<Self, Error> {
         let mut worker = Worker::new(study)?;
         worker.open_darkroom(cameras.nominal())?;
-        Ok(Self { worker, film: Film::new(cameras, look) })
+        Ok(Self { worker, film: Film::new(cameras) })
     }
 
     /// Runs a test, and returns all images that the camera takes.

@@ -70,7 +70,11 @@ fn camera(rate: f64, latency: f64, dropped: f64) -> CameraSpec {
 }
 
 fn cameras(all: &[(&str, CameraSpec)]) -> Cameras {
-    Cameras { seed: 1, all: all.iter().map(|(name, camera)| ((*name).to_owned(), camera.clone())).collect() }
+    Cameras {
+        seed: 1,
+        all: all.iter().map(|(name, camera)| ((*name).to_owned(), camera.clone())).collect(),
+        ..Cameras::default()
+    }
 }
 
 fn driver(cameras: Cameras, rig: bool) -> Equipped {

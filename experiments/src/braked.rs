@@ -1,7 +1,7 @@
 //! Looks at the failures of Figure 9 with a network that a driver who never brakes would not have had: one by one, when the walker comes into
 //! the way, and when each car is there.
 
-use crate::cloning::STOP;
+use crate::cloning::{STOP, driven};
 use crate::figures::table::Table;
 use crate::sampling::write_csv;
 use crate::{Done, crossing, print};
@@ -37,7 +37,7 @@ const COLUMNS: [&str; 9] = [
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let network = STOP.drives(Study::of(crossing::PROGRAM)).build()?;
+    let network = driven(Study::of(crossing::PROGRAM), STOP.network()).build()?;
     let cruise = Study::of(crossing::PROGRAM).driver("cruise").build()?;
     let (mut network, mut cruise) = (Worker::new(&network)?, Worker::new(&cruise)?);
     let tests = tests()?;

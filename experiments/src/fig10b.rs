@@ -1,12 +1,13 @@
 //! The paper's Figure 10b: driving round a loop of T-intersections with right turns only, in more and more fog.
 //!
-//! A network that was taught without fog drives until it runs into something, or for 200 s. The study also notes
-//! when the network left its way or stood still for too long, because it may do either without a collision, and how the
-//! network steers in low, medium and high fog.
+//! Networks that were taught without fog drive until they run into something, or for 200 s. The study also notes when a
+//! network left its way or stood still for too long, because it may do either without a collision, and how it steers in
+//! low, medium and high fog.
 
-use crate::cloning::LOOP;
+use crate::cloning::{LOOP, driven};
 use crate::{Done, print, scenario, write};
 use indicatif::ProgressBar;
+use paracosm::Study;
 use paracosm::campaign::{Problem, Worker};
 use paracosm::oracles::{Trace, Verdict};
 use paracosm::space::{Value, Values};
@@ -59,35 +60,38 @@ enum Undriven {
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let study = LOOP.drives(scenario("t-loop")?).open("fog").fix("speed", SPEED).fix("friction", 0.8).build()?;
-    bar.set_length(TESTS as u64);
-    let drives: Vec<Drive> = (0..TESTS)
-        .into_par_iter()
-        .map_init(
-            || Worker::new(&study).map_err(Arc::new),
-            |worker, i| {
-                let worker = worker.as_mut().map_err(|error| Undriven::Worker(Arc::clone(error)))?;
-                let drive = drive(worker, i, i as f64 / (TESTS - 1) as f64);
-                bar.inc(1);
-                drive
-            },
-        )
-        .collect::<Result<_, Undriven>>()?;
-    bar.finish_and_clear();
-
-    let mut rows =
-        vec!["fog,verdict,seconds_to_collision,seconds_to_departure,seconds_to_standstill,travelled".to_owned()];
-    let mut over_time = vec!["fog,time,steering,speed".to_owned()];
-    for Drive { fog, verdict, collision, departure, standstill, travelled, steering } in &drives {
-        rows.push(format!("{fog},{verdict},{collision:.2},{departure:.2},{standstill:.2},{travelled:.1}"));
-        let early = steering.iter().filter(|[time, ..]| *time <= SECONDS);
-        let lines = early.map(|[time, turned, speed]| format!("{fog},{time:.2},{turned:.4},{speed:.3}"));
-        over_time.extend(lines.filter(|_| shown(*fog)));
+    let header = "seed,fog,verdict,seconds_to_collision,seconds_to_departure,seconds_to_standstill,travelled";
+    let mut rows = vec![header.to_owned()];
+    let mut over_time = vec!["seed,fog,time,steering,speed".to_owned()];
+    for (seed, network) in LOOP.networks() {
+        let study =
+            driven(scenario("t-loop")?, network).open("fog").fix("speed", SPEED).fix("friction", 0.8).build()?;
+        for Drive { fog, verdict, collision, departure, standstill, travelled, steering } in drives(&study, bar)? {
+            rows.push(format!("{seed},{fog},{verdict},{collision:.2},{departure:.2},{standstill:.2},{travelled:.1}"));
+            let early = steering.iter().filter(|[time, ..]| *time <= SECONDS && shown(fog));
+            over_time
+                .extend(early.map(|[time, turned, speed]| format!("{seed},{fog},{time:.2},{turned:.4},{speed:.3}")));
+        }
     }
+    bar.finish_and_clear();
     let table = rows.join("\n") + "\n";
     write(&out.join("fig10b.csv"), &table)?;
     write(&out.join("fig10b-steering.csv"), over_time.join("\n") + "\n")?;
     print(&table)
+}
+
+/// Drives in each density of fog.
+fn drives(study: &Study, bar: &ProgressBar) -> Result<Vec<Drive>, Undriven> {
+    let driving = (0..TESTS).into_par_iter().map_init(
+        || Worker::new(study).map_err(Arc::new),
+        |worker, i| {
+            let worker = worker.as_mut().map_err(|error| Undriven::Worker(Arc::clone(error)))?;
+            let drive = drive(worker, i, i as f64 / (TESTS - 1) as f64);
+            bar.inc(1);
+            drive
+        },
+    );
+    driving.collect()
 }
 
 fn shown(fog: f64) -> bool {

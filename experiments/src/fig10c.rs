@@ -1,16 +1,17 @@
-//! The paper's Figure 10c: what a network that was taught to follow a red leader follows.
+//! The paper's Figure 10c: what networks that were taught to follow a red leader follow.
 //!
-//! The network drives in three cases: behind a red leader alone, behind a red leader while another red car comes the
+//! Each network drives in three cases: behind a red leader alone, behind a red leader while another red car comes the
 //! other way, and behind a white leader. The paper's network braked for the oncoming car, and ran into the white
 //! leader.
 
-use crate::cloning::FOLLOW;
+use crate::cloning::{FOLLOW, driven};
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::Study;
 use paracosm::campaign::Worker;
 use paracosm::engine::object::{Body, Colour};
 use paracosm::engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario};
+use paracosm::oracles::Trace;
 use paracosm::space::{Value, Values};
 use std::path::Path;
 
@@ -54,36 +55,47 @@ const SPEEDS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 12.0];
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, _: &ProgressBar) -> Done {
-    let study = FOLLOW.drives(Study::of(PROGRAM)).build()?;
-    let mut worker = Worker::new(&study)?;
-    let mut table =
-        vec!["case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m".to_owned()];
-    let mut over_time = vec!["case,leader_speed,time,speed,throttle,oncoming_gap".to_owned()];
-    for (name, leader, oncoming) in CASES {
-        for speed in SPEEDS {
-            let words = [("leader", leader), ("oncoming", oncoming)];
-            let test = words.map(|(name, word)| (name.to_owned(), Value::Word(word.to_owned())));
-            let test: Values = [("leader_speed".to_owned(), Value::Number(speed))].into_iter().chain(test).collect();
-            let (trial, trace) = worker.run(0, &test);
-            let trace = trace.ok_or_else(|| trial.error().unwrap_or_default().to_owned())?;
-            let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(5).collect() };
-            let time = |i: usize| 5.0 * i as f64 * trace.dt();
-            let points: Vec<(f64, f64)> =
-                signal("car.speed").into_iter().enumerate().map(|(i, speed)| (time(i), speed)).collect();
-            // The distance along the straight road to the car that comes, if there is one.
-            let gaps: Vec<f64> =
-                signal("oncoming.x").iter().zip(signal("car.x")).map(|(other, own)| other - own).collect();
-            for (i, ((time, at), throttle)) in points.iter().zip(signal("car.throttle")).enumerate() {
-                let gap = gaps.get(i).map_or(String::new(), |gap| format!("{gap:.2}"));
-                over_time.push(format!("{name},{speed},{time:.2},{at:.3},{throttle:.3},{gap}"));
+    let header = "seed,case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m";
+    let mut table = vec![header.to_owned()];
+    let mut over_time = vec!["seed,case,leader_speed,time,speed,throttle,oncoming_gap".to_owned()];
+    for (seed, network) in FOLLOW.networks() {
+        let study = driven(Study::of(PROGRAM), network).build()?;
+        let mut worker = Worker::new(&study)?;
+        for (name, leader, oncoming) in CASES {
+            for speed in SPEEDS {
+                let words = [("leader", leader), ("oncoming", oncoming)];
+                let test = words.map(|(name, word)| (name.to_owned(), Value::Word(word.to_owned())));
+                let test: Values =
+                    [("leader_speed".to_owned(), Value::Number(speed))].into_iter().chain(test).collect();
+                let (trial, trace) = worker.run(0, &test);
+                let trace = trace.ok_or_else(|| trial.error().unwrap_or_default().to_owned())?;
+                let case = format!("{seed},{name},{speed}");
+                over_time.extend(told(&trace).iter().map(|row| format!("{case},{row}")));
+                let least = signal(&trace, "car.speed").into_iter().fold(f64::INFINITY, f64::min);
+                let clearance = trial.robustness("no-collision").unwrap_or(f64::NAN);
+                let travelled = signal(&trace, "car.travelled").last().copied().unwrap_or(f64::NAN);
+                table.push(format!("{case},{},{clearance:.3},{least:.3},{travelled:.2}", trial.verdict));
             }
-            let least = points.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
-            let clearance = trial.robustness("no-collision").unwrap_or(f64::NAN);
-            let travelled = trace.signal("car.travelled").and_then(|mut way| way.next_back()).unwrap_or(f64::NAN);
-            table.push(format!("{name},{speed},{},{clearance:.3},{least:.3},{travelled:.2}", trial.verdict));
         }
     }
     write(&out.join("fig10c.csv"), table.join("\n") + "\n")?;
     write(&out.join("fig10c-speeds.csv"), over_time.join("\n") + "\n")?;
     print(&(table.join("\n") + "\n"))
+}
+
+/// Returns a signal at every fifth tick.
+fn signal(trace: &Trace, name: &str) -> Vec<f64> {
+    trace.signal(name).into_iter().flatten().step_by(5).collect()
+}
+
+/// Returns the times of a test, with the speed, the throttle, and the distance along the straight road to the car that
+/// comes, if there is one.
+fn told(trace: &Trace) -> Vec<String> {
+    let [speeds, throttles, own, others] =
+        ["car.speed", "car.throttle", "car.x", "oncoming.x"].map(|name| signal(trace, name));
+    let row = |(i, (speed, throttle)): (usize, (f64, f64))| {
+        let gap = others.get(i).map_or(String::new(), |other| format!("{:.2}", other - own[i]));
+        format!("{:.2},{speed:.3},{throttle:.3},{gap}", 5.0 * i as f64 * trace.dt())
+    };
+    speeds.into_iter().zip(throttles).enumerate().map(row).collect()
 }

@@ -6,7 +6,7 @@
 //! comes with the software. That command also makes the maps of drivers without cameras, which show what no driver can
 //! do.
 
-use crate::cloning::STOP;
+use crate::cloning::{STOP, driven};
 use crate::recovery::Mark;
 use crate::sampling::{Comparison, grid, reference_map};
 use crate::{Done, crossing, print, write};
@@ -24,7 +24,7 @@ const OTHERS: [&str; 3] = ["expert", "aeb", "cruise"];
 const MAP: &str = include_str!("../data/fig9-cnn-reference.csv");
 
 fn study() -> Result<Study, paracosm::Error> {
-    STOP.drives(Study::of(crossing::PROGRAM)).build()
+    driven(Study::of(crossing::PROGRAM), STOP.network()).build()
 }
 
 /// Makes the reference map and the maps of the other drivers, and writes them to a folder.

@@ -23,6 +23,7 @@ pub fn welcome(described: &Bound<PyDict>) -> PyResult<message::Welcome> {
         lidars: all("lidars")?.iter().map(Entries::lidar).collect::<PyResult<_>>()?,
         gnss: all("gnss")?.iter().map(Entries::gnss).collect::<PyResult<_>>()?,
         imus: all("imus")?.iter().map(Entries::imu).collect::<PyResult<_>>()?,
+        look: entry("look")?.extract()?,
     })
 }
 

@@ -105,6 +105,14 @@ class OddSensor(pc.Driver):
     cameras = {"front": "wide"}  # type: ignore[dict-item]
 
 
+class OddLook(pc.Driver):
+    look = "texture"
+
+
+class NoLook(pc.Driver):
+    look = None  # type: ignore[assignment]
+
+
 class NoPeriod(pc.Driver):
     period = 0.0
 
@@ -145,6 +153,8 @@ class OddOthers(pc.Driver):
         (Cautious(), {"gain": float("nan")}, "gain"),
         (Locked(), {}, "cannot be copied"),
         (OddSensor(), {}, "the sensor `front` is 'wide', expected a Camera"),
+        (OddLook(), {}, "no look is called `texture` (did you mean `textured`?)"),
+        (NoLook(), {}, "look of the driver is None, expected the name of a look"),
         (NoPeriod(), {}, "the driver's period is 0 s"),
         (NoRays(), {}, "impossible sensor"),
         (Needy, {}, "the class Needy needs arguments"),

@@ -127,13 +127,18 @@ def test_images_are_observations_where_cameras_are_asked_for():
     try:
         pc.Study("cut-in", driver=lambda observation: pc.Control(0.0, 0.0), budget=1)
         environment = pg.DrivingEnv("cut-in", cameras=cameras)
-        observation, _ = environment.reset(seed=1)
+        observation, begun = environment.reset(seed=1)
         for _ in range(5):
             observation, *_ = environment.step(np.zeros(2))
+        textured = pg.DrivingEnv("cut-in", cameras=cameras, look="textured")
+        other, _ = textured.reset(options={"test": begun["test"]})
+        for _ in range(5):
+            other, *_ = textured.step(np.zeros(2))
     except pc.Error as error:
         pytest.skip(f"nothing draws here: {error}")
     assert observation["front"].shape == (24, 32, 3) and observation["front"].std() > 5
     assert observation in environment.observation_space
+    assert np.array_equal(observation["state"], other["state"]) and not np.array_equal(observation["front"], other["front"])
 
 
 def test_several_episodes_run_at_once_and_begin_anew():

@@ -6,7 +6,7 @@ use super::usage;
 use clap::Args;
 use paracosm_campaign::cameras::{VariedCameras, read_cameras, standard_cameras};
 use paracosm_campaign::{Error, StudyBuilder};
-use paracosm_render::Look;
+use paracosm_engine::sensor::Look;
 use std::path::PathBuf;
 
 /// The options of the perceiver on trial and of its camera.

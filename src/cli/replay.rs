@@ -8,12 +8,11 @@ use crate::engine::sensor::{Cameras, LidarSettings};
 use crate::oracles::Trace;
 use crate::space::{did_you_mean, nearest};
 use clap::{ArgGroup, Args, ValueEnum};
-use paracosm_campaign::cameras::{VariedCameras, read_cameras};
+use paracosm_campaign::cameras::read_cameras;
 use paracosm_campaign::files::is_no_link;
 use paracosm_campaign::{
     Catalogue, Error, Expectation, Log, Metric, Replayed, Study, Subject, Trial, Worker, write_trace,
 };
-use paracosm_render::Look;
 use paracosm_report::birds_eye::MotionRecord;
 use paracosm_report::mcap;
 use paracosm_report::plot;
@@ -170,7 +169,6 @@ impl Options {
         }
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
-        let look = given.as_ref().map(VariedCameras::look);
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;
         let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
         let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
@@ -203,18 +201,11 @@ impl Options {
             return Err(difference(&worker, logged, &trial).into());
         }
         if let Some(clip) = clip {
-            let (cameras, look) = match given.zip(look) {
+            let cameras = match given {
                 Some(given) => given,
-                None => {
-                    let (cameras, look) = cameras_of(&mut worker)?;
-                    (self.through(cameras)?, look)
-                }
+                None => self.through(cameras_of(&mut worker)?)?,
             };
-            clip.until(stop)
-                .in_look(look)
-                .write(&mut worker, &trial, &cameras)?
-                .iter()
-                .for_each(|line| verbosity.note(line));
+            clip.until(stop).write(&mut worker, &trial, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
         if let (Some(tape), Some(file)) = (&tape, &self.mcap) {
             let filmed = self.filmed(&mut worker, &trial)?;
@@ -280,13 +271,12 @@ impl Options {
     }
 
     /// Returns the cameras whose images --mcap has; `None` if there are none.
-    fn filmed(&self, worker: &mut Worker, trial: &Trial) -> Result<Option<mcap::Filmed>, Error> {
+    fn filmed(&self, worker: &mut Worker, trial: &Trial) -> Result<Option<Cameras>, Error> {
         if let Some(file) = &self.cameras {
-            let cameras = read_cameras(file)?;
-            return Ok(Some(mcap::Filmed { look: cameras.look(), cameras: cameras.of_test(&trial.test) }));
+            return Ok(Some(read_cameras(file)?.of_test(&trial.test)));
         }
         let eyes = worker.eyes()?;
-        Ok((!eyes.all.is_empty()).then(|| mcap::Filmed { cameras: eyes, look: Look::default() }))
+        Ok(Some(eyes).filter(|eyes| !eyes.all.is_empty()))
     }
 
     /// Returns the camera of --through, or the first camera.

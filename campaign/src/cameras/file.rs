@@ -3,8 +3,8 @@
 use super::VariedCameras;
 use super::varied::middle;
 use crate::Reason;
-use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
-use paracosm_render::{CameraFlaw, Look, NoCamera, RESOLUTION, UnknownLook, camera_settings};
+use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras, Look, UnknownLook};
+use paracosm_render::{CameraFlaw, NoCamera, RESOLUTION, camera_settings};
 use paracosm_space::{Domain, Value, did_you_mean, nearest};
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -2,8 +2,8 @@
 //! them.
 
 use crate::setting_names::setting_name;
-use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
-use paracosm_render::{Look, camera_settings};
+use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras, Look};
+use paracosm_render::camera_settings;
 use paracosm_space::{Domain, Parameter, Space, Value, Values};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -12,7 +12,6 @@ use xxhash_rust::xxh3::xxh3_64;
 pub struct VariedCameras {
     cameras: Cameras,
     varied: Vec<Varied>,
-    look: Look,
 }
 
 /// A setting of a camera that the tests vary.
@@ -26,7 +25,7 @@ struct Varied {
 impl From<Cameras> for VariedCameras {
     /// Makes a set of cameras whose settings are the same in all tests.
     fn from(cameras: Cameras) -> Self {
-        Self { cameras, varied: Vec::new(), look: Look::default() }
+        Self { cameras, varied: Vec::new() }
     }
 }
 
@@ -42,7 +41,7 @@ impl VariedCameras {
             Some(Varied { camera: camera.clone(), setting: *setting, parameter: parameter.clone() })
         };
         let varied = space.parameters().iter().filter_map(varied).collect();
-        Self { cameras, varied, look: Look::default() }
+        Self { cameras, varied }
     }
 
     /// Returns the cameras with each varied setting at the middle of its range, or at the first of its values.
@@ -57,12 +56,13 @@ impl VariedCameras {
 
     /// Returns the look of the images.
     pub fn look(&self) -> Look {
-        self.look
+        self.cameras.look
     }
 
     /// Returns the cameras with images of another look.
-    pub fn in_look(self, look: Look) -> Self {
-        Self { look, ..self }
+    pub fn in_look(mut self, look: Look) -> Self {
+        self.cameras.look = look;
+        self
     }
 
     /// Sets the seed of all noise.

@@ -6,7 +6,7 @@
 use crate::study::{Appearances, ModelFlaw};
 use crate::{Error, Reason};
 use paracosm_engine::Run;
-use paracosm_engine::sensor::{Cameras, Image, Moment, Sample};
+use paracosm_engine::sensor::{Cameras, Image, Look, Moment, Sample};
 use paracosm_render::{
     Cast, Developer, Exposure, Frame, NoCamera, Optics, RenderError, Rendering, Sight, Stage, Stages, Undrawn,
     WantedImages,
@@ -24,7 +24,7 @@ use thiserror::Error;
 pub struct Darkroom {
     orders: Mutex<Vec<Order>>,
     developer: Mutex<Developer>,
-    stages: Stages,
+    stages: [Stages; Look::ALL.len()],
     appearances: Appearances,
 }
 
@@ -82,19 +82,31 @@ impl Darkroom {
         Optics::of(cameras).map_err(Blind::Camera)?;
         let developer = Developer::new().map_err(|source| Error::unavailable(Blind::Nothing(source)))?;
         let developer = Mutex::new(developer);
-        let (stages, appearances) = (Stages::default(), appearances.clone());
+        let (stages, appearances) = (Look::ALL.map(Stages::in_look), appearances.clone());
         Ok(Self { orders: Mutex::default(), developer, stages, appearances })
     }
 
-    /// Draws and returns the camera images that have arrived at the drivers of the given runs. An image that cannot be
-    /// drawn is an error of its run alone.
-    pub fn develop(&self, runs: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
-        let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, self)).collect();
+    /// Returns the set of a run that has just begun.
+    ///
+    /// # Errors
+    /// A 3D model cannot be used, or a camera is invalid.
+    pub fn set(&self, run: &Run) -> Result<Set, NoImage> {
+        let cameras = run.eyes().cameras();
+        let stages =
+            self.stages.iter().find(|stages| stages.look() == cameras.look).expect("there are stages of each look");
+        let cast = self.appearances.cast(run, cameras.look).map_err(Arc::new)?;
+        Ok(Set { stage: stages.of_run(run), cast, optics: Optics::of(cameras)? })
+    }
+
+    /// Draws and returns the camera images that have arrived at the drivers of the given runs, each with its set. An image
+    /// that cannot be drawn is an error of its run alone.
+    pub fn develop(&self, runs: &[(&Run, &Set)]) -> Vec<Result<Vec<Image>, NoImage>> {
+        let seen: Vec<_> =
+            runs.iter().map(|(run, set)| Seen { set, moments: run.eyes().arrived().collect() }).collect();
         let colours = WantedImages { rgb: true, ..WantedImages::default() };
-        let exposures = seen.iter().flatten().flat_map(Seen::exposures);
+        let exposures = seen.iter().flat_map(Seen::exposures);
         let mut drawn = self.order(exposures.map(|exposure| exposure.sight(colours)).collect()).into_iter();
-        let images = |seen: Result<Seen<'_>, NoImage>| seen.and_then(|seen| seen.images(&mut drawn));
-        seen.into_iter().map(images).collect()
+        seen.into_iter().map(|seen| seen.images(&mut drawn)).collect()
     }
 
     /// Draws exposures with the `wanted` images, and returns the results in the same order.
@@ -130,29 +142,29 @@ impl Darkroom {
     }
 }
 
-/// The moments that have arrived from the cameras of a run.
-struct Seen<'a> {
+/// The parts of the images of a run that stay the same from image to image.
+#[derive(Debug)]
+pub struct Set {
     stage: Arc<Stage>,
     cast: Cast,
     optics: Vec<Optics>,
+}
+
+/// The moments that have arrived from the cameras of a run.
+struct Seen<'a> {
+    set: &'a Set,
     /// The moments, each with the index of its camera.
     moments: Vec<(usize, &'a Sample<Moment>)>,
 }
 
 impl<'a> Seen<'a> {
-    fn by(run: &'a Run, darkroom: &Darkroom) -> Result<Self, NoImage> {
-        let optics = Optics::of(run.eyes().cameras())?;
-        let cast = darkroom.appearances.cast(run, darkroom.stages.look()).map_err(Arc::new)?;
-        let stage = darkroom.stages.of(run.network());
-        Ok(Self { stage, cast, optics, moments: run.eyes().arrived().collect() })
-    }
-
-    fn exposures(&self) -> impl Iterator<Item = Exposure<'_>> {
-        self.moments.iter().map(|(camera, sample)| Exposure {
-            stage: &self.stage,
-            cast: &self.cast,
+    fn exposures(&self) -> impl Iterator<Item = Exposure<'a>> {
+        let set = self.set;
+        self.moments.iter().map(move |(camera, sample)| Exposure {
+            stage: &set.stage,
+            cast: &set.cast,
             moment: &sample.reading,
-            optics: &self.optics[*camera],
+            optics: &set.optics[*camera],
             number: sample.number,
         })
     }

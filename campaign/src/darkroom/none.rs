@@ -10,6 +10,10 @@ use thiserror::Error;
 /// An empty type that replaces the darkroom in a program that was built without the renderer.
 pub enum Darkroom {}
 
+/// An empty type that replaces the set of a run.
+#[derive(Debug)]
+pub enum Set {}
+
 /// The reason why a driver did not get the images of its cameras.
 #[derive(Debug, Clone, Error)]
 pub enum NoImage {
@@ -34,8 +38,13 @@ impl Darkroom {
         Err(Error::unavailable(Blind { cameras: cameras.all.keys().cloned().collect() }))
     }
 
+    /// Returns no set, because a program without the renderer has no darkroom.
+    pub fn set(&self, _: &Run) -> Result<Set, NoImage> {
+        match *self {}
+    }
+
     /// Returns no images, because a program without the renderer has no darkroom.
-    pub fn develop(&self, _: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
+    pub fn develop(&self, _: &[(&Run, &Set)]) -> Vec<Result<Vec<Image>, NoImage>> {
         match *self {}
     }
 }

@@ -23,12 +23,11 @@ impl Exam {
     /// its own is waited for until the campaign is stopped.
     ///
     /// # Errors
-    /// The perceiver cannot be made, or the study of a file has a look that does not exist.
+    /// The perceiver cannot be made.
     pub fn new(choice: &PerceiverChoice, space: &Space, supervision: Supervision) -> Result<Self, Error> {
-        let look = choice.look().parse().map_err(crate::cameras::CameraFileFlaw::Look)?;
-        let cameras = crate::cameras::VariedCameras::of_space(choice.cameras().clone(), space);
+        let cameras = crate::cameras::VariedCameras::of_space(choice.cameras(), space);
         let (perceiver, task) = (choice.build(supervision)?, choice.task().clone());
-        Ok(Self { perceiver, task, film: Film::new(cameras, look) })
+        Ok(Self { perceiver, task, film: Film::new(cameras) })
     }
 
     /// Returns the film of the tests.

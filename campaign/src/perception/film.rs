@@ -6,7 +6,7 @@ use crate::study::{Appearances, ModelFlaw};
 use crate::{Problem, ProblemKind};
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Moment, Sample, Shutters};
-use paracosm_render::{Cast, Exposure, Look, Optics, Rendering, Stage, Stages, Undrawn, WantedImages, at_once};
+use paracosm_render::{Cast, Exposure, Optics, Rendering, Stage, Stages, Undrawn, WantedImages, at_once};
 use paracosm_space::Values;
 use std::sync::Arc;
 
@@ -37,8 +37,8 @@ pub(crate) struct Taken {
 
 impl Film {
     /// Makes the film for cameras, whose settings may vary with the test.
-    pub fn new(cameras: VariedCameras, look: Look) -> Self {
-        Self { cameras: cameras.in_look(look), stages: Stages::in_look(look) }
+    pub fn new(cameras: VariedCameras) -> Self {
+        Self { stages: Stages::in_look(cameras.look()), cameras }
     }
 
     /// Returns the cameras with the usual settings.

@@ -10,7 +10,6 @@ use paracosm_engine::sensor::{CameraSpec, Cameras};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_perception::{Detection, Detector, Extent, Mask, Perceiver, PerceiverError, Percept, Picture, Rect, Task};
-use paracosm_render::Look;
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex};
 
@@ -102,7 +101,7 @@ fn cameras() -> VariedCameras {
         rate: 5.0,
         ..CameraSpec::default()
     };
-    Cameras { seed: 1, all: [("front".to_owned(), front)].into() }.into()
+    Cameras { seed: 1, all: [("front".to_owned(), front)].into(), ..Cameras::default() }.into()
 }
 
 /// A study of a red leader.
@@ -240,7 +239,7 @@ fn a_gallery_shows_the_images_that_a_perceiver_sees_with_their_ground_truth() {
         study.own_perceiver("keeper", cameras(), move || Box::new(Keeper(task.clone(), kept.clone()))).build().unwrap();
     let test = Campaign::new(&study).unwrap().into_log().unwrap().trials()[0].test.clone();
     let plain = Study::of(RED_CAR).driver("planner").build().unwrap();
-    let shown = Gallery::new(&plain, cameras(), Look::Flat).unwrap().show(&test).unwrap();
+    let shown = Gallery::new(&plain, cameras()).unwrap().show(&test).unwrap();
     let seen = seen.lock().unwrap();
     assert_eq!(shown.len(), seen.len());
     assert!(shown.len() >= 20);

@@ -63,7 +63,13 @@ impl<'a> Simulator<'a> {
 
     /// Begins a test.
     fn begin(&mut self, place: usize, test: Test<'_>) -> Ride {
-        Ride::begin(place, (&self.program, test, self.vehicle), self.drivers.hire(), self.drivers.stop().clone())
+        let stop = self.drivers.stop().clone();
+        let mut ride = Ride::begin(place, (&self.program, test, self.vehicle), self.drivers.hire(), stop);
+        ride.furnish(|run| {
+            let darkroom = self.open(run.eyes().cameras()).map_err(|error| NoImage::Closed(Arc::new(error)))?;
+            darkroom.set(run)
+        });
+        ride
     }
 
     /// Prepares a driver, and opens a darkroom if the driver uses cameras.
@@ -192,16 +198,10 @@ impl<'a> Simulator<'a> {
 
     /// Draws the images that the drivers of these tests wait for.
     fn draw(&mut self, rides: &mut [Ride]) {
-        let runs: Vec<&Run> = rides.iter().filter_map(Ride::run).collect();
-        let Some(first) = runs.first() else { return };
-        let images = match self.open(first.eyes().cameras()) {
-            Ok(darkroom) => darkroom.develop(&runs),
-            Err(error) => {
-                let error = Arc::new(error);
-                runs.iter().map(|_| Err(NoImage::Closed(Arc::clone(&error)))).collect()
-            }
-        };
-        let waiting = rides.iter_mut().filter(|ride| !ride.is_over());
+        rides.iter_mut().for_each(Ride::miss);
+        let Some(darkroom) = &self.darkroom else { return };
+        let images = darkroom.develop(&rides.iter().filter_map(Ride::seen).collect::<Vec<_>>());
+        let waiting = rides.iter_mut().filter(|ride| ride.seen().is_some());
         waiting.zip(images).for_each(|(ride, images)| ride.show(images));
     }
 

@@ -1,6 +1,6 @@
 //! A test that is being run: a run and its driver, as they go from image to image.
 
-use crate::darkroom::NoImage;
+use crate::darkroom::{NoImage, Set};
 use crate::drivers::NoDriver;
 use crate::{Problem, ProblemKind};
 use paracosm_engine::driver::Driver;
@@ -21,6 +21,8 @@ pub(super) struct Ride {
     place: usize,
     driver: Option<Box<dyn Driver>>,
     run: Option<Run>,
+    /// The set of the images of the driver; `None` if the driver has no cameras.
+    set: Option<Result<Set, NoImage>>,
     /// The images that the driver is to be shown before it answers.
     images: Vec<Image>,
     /// True if the run waits for the driver.
@@ -38,7 +40,8 @@ impl Ride {
         driver: Result<Box<dyn Driver>, NoDriver>,
         stop: Arc<AtomicBool>,
     ) -> Self {
-        let mut ride = Self { place, driver: None, run: None, images: Vec::new(), asked: false, stop, outcome: None };
+        let mut ride =
+            Self { place, driver: None, run: None, set: None, images: Vec::new(), asked: false, stop, outcome: None };
         match driver {
             Ok(driver) => {
                 let driver = ride.driver.insert(driver).as_mut();
@@ -52,6 +55,12 @@ impl Ride {
             Err(error) => ride.outcome = Some(Err(error.into())),
         }
         ride
+    }
+
+    /// Furnishes the set of the images if the driver has cameras.
+    pub fn furnish(&mut self, set: impl FnOnce(&Run) -> Result<Set, NoImage>) {
+        let run = self.run.as_ref().filter(|run| !run.eyes().cameras().all.is_empty());
+        self.set = run.map(set);
     }
 
     /// Prepares the run before it begins.
@@ -94,9 +103,17 @@ impl Ride {
         }
     }
 
-    /// Returns the run of the test; `None` if the test is over.
-    pub fn run(&self) -> Option<&Run> {
-        self.run.as_ref().filter(|_| self.outcome.is_none())
+    /// Returns the run of the test with the set of its images; `None` if the test is over, or there is no set.
+    pub fn seen(&self) -> Option<(&Run, &Set)> {
+        self.run.as_ref().filter(|_| self.outcome.is_none()).zip(self.set.as_ref()?.as_ref().ok())
+    }
+
+    /// Ends the test if its driver waits for images and there is no set.
+    pub fn miss(&mut self) {
+        if let Some(Err(error)) = self.set.as_ref().filter(|_| self.outcome.is_none()) {
+            let error = error.clone();
+            self.show(Err(error));
+        }
     }
 
     /// Returns `true` if the test is over.

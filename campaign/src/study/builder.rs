@@ -71,7 +71,7 @@ enum Wanted {
     System(BlackBox, Space),
 }
 
-/// A perceiver that was asked for: the cameras with the name of the look, and a function that makes the choice.
+/// A perceiver that was asked for: a function that makes the choice.
 #[derive(Clone)]
 struct PerceiverWish(Arc<dyn Fn() -> Result<PerceiverChoice, Error> + Send + Sync>);
 
@@ -267,9 +267,9 @@ impl StudyBuilder {
     fn perceived(
         self,
         cameras: VariedCameras,
-        choose: impl Fn((Cameras, String)) -> Result<PerceiverChoice, Error> + Send + Sync + 'static,
+        choose: impl Fn(Cameras) -> Result<PerceiverChoice, Error> + Send + Sync + 'static,
     ) -> Self {
-        let seen = (cameras.nominal().clone(), cameras.look().name().to_owned());
+        let seen = cameras.nominal().clone();
         let perceiver = Some(PerceiverWish(Arc::new(move || choose(seen.clone()))));
         Self { perceiver, ..self.open_cameras(&cameras) }
     }

@@ -6,7 +6,7 @@ use crate::process::{self, CommandFlaw};
 #[cfg(feature = "camera")]
 use crate::seeing::SeeingProcess;
 use crate::{Error, Reason, Supervision};
-use paracosm_engine::sensor::Cameras;
+use paracosm_engine::sensor::{Cameras, Look};
 use paracosm_oracles::Semantics;
 use paracosm_perception::{Perceiver, Task, TaskFlaw};
 use paracosm_space::did_you_mean;
@@ -29,8 +29,8 @@ pub struct PerceiverChoice {
     task: Task,
     /// The cameras; settings that the tests vary are at the middle of their ranges.
     cameras: Cameras,
-    /// The name of the look of the images.
-    look: String,
+    /// The look of the images, which a file has beside the cameras.
+    look: Look,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     network: Option<Box<SeeingNetwork>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -166,15 +166,15 @@ impl PerceiverChoice {
     #[cfg(feature = "camera")]
     pub(super) fn own(
         name: &str,
-        (cameras, look): (Cameras, String),
+        cameras: Cameras,
         make: impl Fn() -> Box<dyn Perceiver> + Send + Sync + 'static,
     ) -> Result<Self, PerceiverFlaw> {
         let task = make().task().clone();
         let choice = Self {
             name: name.to_owned(),
             task,
+            look: cameras.look,
             cameras,
-            look,
             network: None,
             command: None,
             own: Some(Own(Arc::new(make))),
@@ -185,17 +185,13 @@ impl PerceiverChoice {
     /// Makes the choice of a perceiver that a command starts, and asks the perceiver what its answers mean. The time-out
     /// is in seconds; `None` is the default time-out.
     #[cfg(feature = "camera")]
-    pub(super) fn process(
-        command: &str,
-        timeout: Option<f64>,
-        (cameras, look): (Cameras, String),
-    ) -> Result<Self, Error> {
+    pub(super) fn process(command: &str, timeout: Option<f64>, cameras: Cameras) -> Result<Self, Error> {
         one_of(&cameras)?;
         let timeout = checked_timeout(timeout)?;
         let command = SeeingCommand { command: command.to_owned(), timeout };
         let task = command.meaning()?;
         let name = command.command.clone();
-        let choice = Self { name, task, cameras, look, network: None, command: Some(command), own: None };
+        let choice = Self { name, task, look: cameras.look, cameras, network: None, command: Some(command), own: None };
         choice.check()?;
         Ok(choice)
     }
@@ -225,13 +221,8 @@ impl PerceiverChoice {
     }
 
     /// Returns the camera, as a set of one camera. Settings that the tests vary are at the middle of their ranges.
-    pub fn cameras(&self) -> &Cameras {
-        &self.cameras
-    }
-
-    /// Returns the name of the look of the images.
-    pub fn look(&self) -> &str {
-        &self.look
+    pub fn cameras(&self) -> Cameras {
+        Cameras { look: self.look, ..self.cameras.clone() }
     }
 
     /// Returns the requirement of a detector without other requirements, with the id `detection`.
@@ -335,7 +326,7 @@ fn one_of(cameras: &Cameras) -> Result<(), PerceiverFlaw> {
 #[cfg(all(not(feature = "neural"), feature = "camera"))]
 impl PerceiverChoice {
     /// Returns the error that the program was built without neural networks.
-    pub(super) fn network(file: &str, _: &str, _: (Cameras, String)) -> Result<Self, Error> {
+    pub(super) fn network(file: &str, _: &str, _: Cameras) -> Result<Self, Error> {
         Err(Error::unavailable(PerceiverFlaw::NotBuilt { file: file.to_owned() }))
     }
 }
@@ -350,7 +341,7 @@ impl SeeingNetwork {
 #[cfg(feature = "neural")]
 impl PerceiverChoice {
     /// Reads a network from an ONNX file, and its description from another file.
-    pub(super) fn network(file: &str, described: &str, (cameras, look): (Cameras, String)) -> Result<Self, Error> {
+    pub(super) fn network(file: &str, described: &str, cameras: Cameras) -> Result<Self, Error> {
         use paracosm_neural::vision::Description;
         one_of(&cameras)?;
         let path = std::path::Path::new(described);
@@ -362,7 +353,8 @@ impl PerceiverChoice {
         let network = SeeingNetwork { hash, description, loaded };
         let _ = network.loaded.set(vision(file, &contents, read.clone())?);
         let network = Some(Box::new(network));
-        let choice = Self { name: file.to_owned(), task: read.task, cameras, look, network, command: None, own: None };
+        let (name, task, look) = (file.to_owned(), read.task, cameras.look);
+        let choice = Self { name, task, look, cameras, network, command: None, own: None };
         choice.check()?;
         Ok(choice)
     }

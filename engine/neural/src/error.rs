@@ -1,6 +1,7 @@
 //! The errors in files of networks, and of networks that are run.
 
 use crate::limits::Limit;
+use paracosm_engine::sensor::UnknownLook;
 use paracosm_space::did_you_mean;
 use thiserror::Error;
 use tract_onnx::prelude::TractError;
@@ -20,6 +21,9 @@ pub enum ModelError {
     /// The network is beyond a limit.
     #[error(transparent)]
     Limit(#[from] Limit),
+    /// No look of images has the name in the property `look` of the file.
+    #[error("the property `look` of the file: {0}")]
+    Look(#[from] UnknownLook),
     /// The input of a perception network is not the input that its description states.
     #[error("the input is {found}, expected {expected}")]
     Input {

@@ -1,11 +1,17 @@
 //! Writes a trained network that drives as a file in the ONNX format.
 
+use crate::model::LOOK;
 use crate::network::{CONVOLUTIONS, DENSE, LEAK, MIDDLE, Network, SPEED_SCALE};
 use crate::onnx_file::{File, attribute, integer, number};
+use paracosm_engine::sensor::Look;
 
-/// Returns the contents of the ONNX file of a network. `story` describes the origin of the network.
-pub fn onnx(network: &Network, [width, height]: [u32; 2], story: &str) -> Vec<u8> {
+/// Returns the contents of the ONNX file of a network, which drives by images of the given size and look. `story`
+/// describes the origin of the network.
+pub fn onnx(network: &Network, ([width, height], look): ([u32; 2], Look), story: &str) -> Vec<u8> {
     let mut file = File::default();
+    if look != Look::default() {
+        file.property(LOOK, look.name());
+    }
     file.constant("middle", &[], vec![MIDDLE]);
     file.constant("speed scale", &[], vec![SPEED_SCALE]);
     file.node("Sub", &["image", "middle"], "seen", vec![]);

@@ -11,6 +11,7 @@ use burn::module::Module;
 use burn::optim::{AdamConfig, GradientsParams, ModuleOptimizer};
 use burn::prelude::{Device, Tensor};
 use burn::tensor::TensorData;
+use paracosm_engine::sensor::Look;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
@@ -33,6 +34,8 @@ pub struct Lesson {
 pub struct Recipe {
     /// The width and the height of the images in pixels.
     pub resolution: [u32; 2],
+    /// The look of the images.
+    pub look: Look,
     /// The seed of all random numbers of the training.
     pub seed: u64,
     /// The number of lessons in a batch.
@@ -137,7 +140,7 @@ impl Learner {
     /// Returns the network as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` describes the
     /// origin of the network.
     pub fn onnx(&self, story: &str) -> Vec<u8> {
-        onnx(&self.network.valid(), self.recipe.resolution, story)
+        onnx(&self.network.valid(), (self.recipe.resolution, self.recipe.look), story)
     }
 }
 

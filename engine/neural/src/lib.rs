@@ -15,7 +15,8 @@
 //!
 //! The names of the tensors do not matter. The first dimension may be left open. Answers beyond the ends of a range
 //! count as the ends. The driver's camera has the model's height and width, from 8 to 1024 pixels. The camera looks
-//! ahead from behind the windscreen, 74 degrees across, ten times a second. The driver asks the model once for every
+//! ahead from behind the windscreen, 74 degrees across, ten times a second. The property `look` of the file names the
+//! look of the images, `flat` or `textured`; without it, the look is `flat`. The driver asks the model once for every
 //! image.
 //!
 //! ```

@@ -2,7 +2,7 @@
 
 use crate::error::{AnswerError, ModelError};
 use crate::plan::{optimised, parsed, unreadable};
-use paracosm_engine::sensor::Image;
+use paracosm_engine::sensor::{Image, Look};
 use std::panic;
 use std::sync::Arc;
 use tract_onnx::prelude::{
@@ -12,6 +12,10 @@ use tract_onnx::tract_hir::infer::Factoid;
 
 /// The smallest and the greatest height and width of an image, in pixels.
 const PIXELS: (usize, usize) = (8, 1024);
+
+/// The property of an ONNX file that names the look of the images that the network takes. The property is missing if the
+/// look is `flat`.
+pub(crate) const LOOK: &str = "look";
 
 const IMAGE: &str = "1 x 3 x height x width, float, with height and width from 8 to 1024";
 const SPEED: &str = "1 x 1, float: the speed";
@@ -23,6 +27,7 @@ pub struct Model {
     plan: Arc<TypedRunnableModel>,
     width: usize,
     height: usize,
+    look: Look,
     asks_for_speed: bool,
 }
 
@@ -37,7 +42,9 @@ impl Model {
     }
 
     fn parse(contents: &[u8]) -> Result<Self, ModelError> {
-        let (_, mut model) = parsed(contents)?;
+        let (file, mut model) = parsed(contents)?;
+        let look = file.metadata_props.iter().find(|property| property.key == LOOK);
+        let look = look.map_or(Ok(Look::default()), |look| look.value.parse())?;
         let inputs = model.inputs.len();
         if !(1..=2).contains(&inputs) {
             let found = format!("{inputs} tensors");
@@ -65,12 +72,17 @@ impl Model {
             return Err(ModelError::Shape { what: "the output", found, expected: ANSWER });
         }
         let plan = model.into_runnable().map_err(unreadable)?;
-        Ok(Self { plan, width, height, asks_for_speed: inputs == 2 })
+        Ok(Self { plan, width, height, look, asks_for_speed: inputs == 2 })
     }
 
     /// Returns the width and the height in pixels of the images that the network takes.
     pub fn resolution(&self) -> [u32; 2] {
         [self.width as u32, self.height as u32]
+    }
+
+    /// Returns the look of the images that the network takes: the property `look` of the file, or `flat`.
+    pub fn look(&self) -> Look {
+        self.look
     }
 
     /// Returns the network's steering and throttle for an image of its resolution and a speed in m/s. The numbers are

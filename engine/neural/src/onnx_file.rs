@@ -6,8 +6,8 @@ use tract_onnx::pb::attribute_proto::AttributeType;
 use tract_onnx::pb::tensor_proto::DataType;
 use tract_onnx::pb::tensor_shape_proto::{Dimension, dimension};
 use tract_onnx::pb::{
-    AttributeProto, GraphProto, ModelProto, NodeProto, OperatorSetIdProto, TensorProto, TensorShapeProto, TypeProto,
-    ValueInfoProto, type_proto,
+    AttributeProto, GraphProto, ModelProto, NodeProto, OperatorSetIdProto, StringStringEntryProto, TensorProto,
+    TensorShapeProto, TypeProto, ValueInfoProto, type_proto,
 };
 
 /// The version of the ONNX format, and the version of its set of operations.
@@ -19,6 +19,7 @@ const OPERATIONS: i64 = 13;
 pub(crate) struct File {
     nodes: Vec<NodeProto>,
     constants: Vec<TensorProto>,
+    properties: Vec<StringStringEntryProto>,
 }
 
 impl File {
@@ -64,6 +65,11 @@ impl File {
         });
     }
 
+    /// Adds a property of the network that is no part of its arithmetic.
+    pub fn property(&mut self, key: &str, value: &str) {
+        self.properties.push(StringStringEntryProto { key: key.to_owned(), value: value.to_owned() });
+    }
+
     /// Returns the contents of the file. Inputs and outputs have names and shapes; `story` describes the origin of the
     /// network.
     pub fn finish(self, name: &str, inputs: &[(&str, &[i64])], outputs: &[(&str, &[i64])], story: &str) -> Vec<u8> {
@@ -83,6 +89,7 @@ impl File {
             producer_version: env!("CARGO_PKG_VERSION").to_owned(),
             doc_string: story.to_owned(),
             graph: Some(graph),
+            metadata_props: self.properties,
             ..ModelProto::default()
         };
         model.encode_to_vec()

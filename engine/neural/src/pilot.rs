@@ -42,7 +42,10 @@ impl Driver for Pilot {
 
     fn equipment(&mut self) -> Equipment {
         let all = [("front".to_owned(), camera(self.model.resolution()))];
-        Equipment { cameras: Cameras { seed: 0, all: all.into() }, ..Equipment::default() }
+        Equipment {
+            cameras: Cameras { look: self.model.look(), all: all.into(), ..Cameras::default() },
+            ..Equipment::default()
+        }
     }
 
     fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {

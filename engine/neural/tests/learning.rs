@@ -2,7 +2,7 @@
 #![cfg(feature = "train")]
 
 use paracosm_engine::driver::Driver;
-use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::sensor::{Image, Look, Rig};
 use paracosm_engine::{Briefing, Observation, vehicle::Vehicle};
 use paracosm_neural::learn::{Learner, Lesson, Recipe};
 use paracosm_neural::{Model, Pilot};
@@ -10,13 +10,22 @@ use prost::Message;
 use tract_onnx::pb::tensor_proto::DataType;
 use tract_onnx::pb::tensor_shape_proto::{Dimension, dimension};
 use tract_onnx::pb::{
-    GraphProto, ModelProto, NodeProto, OperatorSetIdProto, TensorShapeProto, TypeProto, ValueInfoProto, type_proto,
+    GraphProto, ModelProto, NodeProto, OperatorSetIdProto, StringStringEntryProto, TensorShapeProto, TypeProto,
+    ValueInfoProto, type_proto,
 };
 
 const SIZE: u32 = 33;
 
 fn recipe(seed: u64) -> Recipe {
-    Recipe { resolution: [SIZE, SIZE], seed, batch: 8, rates: [2e-3, 5e-4], weights: [1.0, 1.0], held_out: Some(4) }
+    Recipe {
+        resolution: [SIZE, SIZE],
+        look: Look::Textured,
+        seed,
+        batch: 8,
+        rates: [2e-3, 5e-4],
+        weights: [1.0, 1.0],
+        held_out: Some(4),
+    }
 }
 
 /// A bright post on a dark plain: the expert steers to where it stands, and brakes the faster it goes.
@@ -51,7 +60,7 @@ fn a_network_learns_to_answer_as_the_expert_and_drives_so_as_a_file() {
     let mut progress = Vec::new();
     learner.learn(&lessons, 25, |step| progress.push(step));
     let model = Model::read(&learner.onnx("a test")).expect("a driver");
-    assert_eq!(model.resolution(), [SIZE, SIZE]);
+    assert_eq!((model.resolution(), model.look()), ([SIZE, SIZE], Look::Textured));
     let (before, after) = (root_mean_square(&ignorant, &lessons), root_mean_square(&model, &lessons));
     assert!(after < 0.1 && after < 0.2 * before, "{before} before, {after} after");
     assert!(progress[24].loss < 0.1 * progress[0].loss, "{progress:?}");
@@ -106,6 +115,22 @@ fn file(inputs: &[&[i64]], (operation, from): (&str, usize), output: &[i64]) -> 
     };
     let opset_import = vec![OperatorSetIdProto { domain: String::new(), version: 13 }];
     ModelProto { ir_version: 8, opset_import, graph: Some(graph), ..ModelProto::default() }.encode_to_vec()
+}
+
+#[test]
+fn a_network_sees_the_look_that_its_file_names_and_by_default_the_look_flat() {
+    let seeing = |look: Option<&str>| {
+        let contents = Learner::new(Recipe { look: Look::Flat, ..recipe(1) }).onnx("");
+        let mut model = ModelProto::decode(&contents[..]).expect("it was just written");
+        assert!(model.metadata_props.is_empty(), "{:?}", model.metadata_props);
+        let named = |name: &str| StringStringEntryProto { key: "look".to_owned(), value: name.to_owned() };
+        model.metadata_props.extend(look.map(named));
+        Model::read(&model.encode_to_vec()).map(|model| (model.look(), Pilot::new(model).equipment().cameras.look))
+    };
+    assert_eq!(seeing(None).expect("a driver"), (Look::Flat, Look::Flat));
+    assert_eq!(seeing(Some("textured")).expect("a driver"), (Look::Textured, Look::Textured));
+    let message = seeing(Some("texture")).expect_err("no such look").to_string();
+    assert!(message.contains("the property `look`") && message.contains("did you mean `textured`?"), "{message}");
 }
 
 #[test]

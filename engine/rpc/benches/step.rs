@@ -33,7 +33,10 @@ impl Driver for Still {
             rate: 10.0,
             ..CameraSpec::default()
         };
-        Equipment { cameras: Cameras { seed: 0, all: [("front".into(), front)].into() }, ..Equipment::default() }
+        Equipment {
+            cameras: Cameras { all: [("front".into(), front)].into(), ..Cameras::default() },
+            ..Equipment::default()
+        }
     }
 
     fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {

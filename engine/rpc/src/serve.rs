@@ -136,6 +136,7 @@ fn answer(
                 period: driver.period(),
                 others: true,
                 cameras: cameras.all.iter().map(wire::Camera::from).collect(),
+                look: cameras.look.name().to_owned(),
                 ..wire::Welcome::default()
             };
             *state = Some(SessionState { driver, cameras, observation: Observation::default() });

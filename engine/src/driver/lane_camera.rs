@@ -182,7 +182,7 @@ impl Driver for LaneCamera {
 
     fn equipment(&mut self) -> Equipment {
         let all = [("front".to_owned(), self.camera.clone())].into();
-        Equipment { rig: Rig::default(), cameras: Cameras { seed: 0, all } }
+        Equipment { rig: Rig::default(), cameras: Cameras { all, ..Cameras::default() } }
     }
 
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {

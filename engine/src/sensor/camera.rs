@@ -4,7 +4,7 @@
 //! renders an [`Image`] from it when the moment has arrived.
 
 use super::Descriptor;
-use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, SensorView};
+use super::{Chance, Delivery, Handle, Look, Rig, Sample, Sensor, SensorError, SensorView};
 use crate::chance::mixed;
 use crate::object::BodyState;
 use crate::weather::Weather;
@@ -22,6 +22,9 @@ pub struct Cameras {
     /// The seed of the noise of all cameras. The noise also depends on the values of the test.
     #[serde(default)]
     pub seed: u64,
+    /// The look of the images. Files name the look beside the cameras.
+    #[serde(skip)]
+    pub look: Look,
     /// The cameras by their names.
     #[serde(rename = "camera")]
     pub all: BTreeMap<String, CameraSpec>,

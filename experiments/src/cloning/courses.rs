@@ -2,10 +2,17 @@
 
 use crate::scenario;
 use paracosm::engine::Program;
+use paracosm::engine::sensor::Look;
 use paracosm::space::Domain;
 use paracosm::{Error, Study, StudyBuilder, scenarios};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
+
+/// The seeds of the networks of each course.
+pub const SEEDS: [u64; 5] = [1, 2, 3, 4, 5];
+
+/// The look of the images of all courses.
+pub const LOOK: Look = Look::Textured;
 
 /// A round of training, in which tests record lessons, and the network then learns from all lessons so far.
 pub struct Round {
@@ -13,9 +20,10 @@ pub struct Round {
     pub epochs: usize,
 }
 
-/// The plan by which a network learns to drive.
+/// The plan by which networks learn to drive. They differ in the seed of their first weights, their tests and the order of
+/// their lessons.
 pub struct Course {
-    /// The name of the network.
+    /// The name of the networks.
     pub name: &'static str,
     /// The width and height in pixels of the images that the network sees.
     pub resolution: [u32; 2],
@@ -28,7 +36,10 @@ pub struct Course {
     pub held_out: Option<usize>,
     /// The rounds of the training, in their order. In the first round the expert drives, in later rounds the network.
     pub rounds: &'static [Round],
-    /// The conditions in which the network is trained.
+    /// The contents of the files of the course's networks of the seeds from 2 on. The network of seed 1 comes with the
+    /// software.
+    others: &'static [&'static [u8]],
+    /// The conditions in which the networks are trained.
     conditions: fn() -> Result<StudyBuilder, Error>,
 }
 
@@ -45,6 +56,7 @@ pub const FOLLOW: Course = Course {
         Round { tests: 16, epochs: 4 },
         Round { tests: 16, epochs: 6 },
     ],
+    others: &[],
     conditions: || {
         let range = |lo, hi| Domain::Interval { lo, hi };
         Ok(scenario("follow-leader")?.open_over("leader_speed", range(2.0, 12.0)).open_over("gap", range(18.0, 40.0)))
@@ -65,6 +77,7 @@ pub const STOP: Course = Course {
         Round { tests: 14, epochs: 3 },
         Round { tests: 14, epochs: 8 },
     ],
+    others: &[],
     conditions: || Ok(Study::of(crate::crossing::PROGRAM).fix("speed", 1.0)),
 };
 
@@ -82,6 +95,7 @@ pub const LOOP: Course = Course {
         Round { tests: 1, epochs: 12 },
         Round { tests: 1, epochs: 24 },
     ],
+    others: &[],
     conditions: || {
         let speeds = Domain::Interval { lo: 7.5, hi: 8.5 };
         Ok(Study::of(LESSON).open_over("speed", speeds).fix("friction", 0.8))
@@ -94,29 +108,36 @@ const LESSON: Program = Program::new("t-loop-lesson", "once round the loop", |s|
     s.duration(52.0);
 });
 
+/// Returns the study, driven by a network.
+pub fn driven(study: StudyBuilder, network: Model) -> StudyBuilder {
+    let pilot = Pilot::new(network);
+    study.own_driver("cnn", move || Box::new(pilot.clone()))
+}
+
 impl Course {
     /// Returns a study with this number of tests of the training conditions.
     pub fn study(&self, seed: u64, tests: usize) -> Result<StudyBuilder, Error> {
         Ok((self.conditions)()?.seed(seed).budget(tests))
     }
 
-    /// Returns the study, driven by the course's network that comes with the software.
-    pub fn drives(&self, study: StudyBuilder) -> StudyBuilder {
-        let pilot = Pilot::new(self.network());
-        study.own_driver("cnn", move || Box::new(pilot.clone()))
-    }
-
-    /// Returns the course's network that comes with the software.
+    /// Returns the course's network that comes with the software: the network of seed 1.
     pub fn network(&self) -> Model {
         let network = CLONED.iter().find(|network| network.name == self.name).expect("every course has been held");
         Model::read(network.contents).expect("it was written as a driver")
     }
 
+    /// Returns the course's networks with their seeds.
+    pub fn networks(&self) -> impl Iterator<Item = (u64, Model)> {
+        let others = self.others.iter().map(|contents| Model::read(contents).expect("it was written as a driver"));
+        SEEDS.into_iter().zip(std::iter::once(self.network()).chain(others))
+    }
+
     /// Returns the settings of the learning.
-    pub fn recipe(&self) -> Recipe {
+    pub fn recipe(&self, seed: u64) -> Recipe {
         Recipe {
             resolution: self.resolution,
-            seed: 1,
+            look: LOOK,
+            seed,
             batch: 32,
             rates: [1e-3, 1e-4],
             weights: self.weights,

@@ -5,6 +5,7 @@
 //! have led to (Ross, Gordon, Bagnell, "A Reduction of Imitation Learning and Structured Prediction to No-Regret Online
 //! Learning", 2011).
 
+use super::courses::LOOK;
 use paracosm::engine::driver::{Driver, Equipment, Fault};
 use paracosm::engine::sensor::{Cameras, Chance, Image, Rig};
 use paracosm::engine::{Briefing, Control, Observation};
@@ -89,7 +90,7 @@ impl Driver for Teacher {
 
     fn equipment(&mut self) -> Equipment {
         let all = [("front".to_owned(), camera(self.resolution))];
-        Equipment { cameras: Cameras { seed: 0, all: all.into() }, ..Equipment::default() }
+        Equipment { cameras: Cameras { look: LOOK, all: all.into(), ..Cameras::default() }, ..Equipment::default() }
     }
 
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {

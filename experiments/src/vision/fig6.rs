@@ -14,7 +14,6 @@ use indicatif::ProgressBar;
 use paracosm::campaign::Metric;
 use paracosm::campaign::gallery::Gallery;
 use paracosm::perception::{Perceiver, Percept, Segmenter};
-use paracosm::render::Look;
 use paracosm::space::{Value, Values};
 use paracosm::{Campaign, Study, StudyBuilder, Trial};
 use paracosm_neural::vision::learn::Goal;
@@ -122,7 +121,7 @@ fn samples() -> Result<Vec<u8>, Failure> {
     }
     let cameras = cameras(RESOLUTION, (SAMPLES[0], SAMPLES[SAMPLES.len() - 1]))?;
     let study = scene()?.open_cameras(&cameras).driver("planner").build()?;
-    let mut gallery = Gallery::new(&study, cameras, Look::Textured)?;
+    let mut gallery = Gallery::new(&study, cameras)?;
     let mut rows = Vec::new();
     for length in SAMPLES {
         let shown = gallery.show(&at(length))?;

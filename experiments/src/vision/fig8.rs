@@ -10,7 +10,6 @@ use image::RgbImage;
 use indicatif::ProgressBar;
 use paracosm::campaign::Worker;
 use paracosm::campaign::gallery::{Gallery, Shown};
-use paracosm::render::Look;
 use paracosm::space::{Value, Values};
 use std::path::Path;
 
@@ -85,7 +84,7 @@ fn drive() -> Result<Vec<(f64, Shown)>, Failure> {
     let (trial, trace) = Worker::new(&study)?.run(0, &test);
     let trace = trace.ok_or_else(|| trial.error().unwrap_or_default().to_owned())?;
     let travelled: Vec<f64> = trace.signal("car.travelled").into_iter().flatten().collect();
-    let shown = Gallery::new(&study, still(RESOLUTION, 24.0, 10.0), Look::Textured)?.show(&test)?;
+    let shown = Gallery::new(&study, still(RESOLUTION, 24.0, 10.0))?.show(&test)?;
     let mut next = 0.0;
     let mut drive = Vec::new();
     for shown in shown {

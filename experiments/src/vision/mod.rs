@@ -69,7 +69,11 @@ fn varied(resolution: [u32; 2], focal_mm: Domain, usual: f64, rate: f64) -> Resu
 fn still(resolution: [u32; 2], focal_mm: f64, rate: f64) -> VariedCameras {
     let position = [0.3, 0.0, 1.65];
     let front = CameraSpec { resolution, focal_mm, sensor_mm: 36.0, position, rate, ..CameraSpec::default() };
-    VariedCameras::from(Cameras { seed: 0, all: [("front".to_owned(), front)].into() }).in_look(Look::Textured)
+    VariedCameras::from(Cameras {
+        look: Look::Textured,
+        all: [("front".to_owned(), front)].into(),
+        ..Cameras::default()
+    })
 }
 
 /// Makes something of each image of Halton tests of a study, in a list for each test.
@@ -80,7 +84,7 @@ fn halton<T>(
     bar: &ProgressBar,
     mut of: impl FnMut(Shown) -> T,
 ) -> Result<Vec<Vec<T>>, Failure> {
-    let mut gallery = Gallery::new(study, cameras.clone(), Look::Textured)?;
+    let mut gallery = Gallery::new(study, cameras.clone())?;
     let request = Request { seed: Some(seed), ..Request::new(study.space(), tests) };
     let mut made = Vec::new();
     for point in Strategy::HALTON.build(&request)?.ask(tests) {

@@ -73,7 +73,9 @@ def described(driver: Driver) -> dict[str, Any]:
         raise Error(f"period of the driver is {driver.period!r}, expected a number of seconds")
     if not isinstance(driver.others, bool):
         raise Error(f"others of the driver is {driver.others!r}, expected True or False")
-    return {"period": float(driver.period), "others": driver.others, **sensors}
+    if not isinstance(driver.look, str):
+        raise Error(f"look of the driver is {driver.look!r}, expected the name of a look, such as 'textured'")
+    return {"period": float(driver.period), "others": driver.others, "look": driver.look, **sensors}
 
 
 def _is_number(value: Any) -> bool:

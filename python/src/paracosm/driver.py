@@ -32,6 +32,8 @@ class Driver:
     """Seconds from one step to the next."""
     cameras: dict[str, sensors.Camera] = {}
     """Cameras by their names."""
+    look: str = "flat"
+    """The look of the images of the cameras: `"flat"` or `"textured"`."""
     lidars: dict[str, sensors.Lidar] = {}
     gnss: dict[str, sensors.Gnss] = {}
     imus: dict[str, sensors.Imu] = {}
@@ -156,6 +158,7 @@ def _welcome(driver: Driver, hello: Any, welcome: Any, version: int) -> Driver:
     welcome.name = type(driver).__name__
     welcome.period = driver.period
     welcome.others = driver.others
+    welcome.look = driver.look
     described: Any
     for described, messages in [
         (driver.cameras, welcome.cameras),

@@ -59,10 +59,11 @@ def _check_count(name: str, value: object, least: int) -> None:
 class _Seat(Driver):
     """The sensors of an agent. The agent answers in its place."""
 
-    def __init__(self, period: float, cameras: Mapping[str, Camera]) -> None:
+    def __init__(self, period: float, cameras: Mapping[str, Camera], look: str) -> None:
         self.period = period
         self.others = True
         self.cameras = dict(cameras)
+        self.look = look
 
     def step(self, observation: Observation) -> Control:
         raise NotImplementedError
@@ -79,6 +80,7 @@ class _Course:
         others: int = 8,
         points: int = 10,
         cameras: Mapping[str, Camera] | None = None,
+        look: str = "flat",
         **choices: Any,
     ) -> None:
         _check_count("others", others, 0)
@@ -87,7 +89,7 @@ class _Course:
         if "state" in (cameras or {}):
             raise Error("a camera is called `state`, which is the name of the array: give the camera another name")
         self.study = Study(scenario, budget=1, **choices)
-        self.seat = _Seat(period, cameras or {})
+        self.seat = _Seat(period, cameras or {}, look)
         self.others, self.points = others, points
         state = spaces.Box(-np.inf, np.inf, (4 + 3 * points + _OF_BODY * others,), np.float32)
         images = {name: spaces.Box(0, 255, (camera.height, camera.width, 3), np.uint8) for name, camera in self.seat.cameras.items()}
@@ -203,6 +205,7 @@ class DrivingEnv(gymnasium.Env[Any, _Array]):
       over the ground in the same axes; heading; length; width
 
     With `cameras`, a dictionary of names and `Camera`s, an observation is a dictionary with this array as `state` and an image for each camera.
+    `look` is the look of the images: `"flat"` or `"textured"`.
 
     An episode is terminated if a contact or an event of the scenario ends the test, and truncated when the time of the test is over. The observation
     after the last step is that of the step before, because a test that is over asks no driver. The last `info` has the test and its result, as

@@ -23,7 +23,7 @@ use paracosm_campaign::files::Draft;
 use paracosm_campaign::{Error, Study, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
 use paracosm_oracles::Trace;
-use paracosm_render::{Look, Stages, WantedImages};
+use paracosm_render::{Stages, WantedImages};
 use paracosm_space::plural;
 use std::fs::File;
 use std::io::BufWriter;
@@ -46,15 +46,6 @@ pub struct Recorded<'a> {
     pub trace: Option<&'a Trace>,
 }
 
-/// The cameras whose images stand in a file, with the look of the images.
-#[derive(Debug, Clone)]
-pub struct Filmed {
-    /// The cameras.
-    pub cameras: Cameras,
-    /// The look of the images.
-    pub look: Look,
-}
-
 impl Recorded<'_> {
     /// Writes the file of a run that was recorded, with the images of the given cameras, for which the worker runs the test again. Returns lines of
     /// text that say what was written and which images are missing.
@@ -65,7 +56,7 @@ impl Recorded<'_> {
     pub fn write(
         &self,
         recorder: &Recorder,
-        filmed: Option<(&mut Worker, &Filmed)>,
+        filmed: Option<(&mut Worker, &Cameras)>,
         path: &Path,
     ) -> Result<Vec<String>, Error> {
         if recorder.is_empty() && self.trace.is_none() {
@@ -75,9 +66,9 @@ impl Recorded<'_> {
         // Nothing is written if there is nothing to draw with.
         let mut drawn = match filmed {
             None => None,
-            Some((worker, Filmed { cameras, look })) => {
+            Some((worker, cameras)) => {
                 let projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
-                Some((Film::of(worker, self.trial, cameras, &Stages::in_look(*look))?, projector, cameras))
+                Some((Film::of(worker, self.trial, cameras, &Stages::in_look(cameras.look))?, projector, cameras))
             }
         };
         let (draft, file) = Draft::new(path)?;

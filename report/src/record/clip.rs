@@ -10,7 +10,6 @@ use crate::plot;
 use paracosm_campaign::files::{Draft, DraftFolder, is_new};
 use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
-use paracosm_render::Look;
 use paracosm_space::plural;
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
@@ -27,7 +26,6 @@ use thiserror::Error;
 pub struct Clip {
     path: PathBuf,
     form: Form,
-    look: Look,
     stop: Arc<AtomicBool>,
 }
 
@@ -99,12 +97,7 @@ impl Clip {
         if form == Form::Images {
             is_new(path, "a film")?;
         }
-        Ok(Self { path: path.to_owned(), form, look: Look::default(), stop: Arc::default() })
-    }
-
-    /// Returns the destination for images of another look. The default is the look of the images that drivers see.
-    pub fn in_look(self, look: Look) -> Self {
-        Self { look, ..self }
+        Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
     }
 
     /// Returns the destination with a flag that, once set, stops the writing of a film, so that no file is left behind.
@@ -119,7 +112,7 @@ impl Clip {
     /// Returns an error if there is no adapter, the test is not the test that was logged, nothing was seen, or nothing
     /// can be written.
     pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
-        let mut footage = Footage::of(worker, trial, cameras, self.look, &self.stop)?;
+        let mut footage = Footage::of(worker, trial, cameras, &self.stop)?;
         let images = match self.form {
             Form::Images => self.write_images(&mut footage)?,
             Form::Mp4 | Form::Gif => self.write_film(&mut footage)?,

@@ -119,7 +119,7 @@ struct Recording {
     colours: Option<u64>,
     /// The look of the images; `None` for the look of all images before there was a choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    look: Option<String>,
+    look: Option<Look>,
     /// The cameras. A setting that tests vary has the middle of its range here; the study holds the range.
     cameras: Cameras,
 }
@@ -156,7 +156,7 @@ impl Dataset {
         colours: Option<u64>,
     ) -> Result<Self, Error> {
         let (file, cameras) = (folder.join(RECORDING), cameras.into());
-        let look = Some(cameras.look()).filter(|look| *look != Look::default()).map(|look| look.name().to_owned());
+        let look = Some(cameras.look()).filter(|look| *look != Look::default());
         let mut recording = Recording { kept, colours, look, cameras: cameras.nominal().clone() };
         camera_settings().complete(&mut recording.cameras);
         if file.exists() {
@@ -165,6 +165,7 @@ impl Dataset {
                 serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
             // An older version did not write the settings that later versions added.
             camera_settings().complete(&mut there.cameras);
+            there.cameras.look = there.look.unwrap_or_default();
             if there != recording {
                 return Err(OtherRecording { path: file }.into());
             }

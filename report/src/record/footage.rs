@@ -46,14 +46,8 @@ impl<'a> Footage<'a> {
     ///
     /// # Errors
     /// There is no adapter, the camera is not possible, or the test is not the test that was logged.
-    pub fn of(
-        worker: &mut Worker,
-        trial: &Trial,
-        cameras: &'a Cameras,
-        look: Look,
-        stop: &'a AtomicBool,
-    ) -> Result<Self, Error> {
-        let film = Film::of(worker, trial, cameras, &Stages::in_look(look))?;
+    pub fn of(worker: &mut Worker, trial: &Trial, cameras: &'a Cameras, stop: &'a AtomicBool) -> Result<Self, Error> {
+        let film = Film::of(worker, trial, cameras, &Stages::in_look(cameras.look))?;
         let projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
         let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
         Ok(Self { film, projector, missing: Missing::of(name, camera), name, camera, stop })
@@ -124,14 +118,8 @@ fn colours_of(seen: &Result<Rendering, super::Inside>) -> Option<&[u8]> {
 /// # Errors
 /// There is no adapter, the camera is not possible or its images are too large for a film, the test is not the test that was logged, or nothing
 /// was seen.
-pub fn mp4(
-    worker: &mut Worker,
-    trial: &Trial,
-    cameras: &Cameras,
-    look: Look,
-    stop: &AtomicBool,
-) -> Result<Vec<u8>, Error> {
-    let mut footage = Footage::of(worker, trial, cameras, look, stop)?;
+pub fn mp4(worker: &mut Worker, trial: &Trial, cameras: &Cameras, stop: &AtomicBool) -> Result<Vec<u8>, Error> {
+    let mut footage = Footage::of(worker, trial, cameras, stop)?;
     let (name, camera) = (footage.name, footage.camera);
     let failed = |source| Error::unavailable(NoFilm { camera: name.to_owned(), source });
     let mut file = Cursor::new(Vec::new());
@@ -141,11 +129,11 @@ pub fn mp4(
     Ok(file.into_inner())
 }
 
-/// Returns the cameras of the driver with the look of its images, or a camera for people if the driver has no camera.
+/// Returns the cameras of the driver, or a camera for people if the driver has no camera.
 ///
 /// # Errors
 /// No driver can be made.
-pub fn cameras_of(worker: &mut Worker) -> Result<(Cameras, Look), Error> {
+pub fn cameras_of(worker: &mut Worker) -> Result<Cameras, Error> {
     let eyes = worker.eyes()?;
-    Ok(if eyes.all.is_empty() { (standard_cameras(), Look::Textured) } else { (eyes, Look::default()) })
+    Ok(if eyes.all.is_empty() { Cameras { look: Look::Textured, ..standard_cameras() } } else { eyes })
 }

@@ -8,7 +8,6 @@ use paracosm_analysis::{Sameness, Shrunk};
 use paracosm_campaign::cameras::VariedCameras;
 use paracosm_campaign::{Error, Reason, Supervision, Worker};
 use paracosm_engine::sensor::Cameras;
-use paracosm_render::Look;
 use paracosm_space::{Values, plural};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -83,31 +82,27 @@ impl Errand {
                 Ok(json(&Fault { sentence: blamed.sentence(), blamed: &blamed }))
             }
             Self::Cameras => {
-                let (cameras, _) = cameras_for(viewer.cameras, &mut worker, None)?;
+                let cameras = cameras_for(viewer.cameras, &mut worker, None)?;
                 Ok(json(&cameras.all.keys().collect::<Vec<_>>()))
             }
             Self::Film { test, camera } => {
                 let trial = test.run(&mut worker, &log, |_| ())?.0;
-                let (mut cameras, look) = cameras_for(viewer.cameras, &mut worker, Some(&trial.test))?;
+                let mut cameras = cameras_for(viewer.cameras, &mut worker, Some(&trial.test))?;
                 cameras.all.retain(|name, _| *name == camera);
                 if cameras.all.is_empty() {
                     return Err(NoCamera { camera }.into());
                 }
-                Ok(Answer::Film(mp4(&mut worker, &trial, &cameras, look, &supervision.stop)?))
+                Ok(Answer::Film(mp4(&mut worker, &trial, &cameras, &supervision.stop)?))
             }
         }
     }
 }
 
 /// Returns the cameras of a file with the settings of a test, or the cameras of the driver.
-fn cameras_for(
-    given: Option<&VariedCameras>,
-    worker: &mut Worker,
-    test: Option<&Values>,
-) -> Result<(Cameras, Look), Error> {
+fn cameras_for(given: Option<&VariedCameras>, worker: &mut Worker, test: Option<&Values>) -> Result<Cameras, Error> {
     Ok(match (given, test) {
-        (Some(given), Some(test)) => (given.of_test(test), given.look()),
-        (Some(given), None) => (given.nominal().clone(), given.look()),
+        (Some(given), Some(test)) => given.of_test(test),
+        (Some(given), None) => given.nominal().clone(),
         (None, _) => cameras_of(worker)?,
     })
 }

@@ -16,7 +16,7 @@ fn cameras(lens: &[(&str, f64)]) -> Cameras {
         lens,
         ..CameraSpec::default()
     };
-    Cameras { seed: 7, all: [("front".to_owned(), front)].into() }
+    Cameras { seed: 7, all: [("front".to_owned(), front)].into(), ..Cameras::default() }
 }
 
 fn front(lens: &[(&str, f64)]) -> CameraSpec {

@@ -6,7 +6,7 @@ use super::scripted::{Act, ready, scripted, welcome};
 use crate::wire::{self, answer};
 use crate::{Address, Answers, Partner, serve};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
-use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Rig};
+use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Look, Rig};
 use paracosm_engine::vehicle::{Vehicle, VehicleModel};
 use paracosm_engine::{Briefing, Control, Observation, Run, Setup, Step, simulate};
 use paracosm_oracles::Verdict;
@@ -135,7 +135,7 @@ fn cameras() -> Cameras {
         lens: lens.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
     };
     let all = [("front", spec(3)), ("back", spec(2))].map(|(name, camera)| (name.to_owned(), camera));
-    Cameras { seed: 0, all: all.into() }
+    Cameras { look: Look::Textured, all: all.into(), ..Cameras::default() }
 }
 
 impl Driver for Watcher {

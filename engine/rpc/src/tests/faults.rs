@@ -71,6 +71,10 @@ fn a_welcome_that_cannot_be_is_refused() {
             "`channels` is 0",
         ),
         (wire::Welcome { cameras: vec![camera.clone(), camera], ..welcome() }, "cameras are called `front`"),
+        (
+            wire::Welcome { look: "texture".into(), ..welcome() },
+            "no look is called `texture` (did you mean `textured`?)",
+        ),
     ] {
         refuses(open(&says(wrong)), why);
     }

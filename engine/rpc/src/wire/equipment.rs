@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use paracosm_engine::driver::{Equipment, Fault, FaultKind};
 use paracosm_engine::sensor::{
     CameraSpec, Cameras, Delivery, Gnss, GnssSettings, Handle, Image, Imu, ImuSettings, Inaccuracy, Lidar,
-    LidarSettings, Mount, Rig, Sample, Sensor, SensorError,
+    LidarSettings, Look, Mount, Rig, Sample, Sensor, SensorError, UnknownLook,
 };
 
 /// The description that a driver gives of itself in its welcome.
@@ -38,7 +38,11 @@ impl Described {
                 format!("the driver's period is {period} s, expected a finite number above 0"),
             ));
         }
-        let mut cameras = Cameras { seed, ..Cameras::default() };
+        let look = match welcome.look.as_str() {
+            "" => Look::default(),
+            name => name.parse().map_err(|flaw: UnknownLook| Fault::of(FaultKind::Equipment, flaw.to_string()))?,
+        };
+        let mut cameras = Cameras { seed, look, ..Cameras::default() };
         for camera in &welcome.cameras {
             if cameras.all.insert(camera.name.clone(), camera.into()).is_some() {
                 return Err(Fault::of(

@@ -83,6 +83,9 @@ pub struct Welcome {
     /// The inertial measurement units of the driver.
     #[prost(message, repeated, tag = "8")]
     pub imus: ::prost::alloc::vec::Vec<Imu>,
+    /// The look of the images of the cameras: `flat` or `textured`. A look that is not set is `flat`.
+    #[prost(string, tag = "9")]
+    pub look: ::prost::alloc::string::String,
 }
 /// A camera, with the settings of the file CAMERAS.toml of `paracosm-fuzz record`. A field that is not set is 0.
 #[derive(Clone, PartialEq, ::prost::Message)]

@@ -6,7 +6,6 @@ use super::{FOCAL_MM, Failure, Findings, LENS, Named, RESOLUTION, counted, numbe
 use paracosm::analysis::statistics::bootstrap_interval;
 use paracosm::campaign::gallery::Gallery;
 use paracosm::generators::{Request, Strategy};
-use paracosm::render::Look;
 use paracosm::space::{Domain, Parameter, Space, Value, Values};
 use paracosm::{Campaign, Study};
 
@@ -79,7 +78,7 @@ pub fn sheet(detector: &mut Named, threshold: f64) -> Result<Vec<u8>, Failure> {
     let cameras = varied(RESOLUTION, lens, FOCAL_MM, RENDERS)?;
     let study = Study::of(PROGRAM).driver("planner").open_over("fog", fog).open_over("light", light);
     let study = study.open("gap").open("traffic").open("colour").open_cameras(&cameras).build()?;
-    let mut gallery = Gallery::new(&study, cameras, Look::Textured)?;
+    let mut gallery = Gallery::new(&study, cameras)?;
     let mut rows = Vec::new();
     for ((condition, _), values) in CONDITIONS.into_iter().zip(SHEET) {
         let mut row = Vec::new();

@@ -4,10 +4,10 @@
 mod quiet_road;
 
 use super::super::{Developed, Film, Projector};
-use super::can_draw;
+use super::{can_draw, of};
 use paracosm_campaign::{Campaign, Study, Trial, Worker};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
-use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Look, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 use paracosm_render::{Stages, WantedImages};
 use quiet_road::QUIET;
@@ -111,14 +111,7 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
 
     let mut worker = Worker::new(&study).unwrap();
     assert_eq!(worker.eyes().unwrap(), cameras);
-    let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
-    let mut recorded = Vec::new();
-    let mut projector = Projector::new(&cameras, WantedImages { rgb: true, ..WantedImages::default() }).unwrap();
-    let show = |pictures: Vec<Developed<'_>>| {
-        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.unwrap().frame.rgb.unwrap())));
-        Ok(())
-    };
-    projector.show(&film, 0, show).unwrap();
+    let recorded = recorded(&mut worker, &trial, &cameras);
     let shown = std::mem::take(&mut *shown.lock().unwrap());
     assert!(shown.len() > 10 && shown.len() < 28, "{} of 30 images", shown.len());
     for ((asked, image), (number, rgb)) in shown.iter().zip(&recorded) {
@@ -130,4 +123,76 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
     }
     // The last may come when the test is over.
     assert!(recorded.len() - shown.len() <= 1);
+}
+
+/// The number and the pixels of each image that a recording of a test has.
+fn recorded(worker: &mut Worker<'_>, trial: &Trial, cameras: &Cameras) -> Vec<(u64, Vec<u8>)> {
+    let film = Film::of(worker, trial, cameras, &Stages::in_look(cameras.look)).unwrap();
+    let mut recorded = Vec::new();
+    let mut projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() }).unwrap();
+    let show = |pictures: Vec<Developed<'_>>| {
+        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.unwrap().frame.rgb.unwrap())));
+        Ok(())
+    };
+    projector.show(&film, 0, show).unwrap();
+    recorded
+}
+
+/// A driver that stands still and has cameras.
+struct Parked(Cameras);
+
+impl Driver for Parked {
+    fn period(&self) -> f64 {
+        0.1
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        Equipment { cameras: self.0.clone(), ..Equipment::default() }
+    }
+
+    fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn step(&mut self, _: &Observation) -> Result<Control, Fault> {
+        Ok(Control { throttle: -1.0, steering: 0.0 })
+    }
+}
+
+#[test]
+fn a_driver_sees_the_look_that_its_cameras_have_also_if_the_first_image_comes_late() {
+    if !can_draw() {
+        return;
+    }
+    let front = CameraSpec {
+        resolution: [96, 48],
+        focal_mm: 24.0,
+        sensor_mm: 36.0,
+        position: [0.3, 0.0, 1.35],
+        rate: 2.0,
+        latency: 0.7,
+        ..CameraSpec::default()
+    };
+    let seen_in = |look: Look| {
+        let cameras = Cameras { look, all: [("front".to_owned(), front.clone())].into(), ..Cameras::default() };
+        let (own, shown) = (cameras.clone(), Arc::<Mutex<Vec<(f64, Image)>>>::default());
+        let seen = shown.clone();
+        let make = move || -> Box<dyn Driver> {
+            let driver = Box::new(Parked(own.clone()));
+            Box::new(Witness { driver, new: Vec::new(), shown: seen.clone() })
+        };
+        // Cars move while the first image is on its way, and houses keep clear of cars.
+        let study = of("grid-traffic").own_driver("parked", make).budget(1).build().unwrap();
+        let trial = trials(Campaign::new(&study).unwrap()).swap_remove(0);
+        let shown: Vec<_> = std::mem::take(&mut *shown.lock().unwrap()).into_iter().take(3).collect();
+        assert_eq!(shown.len(), 3);
+        let mut worker = Worker::new(&study).unwrap();
+        assert_eq!(worker.eyes().unwrap().look, look);
+        let recorded = recorded(&mut worker, &trial, &cameras);
+        for ((_, image), (number, rgb)) in shown.iter().zip(&recorded) {
+            assert!(image.number == *number && image.rgb == *rgb, "image {number} in the look {look}");
+        }
+        shown.into_iter().map(|(_, image)| image.rgb).collect::<Vec<_>>()
+    };
+    assert_ne!(seen_in(Look::Flat), seen_in(Look::Textured));
 }

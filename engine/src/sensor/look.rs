@@ -1,13 +1,15 @@
 //! The versions of the look of images, so that a study or a recording can pin the look that it was made with.
 
 use paracosm_space::{did_you_mean, nearest};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
 /// A version of the look of images. A look changes colours and shapes, and never a run. The images of a look stay the
 /// same from version to version of this software, so that networks keep the meaning that they were trained on.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Look {
     /// Surfaces of one colour with a little grain, one shape for all cars, and one for all adults.
     #[default]
