@@ -25,6 +25,7 @@ mod fig9_cnn;
 mod fig9_sides;
 mod figures;
 mod propositions;
+mod reasons;
 mod recalls;
 mod recovery;
 #[cfg(feature = "neural")]
@@ -109,8 +110,14 @@ const STUDIES: &[Study] = &[
     Study {
         name: "drivers",
         about: "every driver that comes with the software in 200 Halton tests of every scenario",
-        time: "1 h",
+        time: "6 min",
         run: drivers::run,
+    },
+    Study {
+        name: "drivers-reasons",
+        about: "drivers again with other settings, and single tests, for the reasons of the page on drivers",
+        time: "15 s",
+        run: reasons::run,
     },
     #[cfg(feature = "neural")]
     Study {

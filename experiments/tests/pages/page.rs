@@ -107,7 +107,7 @@ impl Page {
 
     /// Returns what is old in the tables. With UPDATE_GOLDEN=1, writes the tables instead.
     fn settled(&self) -> Option<String> {
-        if env::var_os("UPDATE_GOLDEN").is_some_and(|update| update == "1") {
+        if self.old != self.new && env::var_os("UPDATE_GOLDEN").is_some_and(|update| update == "1") {
             fs::write(path(self.name), &self.new).unwrap();
             return None;
         }
