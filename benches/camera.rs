@@ -83,7 +83,7 @@ fn crossing() -> Vec<(Scene, Isometry3<f64>)> {
 
 /// Returns the scenes in front of a camera behind the windscreen, with the poses of the car, three times a second.
 fn moments(scenario: &str, look: Look) -> Vec<(Scene, Isometry3<f64>)> {
-    moments_on(scenario, |run| Stages::in_look(look).of_run(run))
+    moments_on(scenario, |run| Stages::default().of_run(run, look))
 }
 
 fn moments_on(scenario: &str, stage: impl Fn(&Run) -> Arc<Stage>) -> Vec<(Scene, Isometry3<f64>)> {

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm::engine::object::{Body, BodyState, Class};
 use paracosm::engine::road::{CrossIntersection, RoadNetwork, RoadSegment, Roundabout};
 use paracosm::engine::{Pose, Run, Setup, driver};
-use paracosm::render::{Atmosphere, Camera, Frame, Renderer, Scene, Stage, Stages, View, WantedImages};
+use paracosm::render::{Atmosphere, Camera, Frame, Look, Renderer, Scene, Stage, Stages, View, WantedImages};
 use paracosm::space::Values;
 use std::error::Error;
 use std::fs::File;
@@ -84,7 +84,7 @@ impl Gallery {
         let program = paracosm::scenarios::find(name).ok_or("the catalogue has no scenario of this name")?;
         let test: Values = program.declare()?.nominal();
         let mut run = Run::new(program, &test, Setup::asking_every(0.1))?;
-        let stage = stages.of(run.network());
+        let stage = stages.of(run.network(), Look::Flat);
         let mut driver = driver::find("cruise")?.build(&[])?;
         let mut seen = None;
         run.watch(driver.as_mut(), |run| {

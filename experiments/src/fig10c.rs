@@ -55,7 +55,7 @@ const SPEEDS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 12.0];
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, _: &ProgressBar) -> Done {
-    let header = "seed,case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m";
+    let header = "seed,case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s";
     let mut table = vec![header.to_owned()];
     let mut over_time = vec!["seed,case,leader_speed,time,speed,throttle,oncoming_gap".to_owned()];
     for (seed, network) in FOLLOW.networks() {
@@ -73,8 +73,7 @@ pub fn run(out: &Path, _: &ProgressBar) -> Done {
                 over_time.extend(told(&trace).iter().map(|row| format!("{case},{row}")));
                 let least = signal(&trace, "car.speed").into_iter().fold(f64::INFINITY, f64::min);
                 let clearance = trial.robustness("no-collision").unwrap_or(f64::NAN);
-                let travelled = signal(&trace, "car.travelled").last().copied().unwrap_or(f64::NAN);
-                table.push(format!("{case},{},{clearance:.3},{least:.3},{travelled:.2}", trial.verdict));
+                table.push(format!("{case},{},{clearance:.3},{least:.3}", trial.verdict));
             }
         }
     }

@@ -12,8 +12,11 @@ use std::path::Path;
 /// The tests of each driver, as in the study `drivers`.
 const TESTS: usize = 200;
 
-/// The scenarios and drivers to look at, each with a setting of the driver that may be the reason.
-const CASES: [(&str, &str, Option<(&str, f64)>); 13] = [
+/// A scenario, a driver, and a setting of the driver that may be the reason.
+type Case = (&'static str, &'static str, Option<(&'static str, f64)>);
+
+/// The scenarios and drivers to look at.
+const CASES: [Case; 13] = [
     ("pedestrian-crossing", "planner", None),
     ("pedestrian-crossing", "cruise", None),
     ("ncap-cpfa", "aeb", None),

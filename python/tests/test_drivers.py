@@ -8,6 +8,8 @@ from pathlib import Path
 import paracosm as pc
 import pytest
 from example_drivers import Cautious, Sensing, still
+from paracosm import protocol
+from paracosm.driver import _welcome
 
 HERE = Path(__file__).parent
 
@@ -211,3 +213,12 @@ def test_sensors_that_are_no_dictionary_are_an_error():
 
     with pytest.raises(pc.Error, match="cameras of the driver is None, expected a dictionary"):
         pc.Study("cut-in", driver=Blind, budget=2)
+
+
+def test_a_driver_in_a_process_of_its_own_names_the_look_of_its_images():
+    class Sees(pc.Driver):
+        look = "textured"
+
+    answer = protocol.Answer()
+    _welcome(Sees(), protocol.Request().hello, answer.welcome, protocol.VERSION)
+    assert answer.welcome.look == "textured"

@@ -4,7 +4,7 @@ use super::output::{Format, FormatOption, Table, json};
 use super::{Failure, Status, print};
 use crate::engine::driver;
 use crate::engine::{Run, Setup};
-use crate::render::{Adapter, Camera, RenderError, Renderer, Scene, Stages, View, WantedImages};
+use crate::render::{Adapter, Camera, Look, RenderError, Renderer, Scene, Stages, View, WantedImages};
 use clap::Args;
 use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
@@ -145,7 +145,7 @@ fn speeds(renderer: &mut Renderer) -> Result<Result<Vec<Speed>, RenderError>, Fa
     run.advance();
     let pose = run.bodies()[0].pose;
     let pose = Isometry3::new(Vector3::new(pose.position.x, pose.position.y, 1.35), Vector3::z() * pose.heading);
-    let scene = Stages::default().of(run.network()).scene(&run);
+    let scene = Stages::default().of(run.network(), Look::Flat).scene(&run);
     let mut measured = Vec::new();
     for Size { width, height, depth, semantic, shadows, outputs } in SIZES {
         let wanted = WantedImages { rgb: true, depth, semantic, shadows, ..WantedImages::default() };

@@ -147,7 +147,7 @@ fn sensed<S: Sensor + 'static>(mut sensor: S) -> Ready {
 #[cfg(feature = "camera")]
 fn frames() -> Ready {
     let run = in_the_city();
-    let stage = paracosm::render::Stages::default().of(run.network());
+    let stage = paracosm::render::Stages::default().of(run.network(), paracosm::render::Look::Flat);
     // The first scene makes the meshes of all scenes.
     drop(stage.scene(&run));
     Box::new(move || (0..100).for_each(|_| drop(black_box(stage.scene(&run)))))

@@ -6,7 +6,7 @@
 use crate::study::{Appearances, ModelFlaw};
 use crate::{Error, Reason};
 use paracosm_engine::Run;
-use paracosm_engine::sensor::{Cameras, Image, Look, Moment, Sample};
+use paracosm_engine::sensor::{Cameras, Image, Moment, Sample};
 use paracosm_render::{
     Cast, Developer, Exposure, Frame, NoCamera, Optics, RenderError, Rendering, Sight, Stage, Stages, Undrawn,
     WantedImages,
@@ -24,7 +24,7 @@ use thiserror::Error;
 pub struct Darkroom {
     orders: Mutex<Vec<Order>>,
     developer: Mutex<Developer>,
-    stages: [Stages; Look::ALL.len()],
+    stages: Stages,
     appearances: Appearances,
 }
 
@@ -82,7 +82,7 @@ impl Darkroom {
         Optics::of(cameras).map_err(Blind::Camera)?;
         let developer = Developer::new().map_err(|source| Error::unavailable(Blind::Nothing(source)))?;
         let developer = Mutex::new(developer);
-        let (stages, appearances) = (Look::ALL.map(Stages::in_look), appearances.clone());
+        let (stages, appearances) = (Stages::default(), appearances.clone());
         Ok(Self { orders: Mutex::default(), developer, stages, appearances })
     }
 
@@ -92,10 +92,8 @@ impl Darkroom {
     /// A 3D model cannot be used, or a camera is invalid.
     pub fn set(&self, run: &Run) -> Result<Set, NoImage> {
         let cameras = run.eyes().cameras();
-        let stages =
-            self.stages.iter().find(|stages| stages.look() == cameras.look).expect("there are stages of each look");
         let cast = self.appearances.cast(run, cameras.look).map_err(Arc::new)?;
-        Ok(Set { stage: stages.of_run(run), cast, optics: Optics::of(cameras)? })
+        Ok(Set { stage: self.stages.of_run(run, cameras.look), cast, optics: Optics::of(cameras)? })
     }
 
     /// Draws and returns the camera images that have arrived at the drivers of the given runs, each with its set. An image

@@ -38,7 +38,7 @@ pub(crate) struct Taken {
 impl Film {
     /// Makes the film for cameras, whose settings may vary with the test.
     pub fn new(cameras: VariedCameras) -> Self {
-        Self { stages: Stages::in_look(cameras.look()), cameras }
+        Self { cameras, stages: Stages::default() }
     }
 
     /// Returns the cameras with the usual settings.
@@ -54,8 +54,9 @@ impl Film {
     /// Notes the images that have arrived, each time the driver is asked and at the end of the run.
     pub fn note(&self, notes: &mut Notes, run: &Run, appearances: &Appearances) {
         if notes.stage.is_none() {
-            notes.stage = Some(self.stages.of_run(run));
-            notes.cast = Some(appearances.cast(run, self.stages.look()));
+            let look = self.cameras.look();
+            notes.stage = Some(self.stages.of_run(run, look));
+            notes.cast = Some(appearances.cast(run, look));
             notes.seed = run.filmed().cameras().seed;
         }
         notes.taken.extend(run.filmed().arrived().map(|(_, sample)| sample.clone()));

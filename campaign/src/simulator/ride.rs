@@ -59,8 +59,11 @@ impl Ride {
 
     /// Furnishes the set of the images if the driver has cameras.
     pub fn furnish(&mut self, set: impl FnOnce(&Run) -> Result<Set, NoImage>) {
-        let run = self.run.as_ref().filter(|run| !run.eyes().cameras().all.is_empty());
-        self.set = run.map(set);
+        let Some(run) = self.run.as_ref().filter(|run| !run.eyes().cameras().all.is_empty()) else { return };
+        match catch_unwind(AssertUnwindSafe(|| set(run))) {
+            Ok(set) => self.set = Some(set),
+            Err(panic) => self.outcome = Some(Err(Problem::panicked("run", panic.as_ref()))),
+        }
     }
 
     /// Prepares the run before it begins.
@@ -108,7 +111,7 @@ impl Ride {
         self.run.as_ref().filter(|_| self.outcome.is_none()).zip(self.set.as_ref()?.as_ref().ok())
     }
 
-    /// Ends the test if its driver waits for images and there is no set.
+    /// Ends a test without a set. It is called when the driver waits for images.
     pub fn miss(&mut self) {
         if let Some(Err(error)) = self.set.as_ref().filter(|_| self.outcome.is_none()) {
             let error = error.clone();

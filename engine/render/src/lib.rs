@@ -5,7 +5,7 @@
 //! at once, with or without a graphics card, and returns a [`Frame`] for each: colours, depth, semantic classes and
 //! instances.
 //!
-//! Images have a [`Look`], which a [`Stage`] or a cache of [`Stages`] gives to all of its scenes. The look
+//! Images have a [`Look`], which a [`Stage`] gives to all of its scenes. The look
 //! [`Flat`](Look::Flat) is the default and never changes. The look [`Textured`](Look::Textured) has textures, cars and
 //! people of many shapes, lamps that show what a vehicle does, and scenery that exists only in pictures.
 //!

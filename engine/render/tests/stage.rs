@@ -9,7 +9,7 @@ use paracosm_engine::{
     AutonomousVehicle, Environment, Pedestrian, Pose, Program, Run, Scenario, Setup, Side, Stream, Weather, driver,
     eventually, never,
 };
-use paracosm_render::{Atmosphere, Instance, Mesh, Scene, Semantic, Stage, Stages, Vertex};
+use paracosm_render::{Atmosphere, Instance, Look, Mesh, Scene, Semantic, Stage, Stages, Vertex};
 use paracosm_space::Values;
 use std::sync::Arc;
 
@@ -208,9 +208,10 @@ fn a_city_is_made_of_chunks_near_their_places() {
 #[test]
 fn tests_on_one_network_share_its_stage() {
     let (stages, network) = (Stages::default(), road());
-    let first = stages.of(&network);
-    assert!(Arc::ptr_eq(&first, &stages.of(&network.clone())));
-    assert!(!Arc::ptr_eq(&first, &stages.of(&road())));
+    let first = stages.of(&network, Look::Flat);
+    assert!(Arc::ptr_eq(&first, &stages.of(&network.clone(), Look::Flat)));
+    assert!(!Arc::ptr_eq(&first, &stages.of(&network, Look::Textured)));
+    assert!(!Arc::ptr_eq(&first, &stages.of(&road(), Look::Flat)));
 }
 
 #[test]

@@ -43,6 +43,18 @@ pub struct Course {
     conditions: fn() -> Result<StudyBuilder, Error>,
 }
 
+/// The networks of the seeds 2 to 5 of a course.
+macro_rules! others {
+    ($name:literal) => {
+        &[
+            include_bytes!(concat!("../../networks/", $name, "-2.onnx")),
+            include_bytes!(concat!("../../networks/", $name, "-3.onnx")),
+            include_bytes!(concat!("../../networks/", $name, "-4.onnx")),
+            include_bytes!(concat!("../../networks/", $name, "-5.onnx")),
+        ]
+    };
+}
+
 /// The course for Figures 10a and 10c: driving behind a slow leader in broad daylight.
 pub const FOLLOW: Course = Course {
     name: "follow",
@@ -56,7 +68,7 @@ pub const FOLLOW: Course = Course {
         Round { tests: 16, epochs: 4 },
         Round { tests: 16, epochs: 6 },
     ],
-    others: &[],
+    others: others!("follow"),
     conditions: || {
         let range = |lo, hi| Domain::Interval { lo, hi };
         Ok(scenario("follow-leader")?.open_over("leader_speed", range(2.0, 12.0)).open_over("gap", range(18.0, 40.0)))

@@ -9,7 +9,7 @@ pub mod exam;
 mod teacher;
 
 use courses::SEEDS;
-pub use courses::{Course, FOLLOW, LOOK, LOOP, STOP, driven};
+pub use courses::{Course, FOLLOW, LOOP, STOP, driven};
 
 use crate::{Done, logged, print, write};
 use indicatif::ProgressBar;
@@ -32,13 +32,16 @@ const PROGRESS: &str = "seed,round,epoch,lessons,loss,held_out_steering,held_out
 pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
     for seed in SEEDS {
         let network = out.join(format!("{}-{seed}.onnx", course.name));
-        if !network.exists() {
+        if network.exists() {
+            print(&format!("{} is there, and is not taught again\n", network.display()))?;
+        } else {
             teach(course, seed, &network, bar)?;
         }
     }
     let mut progress = PROGRESS.to_owned() + "\n";
     for seed in SEEDS {
-        let table = fs::read_to_string(out.join(format!("{}-{seed}.csv", course.name)))?;
+        let path = out.join(format!("{}-{seed}.csv", course.name));
+        let table = fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         progress.extend(table.split_inclusive('\n').skip(1));
     }
     write(&out.join(format!("learning-{}.csv", course.name)), progress)
@@ -78,7 +81,10 @@ fn teach(course: &Course, network: u64, path: &Path, bar: &ProgressBar) -> Done 
         pupil = Some(Pilot::new(Model::read(&contents)?));
     }
     write(&path.with_extension("csv"), table.join("\n") + "\n")?;
-    write(path, contents)?;
+    // A network that is there is complete, wherever the study is stopped.
+    let part = path.with_extension("part");
+    write(&part, contents)?;
+    fs::rename(&part, path)?;
     print(&format!("{}-{network}: {:.1} min\n", course.name, began.elapsed().as_secs_f64() / 60.0))
 }
 

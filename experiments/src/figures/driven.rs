@@ -1,13 +1,13 @@
 //! The figures of networks that drive: in fog and at other light, round a loop in fog, and behind leaders of two colours.
 
 use super::outline::outline;
-use super::plot::{Axis, BLUE, Bar, CURVES, Figure, GREEN, INK, Key, Layer, Mark, ORANGE, Panel};
+use super::plot::{Axis, BLUE, Bar, CURVES, Figure, GREEN, GREY, INK, Key, Layer, Mark, ORANGE, Panel};
 use super::table::{Row, Table};
 use paracosm::report::Tints;
 use plotters::style::RGBColor;
 
 /// The range of the distances that the shades show, in metres.
-const COVERED: (f64, f64) = (60.0, 110.0);
+const COVERED: (f64, f64) = (85.0, 105.0);
 
 fn shade(metres: f64) -> RGBColor {
     let [red, green, blue] = Tints::shade(metres, COVERED);
@@ -18,25 +18,50 @@ fn fog() -> Axis {
     Axis::new("fog, and the visibility in it", (0.0, 1.0), 0.2).with_visibility()
 }
 
-/// Draws the distance that the network covers over fog and light.
+/// The rows of a network.
+fn of_network<'a>(table: &'a Table, seed: &'a str) -> impl Iterator<Item = Row<'a>> {
+    table.rows().filter(move |row| row.word("seed") == seed)
+}
+
+/// The density of fog between two points of a curve of shares.
+const STEP: f64 = 0.1;
+
+/// Draws the distance that the first network covers over fog and light, and the share of the tests that fail over fog for
+/// each network.
 pub fn fog_and_light(tables: &[Table]) -> Figure {
     let tests = &tables[0];
+    let seeds = tests.different("seed");
+    let own = |seed| of_network(tests, seed);
     let at = |row: Row<'_>| (row.number("fog"), row.number("light"));
-    let dots = tests.rows().map(|row| (at(row).0, at(row).1, shade(row.number("travelled")))).collect();
-    let failing = tests.rows().filter(|row| row.word("verdict") == "fail").map(at).collect();
+    let dots = own(seeds[0]).map(|row| (at(row).0, at(row).1, shade(row.number("travelled")))).collect();
+    let failing = own(seeds[0]).filter(|row| row.word("verdict") == "fail").map(at).collect();
     let layers = vec![
         Layer::Tinted(dots, 36.0),
         Layer::Points(failing, Mark::Cross(24.0), ORANGE),
         Layer::Points(vec![(0.0, 1.0)], Mark::Ring(48.0), INK),
     ];
-    let legend = vec![
-        (Key::Mark(Mark::Cross(28.0), ORANGE), "leaves its lane".to_owned()),
-        (Key::Mark(Mark::Ring(40.0), INK), "conditions of the training".to_owned()),
+    let mut legend = vec![
+        (Key::Mark(Mark::Cross(28.0), ORANGE), "(a) fails".to_owned()),
+        (Key::Mark(Mark::Ring(40.0), INK), "(a) conditions of the training".to_owned()),
     ];
-    let panels = vec![Panel { name: String::new(), x: fog(), y: Axis::new("light", (0.0, 1.0), 0.2), layers }];
+    let light = Axis::new("light", (0.0, 1.0), 0.2);
+    let map = Panel { name: format!("(a) network {}", seeds[0]), x: fog(), y: light, layers };
+
+    let mut layers = Vec::new();
+    for (seed, colour) in seeds.iter().zip(CURVES) {
+        let share = |i: usize| {
+            let within = || own(seed).filter(|row| (row.number("fog") / STEP) as usize == i);
+            let fails = within().filter(|row| row.word("verdict") == "fail").count();
+            ((i as f64 + 0.5) * STEP, 100.0 * fails as f64 / within().count() as f64)
+        };
+        layers.push(Layer::Line((0..10).map(share).collect(), colour));
+        legend.push((Key::Line(colour), format!("(b) network {seed}")));
+    }
+    let share = Axis::new("failing tests (%)", (0.0, 100.0), 20.0);
+    let shares = Panel { name: "(b) each network, at any light".to_owned(), x: fog(), y: share, layers };
     let label = "distance covered (m)".to_owned();
-    let bar = Bar { label, range: COVERED, ticks: vec![60.0, 70.0, 80.0, 90.0, 100.0, 110.0], colour: shade };
-    Figure { columns: 1, shape: 0.75, panels, legend, bar: Some(bar) }
+    let bar = Bar { label, range: COVERED, ticks: vec![85.0, 90.0, 95.0, 100.0, 105.0], colour: shade };
+    Figure { columns: 1, shape: 0.5, panels: vec![map, shares], legend, bar: Some(bar) }
 }
 
 /// Draws the time to the first failure of each kind over fog, and the steering over time in four densities.
@@ -74,23 +99,31 @@ pub fn fog_on_the_loop(tables: &[Table]) -> Figure {
     Figure { columns: 1, shape: 0.36, panels: vec![first, second], legend, bar: None }
 }
 
-/// Draws the speed behind leaders of 8 and of 4 m/s in three cases.
+/// Draws the speed behind leaders of 8 and of 4 m/s: of the first network in three cases, and of the other networks behind
+/// the white leader.
 pub fn leaders(tables: &[Table]) -> Figure {
     let speeds = &tables[0];
-    let cases = speeds.different("case");
+    let (seeds, cases) = (speeds.different("seed"), speeds.different("case"));
+    let own = |seed: &str, case: &str, leader: &str| {
+        let own =
+            |row: &Row<'_>| [row.word("seed"), row.word("case"), row.word("leader_speed")] == [seed, case, leader];
+        speeds.rows().filter(own).collect::<Vec<_>>()
+    };
+    let over_time = |rows: &[Row<'_>]| rows.iter().map(|row| (row.number("time"), row.number("speed"))).collect();
     let panels = ["8", "4"].into_iter().zip(['a', 'b']).map(|(leader, letter)| {
-        let mut layers = Vec::new();
+        let other = |seed: &&str| Layer::Line(over_time(&own(seed, "white leader", leader)), GREY);
+        let mut layers: Vec<Layer> = seeds[1..].iter().map(other).collect();
         for (case, colour) in cases.iter().zip(CURVES) {
-            let own = || speeds.rows().filter(|row| row.word("case") == *case && row.word("leader_speed") == leader);
-            layers.push(Layer::Line(own().map(|row| (row.number("time"), row.number("speed"))).collect(), colour));
-            let passing = own().find(|row| row.number("oncoming_gap") <= 0.0);
+            let own = own(seeds[0], case, leader);
+            layers.push(Layer::Line(over_time(&own), colour));
+            let passing = own.iter().find(|row| row.number("oncoming_gap") <= 0.0);
             let passing = passing.map(|row| (row.number("time"), row.number("speed")));
             layers.push(Layer::Points(passing.into_iter().collect(), Mark::Dot(30.0), INK));
-            let last = own().last().expect("a case has rows");
-            if last.number("time") < 14.5 {
-                layers.push(Layer::Points(vec![(last.number("time"), last.number("speed"))], Mark::Cross(40.0), INK));
-            }
         }
+        // A test that ends early has ended in a collision.
+        let ends = seeds.iter().flat_map(|seed| cases.iter().map(|case| own(seed, case, leader)));
+        let ends = ends.filter_map(|rows| rows.last().map(|row| (row.number("time"), row.number("speed"))));
+        layers.push(Layer::Points(ends.filter(|end| end.0 < 14.5).collect(), Mark::Cross(40.0), INK));
         Panel {
             name: format!("({letter}) leader of {leader} m/s"),
             x: Axis::new("time (s)", (0.0, 15.0), 5.0),
@@ -101,6 +134,7 @@ pub fn leaders(tables: &[Table]) -> Figure {
     let panels = panels.collect();
     let mut legend: Vec<(Key, String)> =
         cases.iter().zip(CURVES).map(|(case, colour)| (Key::Line(colour), (*case).to_owned())).collect();
+    legend.push((Key::Line(GREY), "white leader, other networks".to_owned()));
     legend.push((Key::Mark(Mark::Dot(30.0), INK), "the red car passes".to_owned()));
     legend.push((Key::Mark(Mark::Cross(40.0), INK), "collision".to_owned()));
     Figure { columns: 1, shape: 0.36, panels, legend, bar: None }

@@ -31,7 +31,7 @@ const FIGURES: [(&str, &[&[u8]], Drawing); 13] = [
     ("fig9-cnn-reference", &[file!("fig9-cnn-reference.csv"), file!("fig9-cnn-drivers.csv")], crossing::map),
     ("fig10a", &[file!("fig10a.csv")], driven::fog_and_light),
     ("fig10b", &[file!("fig10b.csv"), file!("fig10b-steering.csv")], driven::fog_on_the_loop),
-    ("fig10c", &[file!("fig10c-speeds.csv")], driven::leaders),
+    ("fig10c", &[file!("fig10c-speeds.csv.gz")], driven::leaders),
     ("saliency", &[file!("saliency-maps.csv.gz")], driven::saliency),
     ("saliency-gap", &[file!("saliency-gap.csv")], driven::gaps),
     ("samplers", &[file!("samplers-sets.csv.gz")], covered::samplers),

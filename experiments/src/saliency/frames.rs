@@ -1,7 +1,7 @@
 //! Draws the images that the network is shown: the first image of a test behind a leader, with the leader elsewhere, in
 //! another colour, or absent, so that nothing else differs.
 
-use crate::cloning::{FOLLOW, LOOK, driven};
+use crate::cloning::{FOLLOW, driven};
 use crate::scenario;
 use paracosm::campaign::Worker;
 use paracosm::engine::object::Colour;
@@ -78,9 +78,12 @@ impl Studio {
         let mut worker = Worker::new(&study)?;
         let test: Values = [("leader_speed".to_owned(), Value::Number(8.0))].into_iter().collect();
         let (trial, _) = worker.run(0, &test);
-        let cameras =
-            Cameras { look: LOOK, all: [("front".to_owned(), camera(FOLLOW.resolution))].into(), ..Cameras::default() };
-        let film = Film::of(&mut worker, &trial, &cameras, &Stages::in_look(LOOK))?;
+        let cameras = Cameras {
+            look: FOLLOW.network().look(),
+            all: [("front".to_owned(), camera(FOLLOW.resolution))].into(),
+            ..Cameras::default()
+        };
+        let film = Film::of(&mut worker, &trial, &cameras, &Stages::default())?;
         let first = film.shots[0].first().ok_or("the camera takes no image")?.clone();
         let outputs = WantedImages { rgb: true, instance: true, ..WantedImages::default() };
         Ok(Self { projector: Projector::new(&cameras, outputs)?, film, first })

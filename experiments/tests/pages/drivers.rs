@@ -8,7 +8,7 @@ use crate::rows::{Row, number, range, rows};
 use paracosm::engine::driver;
 use paracosm::oracles::Verdict;
 use paracosm::{Campaign, Study};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::env;
 use std::fmt::Write;
 use std::fs;
@@ -138,13 +138,15 @@ fn tests_of(all: &[Row], scenario: &str, driver: &str, setting: &str, verdict: &
     all.iter().filter(own).cloned().collect()
 }
 
+/// Returns the value of a parameter in a test.
+fn value(row: &Row, name: &str) -> f64 {
+    let mut cells = row["values"].split(' ').filter_map(|cell| cell.split_once('='));
+    cells.find(|cell| cell.0 == name).unwrap().1.parse().unwrap()
+}
+
 /// Returns the least and the greatest value of a parameter in some tests.
 fn values(tests: &[Row], name: &str) -> [f64; 2] {
-    let value = |row: &Row| {
-        let mut cells = row["values"].split(' ').filter_map(|cell| cell.split_once('='));
-        cells.find(|cell| cell.0 == name).unwrap().1.parse::<f64>().unwrap()
-    };
-    range(tests.iter().map(value))
+    range(tests.iter().map(|row| value(row, name)))
 }
 
 /// Checks that every number of the page is computed from a file, or given.
@@ -186,19 +188,39 @@ fn account_for_the_numbers(cells: &[Cell]) {
     assert!(failing("ncap-cpnco", "rss", "own_lateral=1").is_empty());
     page.says(format!("with `own_lateral=1`, no test fails and {inconclusive} are inconclusive"));
     page.says(format!("since {} tests fail without it", failing("ncap-cpnco", "rss", "response=0").len()));
+    let share = |scenario: &str, driver: &str, within: &dyn Fn(&Row) -> bool| {
+        let tests: Vec<&Row> =
+            all.iter().filter(|row| row["scenario"] == scenario && row["driver"] == driver).collect();
+        let within = tests.iter().filter(|row| row["verdict"] != "invalid" && within(row));
+        let verdicts: Vec<&str> = within.map(|row| row["verdict"]).collect();
+        let fail = verdicts.iter().filter(|verdict| **verdict == "fail").count();
+        assert_eq!(
+            fail,
+            cell(scenario, driver).fail,
+            "all failing tests of {driver} in {scenario} are among these tests"
+        );
+        [fail, verdicts.len()]
+    };
     let [slow, _] = values(&failing("ncap-ccr", "fsm", ""), "ego_speed");
-    page.says(format!("above {} km/h, the driver brakes so late for a standing car", slow.floor()));
-    let [near, far] = values(&failing("ncap-ccrb", "aeb", ""), "gap");
-    page.says(format!("behind a car that brakes {near:.0} to {far:.0} m ahead"));
+    let slow = slow.floor();
+    let [fail, of] =
+        share("ncap-ccr", "fsm", &|row| value(row, "ego_speed") > slow && row["values"].ends_with("target=standing"));
+    page.says(format!("in {fail} of the {of} tests above {slow} km/h with a standing car"));
+    let [_, far] = values(&failing("ncap-ccrb", "aeb", ""), "gap");
+    let far = far.ceil();
+    let [fail, of] = share("ncap-ccrb", "aeb", &|row| value(row, "gap") <= far);
+    page.says(format!("a part of the cars that brake up to {far} m ahead: {fail} of these {of} tests fail"));
     let late = failing("ncap-ccrb", "fsm", "");
-    let [_, far] = values(&late, "gap");
-    let [gentle, _] = values(&late, "deceleration");
-    let gentle = (10.0 * gentle).floor() / 10.0;
-    page.says(format!("too late within {:.0} m of a car that brakes with {gentle} m/s² or more", far.ceil()));
+    let far = values(&late, "gap")[1].ceil();
+    let gentle = (10.0 * values(&late, "deceleration")[0]).floor() / 10.0;
+    let [fail, of] = share("ncap-ccrb", "fsm", &|row| value(row, "gap") <= far && value(row, "deceleration") >= gentle);
+    page.says(format!("in {fail} of the {of} tests within {far} m of a car that brakes with {gentle} m/s² or more"));
 
     // The middle of a truck that the car hits with its front is half a car and half a truck's width ahead: 3.5 m.
-    let sides = trucks.iter().filter(|row| row["driver"] == "rss" && row["setting"].is_empty());
-    let sides = sides.filter(|row| number(row, "truck_ahead_m") < 3.4).count();
+    let hits: Vec<&Row> = trucks.iter().filter(|row| row["driver"] == "rss" && row["setting"].is_empty()).collect();
+    assert_eq!(hits.len(), cell("highway-traffic", "rss").fail);
+    let beside = |row: &&&Row| number(row, "truck_ahead_m") < 3.4 && number(row, "truck_left_m") > 0.0;
+    let sides = hits.iter().filter(beside).count();
     page.says(format!("in {sides} of these tests the truck hits its left side"));
     page.says(format!("with `own_lateral=1`, {} tests fail", failing("highway-traffic", "rss", "own_lateral=1").len()));
     let going_on = failing("highway-traffic", "cruise", "");
@@ -210,7 +232,11 @@ fn account_for_the_numbers(cells: &[Cell]) {
     let begun = braking.windows(2).find(|pair| number(pair[1], "speed") < number(pair[0], "speed") - 0.1).unwrap()[0];
     let [least, _] = range(braking.iter().map(|row| number(row, "speed")));
     page.says(format!("in test 4 from {:.1} s on, down to {least:.1} m/s", number(begun, "time")));
-    page.says("In test 4, `cruise` is past in time");
+    page.says("In test 4, `cruise` passes the crossing before the truck comes");
+    for (scenario, driver) in all.iter().map(|row| (row["scenario"], row["driver"])).collect::<BTreeSet<_>>() {
+        let same = all.iter().any(|row| [row["scenario"], row["driver"], row["setting"]] == [scenario, driver, ""]);
+        assert!(!same || failing(scenario, driver, "").len() == cell(scenario, driver).fail, "{driver} in {scenario}");
+    }
     page.given(&[
         "uses no camera drives 200 Halton tests",
         "## Failures of 200 tests",
@@ -218,21 +244,30 @@ fn account_for_the_numbers(cells: &[Cell]) {
         "other settings ([its tests](data/drivers-reasons.csv.gz)), and notes [where the truck is](data/drivers-trucks.csv) at the end of the \
          failures of `highway-traffic`, and [the speeds](data/drivers-speeds.csv) in test 4",
     ]);
-    // Settings of the drivers, which `paracosm-fuzz list drivers` shows.
-    page.given(&[
-        "the sensor is 0.5 s late",
-        "brakes from a time to collision of 1.6 s on",
-        "outside the field of view of 60°; with its delay of 0.5 s",
-        "sees a risk from a time to collision of 2 s on, and brakes 0.75 s later",
-        "sees a risk only below a time to collision of 2 s, and brakes 0.75 s later",
-        "the time to collision is at most 2 s, and brakes 0.75 s later",
-        "the response takes 0.75 s",
-        "brakes with at most 7.59 m/s²",
-        "brakes with at most 6 m/s²",
-        "into the lane, 0.35 s later",
-        "has come 0.3 m into the lane, and 0.35 s longer",
-        "a leader that is slow from the beginning, 25 m ahead",
-    ]);
+    // The default settings of the drivers.
+    let setting = |of: &str, name: &str| {
+        let described = driver::ALL.iter().find(|driver| driver.name == of).unwrap();
+        let default = described.settings.iter().find(|setting| setting.name == name).unwrap().default;
+        (100.0 * default).round() / 100.0
+    };
+    let (late, near) = (setting("aeb", "latency"), setting("aeb", "ttc"));
+    page.says(format!("the sensor is {late} s late"));
+    page.says(format!("brakes from a time to collision of {near} s on"));
+    page.says(format!("outside the field of view of {}°; with its delay of {late} s", setting("aeb", "field_of_view")));
+    let (risk, reaction) = (setting("cc", "ttc"), setting("cc", "reaction"));
+    for words in ["from a time to collision of {} s on", "only below a time to collision of {} s"] {
+        page.says(format!("sees a risk {}, and brakes {reaction} s later", words.replace("{}", &risk.to_string())));
+    }
+    page.says(format!("the time to collision is at most {risk} s, and brakes {reaction} s later"));
+    assert_eq!(setting("rss", "response"), setting("fsm", "reaction"));
+    page.says(format!("the response takes {} s", setting("rss", "response")));
+    for of in ["rss", "fsm"] {
+        page.says(format!("brakes with at most {} m/s²", setting(of, "deceleration")));
+    }
+    let late = setting("reg157", "reaction");
+    page.says(format!("into the lane, {late} s later"));
+    page.says(format!("has come {} m into the lane, and {late} s longer", setting("reg157", "intrusion")));
+    page.given(&["a leader that is slow from the beginning, 25 m ahead"]);
     page.close();
 }
 

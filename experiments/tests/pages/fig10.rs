@@ -4,43 +4,92 @@ use crate::page::Page;
 use crate::rows::{Row, count, mean, number, numbers_of, range, rows, visibility};
 use std::fmt::Write;
 
-/// Says how many tests of the training conditions pass with the network.
-fn exam(file: &[u8]) -> String {
+/// The seeds of the networks.
+const SEEDS: [&str; 5] = ["1", "2", "3", "4", "5"];
+
+/// Returns how many of the 100 tests of the training conditions pass with a network.
+fn exam(file: &[u8], seed: &str) -> usize {
     let tests = rows(file);
-    let own = |row: &Row| row["driver"] == "cnn";
-    format!("{} of {}", count(&tests, |row| own(row) && row["verdict"] == "pass"), count(&tests, own))
+    assert_eq!(count(&tests, |row| row["seed"] == seed), 100);
+    count(&tests, |row| row["seed"] == seed && row["verdict"] == "pass")
+}
+
+/// Returns the rows of a network.
+fn of(all: &[Row], seed: &str) -> Vec<Row> {
+    all.iter().filter(|row| row["seed"] == seed).cloned().collect()
+}
+
+/// Writes the least and the greatest of the values of the networks.
+fn spread(values: impl IntoIterator<Item = f64>, digits: usize) -> String {
+    let [low, high] = range(values).map(|value| format!("{value:.digits$}"));
+    if low == high { low } else { format!("{low} to {high}") }
 }
 
 #[test]
 fn the_numbers_of_the_page_on_figure_10a_follow_from_its_tests() {
-    let tests = rows(include_bytes!("../../data/fig10a.csv"));
+    let all = rows(include_bytes!("../../data/fig10a.csv"));
+    let passing = SEEDS.map(|seed| exam(include_bytes!("../../data/exam-follow.csv"), seed));
     let mut page = Page::open("fig10a.md");
     let fails = |row: &Row| row["verdict"] == "fail";
-    let fog = |row: &Row| number(row, "fog");
-    let is_light = |row: &Row| number(row, "light") >= 0.8;
-    let failing = count(&tests, fails);
-    assert_eq!(failing, count(&tests, |row| row["violated"] == "lane-keeping"), "all failing tests leave the lane");
-    assert_eq!(count(&tests, |row| row["collided"] == "true"), 0);
-    page.says(format!("{} Halton tests over fog and light", tests.len()));
-    page.says(format!("all {failing} failing tests fail because the car leaves the lane"));
-    page.says(format!("there is no collision in {} tests", tests.len()));
-    page.says(format!("{} tests of the training conditions pass", exam(include_bytes!("../../data/exam-follow.csv"))));
+    let [thin, dense] = [|row: &Row| number(row, "fog") < 0.2, |row: &Row| number(row, "fog") >= 0.6];
+    let [bright, dark] = [|row: &Row| number(row, "light") >= 0.8, |row: &Row| number(row, "light") < 0.2];
+    let first = of(&all, "1");
+    let mut table = format!(
+        "| network | pass in training conditions (of 100) | fail (of {}) | collide | fail in fog below 0.2 (of {}) | fail in fog of 0.6 and \
+         more (of {}) | mean distance, bright, fog below 0.2 (m) | bright, fog of 0.6 and more (m) | dark, fog below 0.2 (m) |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        first.len(),
+        count(&first, thin),
+        count(&first, dense),
+    );
+    for (seed, passing) in SEEDS.into_iter().zip(passing) {
+        let own = of(&all, seed);
+        let metres = |within: &dyn Fn(&Row) -> bool| format!("{:.0}", mean(&numbers_of(&own, "travelled", within)));
+        writeln!(
+            table,
+            "| {seed} | {passing} | {} | {} | {} | {} | {} | {} | {} |",
+            count(&own, fails),
+            count(&own, |row| row["collided"] == "true"),
+            count(&own, |row| thin(row) && fails(row)),
+            count(&own, |row| dense(row) && fails(row)),
+            metres(&|row| bright(row) && thin(row)),
+            metres(&|row| bright(row) && dense(row)),
+            metres(&|row| dark(row) && thin(row)),
+        )
+        .unwrap();
+    }
+    page.table("networks", &table);
 
-    let thin = count(&tests, |row| fog(row) < 0.2);
-    assert_eq!(count(&tests, |row| fog(row) < 0.2 && fails(row)), 0);
-    page.says(format!("In fog below 0.2 (a visibility above {}), all {thin} tests pass", visibility(0.2)));
-    let [dense, lost] = [count(&tests, |row| fog(row) >= 0.6), count(&tests, |row| fog(row) >= 0.6 && fails(row))];
-    page.says(format!("In fog of 0.6 and more ({} and less), {lost} of {dense} tests fail", visibility(0.6)));
-    let [clear, thick] = [
-        numbers_of(&tests, "travelled", |row| is_light(row) && fog(row) < 0.2),
-        numbers_of(&tests, "travelled", |row| is_light(row) && fog(row) >= 0.6),
-    ];
-    let drop =
-        format!("drops from {:.0} m (fog below 0.2) to {:.0} m (fog of 0.6 and more)", mean(&clear), mean(&thick));
-    page.says(format!("at light of 0.8 and more, the mean {drop}"));
-    let dark = numbers_of(&tests, "travelled", |row| number(row, "light") < 0.2 && fog(row) < 0.2);
-    page.says(format!("{:.0} m at light below 0.2 and fog below 0.2", mean(&dark)));
+    assert_eq!(count(&all, |row| row["collided"] == "true" || thin(row) && fails(row)), 0);
+    let failing = count(&all, fails);
+    assert_eq!(failing, count(&all, |row| row["violated"] == "lane-keeping"), "all failing tests leave the lane");
+    page.says(format!("All {failing} failing tests fail because the car leaves its lane"));
+    page.says(format!("there is no collision in {} tests", all.len()));
+    page.says(format!("{} Halton tests over fog and light", first.len()));
+    let within = count(&first, thin);
+    page.says(format!(
+        "in fog below 0.2 (a visibility above {}), no network fails in any of its {within} tests",
+        visibility(0.2)
+    ));
+    let networks = SEEDS.map(|seed| of(&all, seed));
+    let of_dense = count(&first, dense);
+    let lost = networks.each_ref().map(|own| count(own, |row| dense(row) && fails(row)));
+    let [least, most] = range(lost.map(|count| count as f64));
+    page.says(format!("one network in {least}, another one in {most} of {of_dense} tests"));
+    page.says(format!(
+        "In fog of 0.6 and more ({} and less), the networks fail in {least} to {most} of {of_dense} tests",
+        visibility(0.6)
+    ));
+    let begin = networks.each_ref().map(|own| range(numbers_of(own, "fog", fails))[0]);
+    page.says(format!("The first failures come at a fog of {}", spread(begin, 2)));
+    let metres = |within: &dyn Fn(&Row) -> bool| {
+        spread(networks.each_ref().map(|own| mean(&numbers_of(own, "travelled", within))), 0)
+    };
+    let (clear, thick) = (metres(&|row| bright(row) && thin(row)), metres(&|row| bright(row) && dense(row)));
+    page.says(format!("the mean distance is {clear} m in fog below 0.2, and {thick} m in fog of 0.6 and more"));
+    page.says(format!("a little slower: {} m in fog below 0.2", metres(&|row| dark(row) && thin(row))));
     page.given(&["red leaders of 2 to 12 m/s", "for 15 s behind a leader of 6 m/s, which is 25 m ahead at first"]);
+    page.given(&["by network 1 over", "a light of 0.8 and more; dark tests have a light below 0.2"]);
     page.given(&["Light 1 is our brightest light"]);
     page.close();
 }
@@ -85,7 +134,7 @@ fn the_numbers_of_the_page_on_figure_10b_follow_from_its_tests() {
         visibility(from),
         latest.ceil()
     ));
-    page.says(format!("{} tests pass", exam(include_bytes!("../../data/exam-loop.csv"))));
+    page.says(format!("{} of 100 tests pass", exam(include_bytes!("../../data/exam-loop.csv"), "1")));
     let steering = rows(include_bytes!("../../data/fig10b-steering.csv"));
     let turns = |fog: &str| {
         let turning = steering.iter().find(|row| row["fog"] == fog && number(row, "steering") < -0.15).unwrap();
@@ -121,73 +170,83 @@ fn speeds_over_time(all: &[Row], case: &str, leader: &str) -> Vec<(f64, f64)> {
     own.map(|row| (number(row, "time"), number(row, "speed"))).collect()
 }
 
-/// Returns by how much the car is slower at most, in the 3 s before another car passes, than without the other car.
-pub fn slowed_by_a_red_car() -> f64 {
-    let all = rows(include_bytes!("../../data/fig10c-speeds.csv"));
-    let slower = LEADERS.map(|leader| {
-        let [alone, with_car] =
-            ["red leader", "red leader and a red car coming"].map(|case| speeds_over_time(&all, case, leader));
-        let passes =
-            |row: &&Row| row["leader_speed"] == leader && row["oncoming_gap"].parse().is_ok_and(|gap: f64| gap <= 0.0);
-        let passing = number(all.iter().find(passes).unwrap(), "time");
-        let before = alone.iter().zip(&with_car).filter(|((time, _), _)| (passing - 3.0..=passing).contains(time));
-        range(before.map(|(alone, with_car)| alone.1 - with_car.1))[1]
-    });
-    range(slower)[1]
+/// Returns for each network by how much the car is slower at most, in the 3 s before another car passes, than without the
+/// other car.
+pub fn slowed_by_a_red_car() -> [f64; 5] {
+    let all = rows(include_bytes!("../../data/fig10c-speeds.csv.gz"));
+    SEEDS.map(|seed| {
+        let all = of(&all, seed);
+        let slower = LEADERS.map(|leader| {
+            let [alone, with_car] =
+                ["red leader", "red leader and a red car coming"].map(|case| speeds_over_time(&all, case, leader));
+            let passes = |row: &&Row| {
+                row["leader_speed"] == leader && row["oncoming_gap"].parse().is_ok_and(|gap: f64| gap <= 0.0)
+            };
+            let passing = number(all.iter().find(passes).unwrap(), "time");
+            let before = alone.iter().zip(&with_car).filter(|((time, _), _)| (passing - 3.0..=passing).contains(time));
+            range(before.map(|(alone, with_car)| alone.1 - with_car.1))[1]
+        });
+        range(slower)[1]
+    })
 }
 
 #[test]
 fn the_numbers_of_the_page_on_figure_10c_follow_from_its_tests() {
     let tests = rows(include_bytes!("../../data/fig10c.csv"));
-    let over_time = rows(include_bytes!("../../data/fig10c-speeds.csv"));
+    let over_time = rows(include_bytes!("../../data/fig10c-speeds.csv.gz"));
     let mut page = Page::open("fig10c.md");
-    let least = |case: &str, leader: &str| {
-        number(
-            tests.iter().find(|row| row["case"] == case && row["leader_speed"] == leader).unwrap(),
-            "least_speed_m_per_s",
-        )
-    };
-    let change = |case: &str, leader: &str| {
-        let speeds = speeds_over_time(&over_time, case, leader);
+    let change = |all: &[Row], case: &str, leader: &str| {
+        let speeds = speeds_over_time(all, case, leader);
         assert!(speeds.windows(2).all(|pair| (pair[1].0 - pair[0].0 - 0.05).abs() < 1e-6));
         mean(&speeds.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect::<Vec<_>>())
     };
     let mut table = String::from(
-        "| leader's speed (m/s) | red leader: least speed (m/s) | white leader | red leader: change in 0.05 s (m/s) | white leader |\n\
-         | --- | --- | --- | --- | --- |\n",
+        "| network | collide behind a red leader (of 5) | with a red car coming (of 5) | behind a white leader (of 5) | distance to the red \
+         leader (m) | slower before the red car passes (m/s) | change of the speed in 0.05 s, red leader (m/s) | white leader (m/s) |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- |\n",
     );
-    for leader in LEADERS {
-        let [red, white] = ["red leader", "white leader"];
-        assert!(change(white, leader) > change(red, leader), "the page says so of all speeds");
-        let steady = [red, white].map(|case| format!("{:.3}", change(case, leader)));
+    for (seed, slower) in SEEDS.into_iter().zip(slowed_by_a_red_car()) {
+        let (own, over_time) = (of(&tests, seed), of(&over_time, seed));
+        let collide = |case: &str| count(&own, |row| row["case"] == case && row["verdict"] == "fail");
+        let distances = numbers_of(&own, "clearance_or_missing_braking_m", |row| row["case"] == "red leader");
+        let unsteady = |case: &str| format!("{:.3}", mean(&LEADERS.map(|leader| change(&over_time, case, leader))));
         writeln!(
             table,
-            "| {leader} | {:.2} | {:.2} | {} | {} |",
-            least(red, leader),
-            least(white, leader),
-            steady[0],
-            steady[1]
+            "| {seed} | {} | {} | {} | {} | {slower:.2} | {} | {} |",
+            collide("red leader"),
+            collide("red leader and a red car coming"),
+            collide("white leader"),
+            spread(distances, 0),
+            unsteady("red leader"),
+            unsteady("white leader"),
         )
         .unwrap();
     }
-    page.table("speeds", &table);
-
-    let alone = numbers_of(&tests, "clearance_or_missing_braking_m", |row| row["case"] == "red leader");
-    let [near, far] = range(alone);
-    page.says(format!("keeps a distance of {near:.0} to {far:.0} m"));
+    page.table("networks", &table);
+    let distances = numbers_of(&tests, "clearance_or_missing_braking_m", |row| row["case"] == "red leader");
+    page.says(format!("keeps a distance of {} m", spread(distances, 0)));
+    page.says(format!("the networks are at most {} m/s slower", spread(slowed_by_a_red_car(), 2)));
+    for row in &tests {
+        let is_slow_and_white = row["case"] == "white leader" && ["4", "6"].contains(&row["leader_speed"]);
+        assert_eq!(row["verdict"] == "fail", is_slow_and_white, "the page says which tests fail: {row:?}");
+    }
+    let least = |case: &str| {
+        spread(numbers_of(&tests, "least_speed_m_per_s", |row| row["case"] == case && row["leader_speed"] == "4"), 1)
+    };
     page.says(format!(
-        "in the 3 s before the other car passes, the car is at most {:.2} m/s slower",
-        slowed_by_a_red_car()
+        "Behind the white leader of 4 m/s, the speed never falls below {} m/s; behind the red leader of 4 m/s, it falls to {} m/s",
+        least("white leader"),
+        least("red leader")
     ));
-    assert_eq!(count(&tests, |row| row["verdict"] == "fail"), 0);
-    page.says("there is no collision in the five tests behind white leaders");
-    page.says("At all five speeds, the speed changes more behind a white leader than behind a red leader");
     page.given(&[
-        "changes in 0.05 s, in the mean",
-        "for 15 s in three cases",
-        "4 to 12 m/s; the figure shows 8 and 4 m/s",
-        "behind leaders of 8 and of 4 m/s",
-        "ran into the white leader of 4 m/s",
+        "each network drives for 15 s",
+        "speed is 4, 6, 8, 10 or 12 m/s; the figure shows 8 and 4 m/s",
+        "leaders of 8 and of 4 m/s: of network 1",
+        "at most, in the 3 s before the red car passes",
+        "in the 3 s before the other car passes",
+        "how much the speed changes in 0.05 s",
+        "the white leaders of 4 and 6 m/s",
+        "mean to network 1",
     ]);
     page.close();
 }

@@ -72,6 +72,7 @@ fn the_numbers_of_the_page_follow_from_its_images() {
         "a leader 8 m ahead, without wheels",
         "the size of a leader 8 m ahead",
         "road at light 1 without fog",
+        "This is network 1 of five",
     ]);
     page.close();
 }

@@ -88,6 +88,8 @@ class _Course:
         _check_choices(choices, _OF_WORLD)
         if "state" in (cameras or {}):
             raise Error("a camera is called `state`, which is the name of the array: give the camera another name")
+        if look != "flat" and not cameras:
+            raise Error(f"look is {look!r}, but there are no cameras whose images could have this look: give `cameras`")
         self.study = Study(scenario, budget=1, **choices)
         self.seat = _Seat(period, cameras or {}, look)
         self.others, self.points = others, points

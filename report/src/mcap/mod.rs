@@ -68,7 +68,7 @@ impl Recorded<'_> {
             None => None,
             Some((worker, cameras)) => {
                 let projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
-                Some((Film::of(worker, self.trial, cameras, &Stages::in_look(cameras.look))?, projector, cameras))
+                Some((Film::of(worker, self.trial, cameras, &Stages::default())?, projector, cameras))
             }
         };
         let (draft, file) = Draft::new(path)?;

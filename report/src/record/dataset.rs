@@ -172,8 +172,7 @@ impl Dataset {
         } else {
             write_whole_here(&file, pretty(&recording).as_bytes())?;
         }
-        let stages = Stages::in_look(cameras.look());
-        Ok(Self { folder: folder.to_owned(), recording, cameras, stages })
+        Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
     }
 
     /// Returns `true` if the data set has the recording of a test.

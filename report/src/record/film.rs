@@ -64,8 +64,9 @@ impl Notes {
     /// Stores the exposures and the driver's last control, each time the driver is asked and at the end of the run.
     fn take(&mut self, run: &Run, stages: &Stages, appearances: &Appearances) {
         if self.stage.is_none() {
-            self.stage = Some(stages.of_run(run));
-            self.cast = Some(appearances.cast(run, stages.look()));
+            let look = run.filmed().cameras().look;
+            self.stage = Some(stages.of_run(run, look));
+            self.cast = Some(appearances.cast(run, look));
             self.names = (0..run.bodies().len()).map(|body| run.name_of(body).to_owned()).collect();
             self.seed = run.filmed().cameras().seed;
         }

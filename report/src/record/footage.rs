@@ -47,7 +47,7 @@ impl<'a> Footage<'a> {
     /// # Errors
     /// There is no adapter, the camera is not possible, or the test is not the test that was logged.
     pub fn of(worker: &mut Worker, trial: &Trial, cameras: &'a Cameras, stop: &'a AtomicBool) -> Result<Self, Error> {
-        let film = Film::of(worker, trial, cameras, &Stages::in_look(cameras.look))?;
+        let film = Film::of(worker, trial, cameras, &Stages::default())?;
         let projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
         let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
         Ok(Self { film, projector, missing: Missing::of(name, camera), name, camera, stop })

@@ -176,40 +176,30 @@ impl Model {
 /// A cache of the drawable sceneries of road networks, kept as long as the networks live.
 #[derive(Debug, Default)]
 pub struct Stages {
-    look: Look,
     known: Mutex<Vec<(Weak<RoadNetwork>, Arc<Stage>)>>,
 }
 
 impl Stages {
-    /// Makes an empty cache of sceneries that all have the given look; [`Stages::default`] has [`Look::Flat`].
-    pub fn in_look(look: Look) -> Self {
-        Self { look, ..Self::default() }
-    }
-
-    /// Returns the look of the sceneries.
-    pub fn look(&self) -> Look {
-        self.look
-    }
-
-    /// Returns the stage of a run that has just begun, with the scenery of its look ([`Stage::dressed`]).
-    pub fn of_run(&self, run: &Run) -> Arc<Stage> {
-        let stage = self.of(run.network());
-        match self.look {
+    /// Returns the stage of a run that has just begun, with the scenery of the look ([`Stage::dressed`]).
+    pub fn of_run(&self, run: &Run, look: Look) -> Arc<Stage> {
+        let stage = self.of(run.network(), look);
+        match look {
             Look::Flat => stage,
             Look::Textured => Arc::new(stage.dressed(run)),
         }
     }
 
-    /// Returns the drawable scenery of a road network, from the cache if possible. Tests on the same network share one
-    /// stage.
-    pub fn of(&self, network: &Arc<RoadNetwork>) -> Arc<Stage> {
+    /// Returns the drawable scenery of a road network in a look, from the cache if possible. Tests on the same network share
+    /// one stage of each look.
+    pub fn of(&self, network: &Arc<RoadNetwork>, look: Look) -> Arc<Stage> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|(of, _)| of.strong_count() > 0);
-        let same = |(of, _): &&(Weak<RoadNetwork>, Arc<Stage>)| of.as_ptr() == Arc::as_ptr(network);
+        let same =
+            |(of, stage): &&(Weak<RoadNetwork>, Arc<Stage>)| of.as_ptr() == Arc::as_ptr(network) && stage.look == look;
         if let Some((_, stage)) = known.iter().find(same) {
             return stage.clone();
         }
-        let stage = Arc::new(Stage::in_look(network, self.look));
+        let stage = Arc::new(Stage::in_look(network, look));
         known.push((Arc::downgrade(network), stage.clone()));
         stage
     }

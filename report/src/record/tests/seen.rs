@@ -127,7 +127,7 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
 
 /// The number and the pixels of each image that a recording of a test has.
 fn recorded(worker: &mut Worker<'_>, trial: &Trial, cameras: &Cameras) -> Vec<(u64, Vec<u8>)> {
-    let film = Film::of(worker, trial, cameras, &Stages::in_look(cameras.look)).unwrap();
+    let film = Film::of(worker, trial, cameras, &Stages::default()).unwrap();
     let mut recorded = Vec::new();
     let mut projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() }).unwrap();
     let show = |pictures: Vec<Developed<'_>>| {
