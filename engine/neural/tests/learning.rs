@@ -145,7 +145,7 @@ fn a_file_that_is_no_driver_says_what_it_has_and_what_is_expected() {
         (file(&[image, &[1, 3]], ("Flatten", 0), &[1, 12000]), vec!["second input", "1,3", "1 x 1"]),
         (file(&[image, &[1, 1], &[1, 1]], ("Flatten", 0), &[1, 12000]), vec!["input is 3 tensors"]),
         (file(&[image], ("Flatten", 0), &[1, 12000]), vec!["output", "12000", "1 x 2"]),
-        (file(&[image], ("Conundrum", 0), &[1, 2]), vec!["cannot be read", "Conundrum"]),
+        (file(&[image], ("Conundrum", 0), &[1, 2]), vec!["the operation `Conundrum`, which is not run"]),
     ] {
         let message = said(&contents);
         for word in words {
