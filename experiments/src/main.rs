@@ -199,29 +199,29 @@ const STUDIES: &[Study] = &[
     #[cfg(feature = "neural")]
     Study {
         name: "train-follow",
-        about: "teaches the network that follows a leader, for Figures 10a and 10c",
-        time: "4 min",
+        about: "teaches the five networks that follow a leader, for Figures 10a and 10c",
+        time: "20 min",
         run: |out, bar| cloning::run(&cloning::FOLLOW, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "train-stop",
-        about: "teaches the network that stops for pedestrians who walk at 1 m/s, for Figure 9",
-        time: "10 min",
+        about: "teaches the five networks that stop for pedestrians who walk at 1 m/s, for Figure 9",
+        time: "1 h",
         run: |out, bar| cloning::run(&cloning::STOP, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "train-loop",
-        about: "teaches the network that turns right at T-intersections, for Figure 10b",
-        time: "4 min",
+        about: "teaches the five networks that turn right at T-intersections, for Figure 10b",
+        time: "15 min",
         run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "exams",
         about: "each network in 100 tests of its training conditions, compared with the expert who taught it and a driver that never brakes",
-        time: "4 min",
+        time: "15 min",
         run: cloning::exam::run,
     },
     #[cfg(feature = "neural")]
@@ -248,8 +248,8 @@ const STUDIES: &[Study] = &[
     #[cfg(feature = "neural")]
     Study {
         name: "fig10a",
-        about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
-        time: "2 min",
+        about: "the paper's Figure 10a: five cloned drivers behind a slow leader, over fog and light",
+        time: "12 min",
         run: fig10a::run,
     },
     #[cfg(feature = "neural")]
@@ -262,8 +262,8 @@ const STUDIES: &[Study] = &[
     #[cfg(feature = "neural")]
     Study {
         name: "fig10c",
-        about: "the paper's Figure 10c: what a cloned driver follows behind a red leader, with an oncoming red car, and behind a white leader",
-        time: "6 s",
+        about: "the paper's Figure 10c: what five cloned drivers follow behind a red leader, with an oncoming red car, and behind a white leader",
+        time: "1 min",
         run: fig10c::run,
     },
     #[cfg(feature = "neural")]
