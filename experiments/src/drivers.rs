@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The tests of each driver in each scenario.
-const TESTS: usize = 200;
+pub const TESTS: usize = 200;
 const VERDICTS: [Verdict; 5] = [Verdict::Pass, Verdict::Fail, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
 
 /// Runs the study and writes `drivers.csv` to a folder.

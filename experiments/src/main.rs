@@ -200,28 +200,28 @@ const STUDIES: &[Study] = &[
     Study {
         name: "train-follow",
         about: "teaches the five networks that follow a leader, for Figures 10a and 10c",
-        time: "20 min",
+        time: "25 min",
         run: |out, bar| cloning::run(&cloning::FOLLOW, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "train-stop",
         about: "teaches the five networks that stop for pedestrians who walk at 1 m/s, for Figure 9",
-        time: "1 h",
+        time: "> 50 min",
         run: |out, bar| cloning::run(&cloning::STOP, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "train-loop",
         about: "teaches the five networks that turn right at T-intersections, for Figure 10b",
-        time: "15 min",
+        time: "35 min",
         run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "exams",
         about: "each network in 100 tests of its training conditions, compared with the expert who taught it and a driver that never brakes",
-        time: "15 min",
+        time: "> 12 min",
         run: cloning::exam::run,
     },
     #[cfg(feature = "neural")]
@@ -249,7 +249,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "fig10a",
         about: "the paper's Figure 10a: five cloned drivers behind a slow leader, over fog and light",
-        time: "12 min",
+        time: "17 min",
         run: fig10a::run,
     },
     #[cfg(feature = "neural")]
@@ -263,7 +263,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "fig10c",
         about: "the paper's Figure 10c: what five cloned drivers follow behind a red leader, with an oncoming red car, and behind a white leader",
-        time: "1 min",
+        time: "80 s",
         run: fig10c::run,
     },
     #[cfg(feature = "neural")]
@@ -325,7 +325,7 @@ fn run(arguments: &Arguments) -> Done {
         (_, None) => {}
     }
     if arguments.name == "list" {
-        let line = |Study { name, about, time, .. }: &Study| format!("{name:<24}{time:<8}{about}\n");
+        let line = |Study { name, about, time, .. }: &Study| format!("{name:<24}{time:<10}{about}\n");
         return print(&STUDIES.iter().map(line).collect::<String>());
     }
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {

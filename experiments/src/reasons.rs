@@ -1,5 +1,6 @@
 //! Looks for the reasons that `experiments/drivers.md` states: runs drivers again with other settings, and looks at single tests.
 
+use crate::drivers::TESTS;
 use crate::sampling::write_csv;
 use crate::{Done, logged, print, scenario};
 use indicatif::ProgressBar;
@@ -8,9 +9,6 @@ use paracosm::campaign::Worker;
 use paracosm::generators::Strategy;
 use paracosm::space::Values;
 use std::path::Path;
-
-/// The tests of each driver, as in the study `drivers`.
-const TESTS: usize = 200;
 
 /// A scenario, a driver, and a setting of the driver that may be the reason.
 type Case = (&'static str, &'static str, Option<(&'static str, f64)>);

@@ -5,11 +5,10 @@ use crate::cloning::{FOLLOW, driven};
 use crate::scenario;
 use paracosm::campaign::Worker;
 use paracosm::engine::object::Colour;
-use paracosm::engine::sensor::{Cameras, Image};
+use paracosm::engine::sensor::Image;
 use paracosm::render::{Stages, WantedImages};
 use paracosm::report::record::{Film, Projector, Shot};
 use paracosm::space::{Value, Values};
-use paracosm_neural::camera;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
@@ -78,11 +77,7 @@ impl Studio {
         let mut worker = Worker::new(&study)?;
         let test: Values = [("leader_speed".to_owned(), Value::Number(8.0))].into_iter().collect();
         let (trial, _) = worker.run(0, &test);
-        let cameras = Cameras {
-            look: FOLLOW.network().look(),
-            all: [("front".to_owned(), camera(FOLLOW.resolution))].into(),
-            ..Cameras::default()
-        };
+        let cameras = worker.eyes()?;
         let film = Film::of(&mut worker, &trial, &cameras, &Stages::default())?;
         let first = film.shots[0].first().ok_or("the camera takes no image")?.clone();
         let outputs = WantedImages { rgb: true, instance: true, ..WantedImages::default() };

@@ -4,10 +4,10 @@
 mod quiet_road;
 
 use super::super::{Developed, Film, Projector};
-use super::{can_draw, of};
+use super::{cameras, can_draw, of};
 use paracosm_campaign::{Campaign, Study, Trial, Worker};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
-use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Look, Rig};
+use paracosm_engine::sensor::{Cameras, Image, Look, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 use paracosm_render::{Stages, WantedImages};
 use quiet_road::QUIET;
@@ -164,24 +164,15 @@ fn a_driver_sees_the_look_that_its_cameras_have_also_if_the_first_image_comes_la
     if !can_draw() {
         return;
     }
-    let front = CameraSpec {
-        resolution: [96, 48],
-        focal_mm: 24.0,
-        sensor_mm: 36.0,
-        position: [0.3, 0.0, 1.35],
-        rate: 2.0,
-        latency: 0.7,
-        ..CameraSpec::default()
-    };
     let seen_in = |look: Look| {
-        let cameras = Cameras { look, all: [("front".to_owned(), front.clone())].into(), ..Cameras::default() };
+        let cameras = Cameras { look, ..cameras("latency = 0.7\n") };
         let (own, shown) = (cameras.clone(), Arc::<Mutex<Vec<(f64, Image)>>>::default());
         let seen = shown.clone();
         let make = move || -> Box<dyn Driver> {
             let driver = Box::new(Parked(own.clone()));
             Box::new(Witness { driver, new: Vec::new(), shown: seen.clone() })
         };
-        // Cars move while the first image is on its way, and houses keep clear of cars.
+        // Cars move while the first image is on its way, and parked cars keep clear of them.
         let study = of("grid-traffic").own_driver("parked", make).budget(1).build().unwrap();
         let trial = trials(Campaign::new(&study).unwrap()).swap_remove(0);
         let shown: Vec<_> = std::mem::take(&mut *shown.lock().unwrap()).into_iter().take(3).collect();
