@@ -19,6 +19,7 @@ mod field;
 mod fill;
 mod front;
 mod grow;
+mod halves;
 mod open_rows;
 mod optimise;
 mod order;

@@ -1,5 +1,6 @@
 //! Makes an array smaller for as long as there is time.
 
+use super::halves::Halves;
 use super::search::{Annealing, Bits, Cells, Table, Tally, Tenure};
 use super::symmetric::{Symmetric, symmetric_searches};
 use super::task::Task;
@@ -86,11 +87,22 @@ fn smaller(
             best.search_rows::<Table>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure));
         }
     };
+    let halves = Halves::of(task).filter(|_| kept == 0);
+    let core_search = |chain: usize, halves: &Halves| {
+        let seed = mix(task.seed ^ mix(chain as u64));
+        best.search_core(halves, |rows, turn| {
+            Annealing::new(&task.rules, vec![halves.cells()], rows, 0, mix(seed ^ turn))
+        });
+    };
     // Uses separate threads, so that the searches share the time on a single core, too.
     thread::scope(|scope| {
-        let rows_search = &rows_search;
+        let (rows_search, core_search) = (&rows_search, &core_search);
         for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(chains.min(2)) {
-            scope.spawn(move || rows_search(chain));
+            // Every second search is for the core, if the rest follows from the core.
+            match &halves {
+                Some(halves) if chain % 2 == 1 => scope.spawn(move || core_search(chain, halves)),
+                _ => scope.spawn(move || rows_search(chain)),
+            };
         }
         best.search_symmetric(&mut symmetric);
     });
@@ -154,6 +166,28 @@ impl Best<'_> {
         }
     }
 
+    /// Searches for a core with fewer rows than the best array that can be completed. A core that cannot be completed is left, and another
+    /// search begins.
+    fn search_core(&self, halves: &Halves, start: impl Fn(&[Vec<usize>], u64) -> Annealing) {
+        let mut turn = 0;
+        while self.wanted() {
+            turn += 1;
+            let best = self.rows.lock().expect("no search panics").clone();
+            let mut search = start(&best, turn);
+            while search.len() >= best.len() {
+                if !search.drop_row() {
+                    return;
+                }
+            }
+            while self.wanted() && search.len() < self.len() && search.missing() > 0 {
+                search.steps(STEPS_BETWEEN_LOOKS);
+            }
+            if search.missing() == 0 && search.len() < self.len() {
+                halves.complete(search.rows()).into_iter().for_each(|rows| self.offer(rows));
+            }
+        }
+    }
+
     /// Searches for symmetric arrays in turns.
     fn search_symmetric(&self, searches: &mut [Symmetric]) {
         while self.wanted() {
@@ -174,5 +208,32 @@ impl Best<'_> {
                 return;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::covering_array;
+    use super::*;
+    use paracosm_coverage::kwise::kwise_coverage;
+    use paracosm_space::rules::{Clause, Literal};
+    use std::time::Duration;
+
+    #[test]
+    fn a_search_for_the_core_finds_a_smaller_array_of_all_parameters() {
+        let levels: Vec<usize> = [3; 6].into_iter().chain([2; 80]).collect();
+        let not = |parameter, level| Literal { parameter, levels: (0..3).filter(|other| *other != level).collect() };
+        let constraint = vec![Clause { literals: vec![not(0, 1), not(1, 0)] }];
+        let rules = Rules::new(&levels, &[constraint]).unwrap();
+        let request = CoveringRequest::new(&rules, 2);
+        let CoveringArray { rows, .. } = covering_array(&request).unwrap();
+        let (tasks, _) = Task::all(&request);
+        let halves = Halves::of(&tasks[0]).unwrap();
+        let (goal, deadline) = (rows.len() - 1, Deadline::after(Duration::from_secs(60)));
+        let best = Best { rows: Mutex::new(rows), goal, deadline, progress: &|_| () };
+        best.search_core(&halves, |rows, turn| Annealing::new(&rules, vec![halves.cells()], rows, 0, turn));
+        let rows = best.rows.into_inner().unwrap();
+        let coverage = kwise_coverage(&rules, 2, rows.iter().map(Vec::as_slice)).unwrap();
+        assert_eq!((rows.len(), coverage.covered, coverage.invalid.len()), (goal, coverage.valid, 0));
     }
 }
