@@ -154,3 +154,22 @@ fn numbers_are_written_and_read_as_the_space_writes_them() {
         assert_eq!(added, "V,W\n", "all are there");
     }
 }
+
+#[test]
+fn the_notes_name_the_strategy_that_made_the_tests() {
+    let dir = tempfile::tempdir().unwrap();
+    let parameter = |name: &str| format!("[[parameter]]\nname = \"{name}\"\ninterval = [0.0, 1.0]\n");
+    let parameters = parameter("x") + &parameter("y");
+    fs::write(dir.path().join("whole.toml"), &parameters).unwrap();
+    fs::write(dir.path().join("part.toml"), format!("constraints = [\"x + y < 1\"]\n{parameters}")).unwrap();
+    for (space, strategy, says) in [
+        ("whole.toml", "best", "5 tests by best\n"),
+        ("part.toml", "best", "5 tests by greedy, which takes the place of best under constraints"),
+        ("part.toml", "lhs-maximin", "5 tests by lhs, which takes the place of lhs-maximin under constraints"),
+        ("part.toml", "halton", "5 tests by halton\n"),
+    ] {
+        let arguments = ["generate", "--space", space, "--strategy", strategy, "--budget", "5"];
+        let notes = stderr(&succeeds(cover(dir.path(), &arguments)));
+        assert!(notes.contains(says), "{space} {strategy}: {notes}");
+    }
+}

@@ -183,3 +183,17 @@ fn least_dispersions_that_cannot_be_proved_are_refused_or_lie_between_bounds() {
     let reached = reached.collect::<Vec<f64>>();
     assert!(reached.len() >= 7 && reached.is_sorted_by(|a, b| a >= b), "{printed}");
 }
+
+#[test]
+fn a_certificate_that_cannot_be_written_is_refused_before_the_work() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("points.csv"), "x,y\n0.25,0.5\n").unwrap();
+    fs::create_dir(dir.path().join("folder")).unwrap();
+    let least = ["least", "--dims", "3", "--budget", "9", "--time", "3600", "--certificate"];
+    for (file, says) in [("nowhere/least.json", "the folder nowhere does not exist"), ("folder", "folder")] {
+        let refused = cover(dir.path(), &[&least[..], &[file]].concat());
+        assert!(refused.status.code() == Some(2) && stderr(&refused).contains(says), "{}", stderr(&refused));
+    }
+    let refused = cover(dir.path(), &["estimate", "points.csv", "--certificate", "nowhere/proof.json"]);
+    assert!(stderr(&refused).contains("the folder nowhere does not exist"), "{}", stderr(&refused));
+}

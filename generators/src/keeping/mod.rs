@@ -57,13 +57,22 @@ pub(crate) struct Share {
 }
 
 impl Strategy {
+    /// Returns the strategy that takes the place of this one, because this one makes sets of the whole space and constraints on continuous
+    /// parameters leave a part of the space; `None` if this strategy makes the tests itself.
+    pub fn replacement(self, request: &Request) -> Option<Self> {
+        // What is wrong with such a request, the strategy has to say itself.
+        let is_plain =
+            request.existing.is_empty() && request.skip.is_none() && request.epsilon.is_none() && request.aim.is_none();
+        self.in_a_part().filter(|_| request.space.checks_each_test() && is_plain)
+    }
+
     /// Builds the generator that [`Strategy::build`] promises.
     pub(crate) fn build_valid(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
         // The tests of a file are checked as they are written, by whoever reads the file.
         if !request.space.checks_each_test() || self == Self::GIVEN {
             return self.unchecked(request);
         }
-        if let Some(other) = self.in_a_part().filter(|_| can_be_replaced(request)) {
+        if let Some(other) = self.replacement(request) {
             return other.build_valid(&row_by_row(other, request));
         }
         // What is wrong with the request itself is said first.
@@ -86,7 +95,7 @@ impl Strategy {
         if !request.space.checks_each_test() {
             return self.unchecked_independent(request);
         }
-        if let Some(other) = self.in_a_part().filter(|_| can_be_replaced(request)) {
+        if let Some(other) = self.replacement(request) {
             return other.build_valid_independent(&row_by_row(other, request));
         }
         if request.space.levels().is_empty() || !self.has_rows(request) {
@@ -106,11 +115,6 @@ impl Strategy {
         let inner = self.unchecked_independent(&Request { budget: proposals, ..*request })?;
         Ok(Keeping::of(inner, request.space, false))
     }
-}
-
-/// Returns true if nothing in the request is refused by a strategy that makes sets, which has to say so itself.
-fn can_be_replaced(request: &Request) -> bool {
-    request.existing.is_empty() && request.skip.is_none() && request.epsilon.is_none() && request.aim.is_none()
 }
 
 /// Returns the request for a strategy that takes the place of sets. If the strategy fills holes, it fills the holes of each row.

@@ -1,7 +1,7 @@
 //! `paracosm-cover estimate`: measures how well tests cover their space.
 
 use super::{certificate, open_loop, strength, time_limit};
-use crate::cli::draw::is_ours_to_write;
+use crate::cli::draw::{has_folder, is_ours_to_write};
 use crate::cli::output::{Format, FormatOption, Table, broken, json, plural, short_bracket};
 use crate::cli::usage;
 use crate::cli::{Failure, Strict, Verbosity, print};
@@ -100,7 +100,10 @@ impl Options {
         let seconds = self.time_limit.map(|seconds| time_limit("--time-limit", seconds)).transpose()?;
         let limit = seconds.map_or(usual, Limit::Time);
         let inputs: Vec<&Path> = [&self.tests, &self.space].into_iter().flatten().map(PathBuf::as_path).collect();
-        self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file, &inputs))?;
+        if let Some(file) = &self.certificate {
+            is_ours_to_write("--certificate", file, &inputs)?;
+            has_folder("--certificate", file)?;
+        }
         let (mut tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read(catalogue, verbosity)?,

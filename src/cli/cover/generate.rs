@@ -178,7 +178,13 @@ impl Options {
         let cut_short = deadline.passed() && written < most;
         let interrupted = search.is_some_and(Interruptible::end);
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
-        let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
+        let by = match strategy.replacement(&request) {
+            _ if space.dims() == 0 => String::new(),
+            None => format!(" by {strategy}"),
+            Some(other) => {
+                format!(" by {other}, which takes the place of {strategy} under constraints on continuous parameters")
+            }
+        };
         verbosity.note(format_args!("{}{by}{}", plural(written, "test"), after.unwrap_or_default()));
         if self.sampling.epsilon.is_none() && space.checks_each_test() && written < most {
             if written == 0 {

@@ -2,7 +2,7 @@
 
 use super::spinner;
 use super::time_limit;
-use crate::cli::draw::is_ours_to_write;
+use crate::cli::draw::{has_folder, is_ours_to_write};
 use crate::cli::interrupt::Interruptible;
 use crate::cli::output::{Table, digits, plural};
 use crate::cli::{Failure, Verbosity, complain, print, usage};
@@ -10,8 +10,10 @@ use crate::coverage::least::{self, Least, PRECISION, least_dispersion, most_poin
 use crate::coverage::{Deadline, PointSet};
 use crate::generators::optimised::{Objective, optimised};
 use clap::Args;
-use paracosm_campaign::files::write_whole;
-use std::path::PathBuf;
+use paracosm_campaign::files::Draft;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -53,7 +55,7 @@ impl Options {
                 usage(format!("--budget is {}, expected a number from 1 to {most} in {of}", self.budget)).into()
             );
         }
-        self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file, &[]))?;
+        let certificate = self.certificate.as_deref().map(begun).transpose()?;
         let work = Interruptible::new(Deadline::after(limit));
         let bar = spinner(String::new(), verbosity);
         let mut table = least::Table::new(self.dims);
@@ -67,11 +69,10 @@ impl Options {
             complain(&"interrupted: these are the bounds so far");
         }
         print(&shown(&table))?;
-        if let Some(file) = &self.certificate {
-            let json = serde_json::to_string(&table).expect("a table has numbers and text");
-            write_whole(file, (json + "\n").as_bytes())?;
-        }
-        Ok(())
+        let Some((path, (draft, mut file))) = self.certificate.as_deref().zip(certificate) else { return Ok(()) };
+        let json = serde_json::to_string(&table).expect("a table has numbers and text");
+        file.write_all((json + "\n").as_bytes()).map_err(paracosm_campaign::Error::io("write", path))?;
+        Ok(draft.finish()?)
     }
 
     /// Finds the bounds for a number of points. The more points, the longer a proof takes, so a row may take half of the rest of the time.
@@ -85,6 +86,13 @@ impl Options {
         let next = table.next_points().filter(|next| value(next) < value(&start));
         least_dispersion(&next.unwrap_or(start), &table.levels(), deadline)
     }
+}
+
+/// Begins the file of a certificate. This comes before all slow work, so that no proof is lost because nothing can be written there.
+fn begun(file: &Path) -> Result<(Draft, File), Failure> {
+    is_ours_to_write("--certificate", file, &[])?;
+    has_folder("--certificate", file)?;
+    Ok(Draft::new(file)?)
 }
 
 /// Returns the table as text.
