@@ -14,6 +14,9 @@ use std::thread;
 /// The number of steps between two looks at the clock.
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
+/// The number of steps in which a row of a core falls easily.
+const EASY_STEPS: usize = 4096;
+
 /// The number of cells of all searches with a table together, four bytes each, unless a single search has more.
 const CELLS_AT_ONCE: usize = 12_000_000;
 
@@ -68,6 +71,7 @@ fn smaller(
     }
     let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
     let bits = rows.len() <= Bits::MOST_ROWS;
+    let most = rows.len();
     let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
     let all_cells: usize = cells.iter().map(Cells::len).sum();
     let tables = (CELLS_AT_ONCE / all_cells).max(1);
@@ -78,29 +82,26 @@ fn smaller(
     } else {
         Vec::new()
     };
+    let tenure = |chain: usize| [Tenure::Growing, Tenure::Short][chain % 2];
     let rows_search = |chain: usize| {
         let seed = mix(task.seed ^ mix(chain as u64));
-        let tenure = [Tenure::Growing, Tenure::Short][chain % 2];
         if bits {
-            best.search_rows::<Bits>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure));
+            best.search_rows::<Bits>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure(chain)));
         } else {
-            best.search_rows::<Table>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure));
+            best.search_rows::<Table>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure(chain)));
         }
     };
-    let halves = Halves::of(task).filter(|_| kept == 0);
+    let halves = Halves::of(task, most).filter(|_| kept == 0);
     let core_search = |chain: usize, halves: &Halves| {
-        let seed = mix(task.seed ^ mix(chain as u64));
-        best.search_core(halves, |rows, turn| {
-            Annealing::new(&task.rules, vec![halves.cells()], rows, 0, mix(seed ^ turn))
-        });
+        best.search_core(&task.rules, halves, mix(task.seed ^ mix(chain as u64)), tenure(chain));
     };
     // Uses separate threads, so that the searches share the time on a single core, too.
     thread::scope(|scope| {
         let (rows_search, core_search) = (&rows_search, &core_search);
         for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(chains.min(2)) {
-            // Every second search is for the core, if the rest follows from the core.
+            // If the rest follows from the core, all searches but the first of many are for the core.
             match &halves {
-                Some(halves) if chain % 2 == 1 => scope.spawn(move || core_search(chain, halves)),
+                Some(halves) if chain > 0 || chains <= 2 => scope.spawn(move || core_search(chain, halves)),
                 _ => scope.spawn(move || rows_search(chain)),
             };
         }
@@ -166,26 +167,62 @@ impl Best<'_> {
         }
     }
 
-    /// Searches for a core with fewer rows than the best array that can be completed. A core that cannot be completed is left, and another
-    /// search begins.
-    fn search_core(&self, halves: &Halves, start: impl Fn(&[Vec<usize>], u64) -> Annealing) {
-        let mut turn = 0;
+    /// Searches for a core with fewer rows than the best array, and adds the other columns. Where a column cannot be added to a core with one row
+    /// less, the search goes on with this column in the core.
+    fn search_core(&self, rules: &Rules, halves: &Halves, seed: u64, tenure: Tenure) {
+        let mut chances = (0..).map(|turn| mix(seed ^ turn));
         while self.wanted() {
-            turn += 1;
             let best = self.rows.lock().expect("no search panics").clone();
-            let mut search = start(&best, turn);
-            while search.len() >= best.len() {
-                if !search.drop_row() {
-                    return;
+            let ended = || !self.wanted() || self.len() < best.len();
+            let start = |rows: &[Vec<usize>], known, seed| -> Option<Annealing> {
+                Some(Annealing::new(rules, vec![halves.cells(known)?], rows, 0, seed).with_tenure(tenure))
+            };
+            let Some(mut search) = start(&best, 0, chances.next().unwrap_or(seed)) else { return };
+            if !search.drop_row() {
+                return;
+            }
+            let mut known = 0;
+            while !ended() {
+                if search.missing() > 0 {
+                    search.steps(STEPS_BETWEEN_LOOKS);
+                    continue;
                 }
-            }
-            while self.wanted() && search.len() < self.len() && search.missing() > 0 {
-                search.steps(STEPS_BETWEEN_LOOKS);
-            }
-            if search.missing() == 0 && search.len() < self.len() {
-                halves.complete(search.rows()).into_iter().for_each(|rows| self.offer(rows));
+                let mut rows = search.rows();
+                if known == 0 {
+                    let fewer = self.fewer_rows(&mut search);
+                    if let Some(mut fewer) = fewer
+                        && halves.fill(&mut fewer, 0, &ended) == halves.free()
+                    {
+                        self.offer(fewer);
+                        break;
+                    }
+                }
+                known = halves.fill(&mut rows, known, &ended);
+                if known == halves.free() {
+                    self.offer(rows);
+                    break;
+                }
+                known += 1;
+                // The best array shows which combinations are valid.
+                let next = start(&[&rows[..], &best].concat(), known, chances.next().unwrap_or(seed));
+                let Some(next) = next else { return };
+                search = next;
+                search.keep_first(rows.len());
             }
         }
+    }
+
+    /// Drops the rows of a complete core that fall easily. Returns the rows that are left; `None` if no row falls.
+    fn fewer_rows(&self, search: &mut Annealing) -> Option<Vec<Vec<usize>>> {
+        let mut fewer = None;
+        while search.len() > self.goal && search.drop_row() {
+            search.steps(EASY_STEPS);
+            if search.missing() > 0 {
+                break;
+            }
+            fewer = Some(search.rows());
+        }
+        fewer
     }
 
     /// Searches for symmetric arrays in turns.
@@ -228,10 +265,10 @@ mod tests {
         let request = CoveringRequest::new(&rules, 2);
         let CoveringArray { rows, .. } = covering_array(&request).unwrap();
         let (tasks, _) = Task::all(&request);
-        let halves = Halves::of(&tasks[0]).unwrap();
+        let halves = Halves::of(&tasks[0], rows.len()).unwrap();
         let (goal, deadline) = (rows.len() - 1, Deadline::after(Duration::from_secs(60)));
         let best = Best { rows: Mutex::new(rows), goal, deadline, progress: &|_| () };
-        best.search_core(&halves, |rows, turn| Annealing::new(&rules, vec![halves.cells()], rows, 0, turn));
+        best.search_core(&rules, &halves, 0, Tenure::Growing);
         let rows = best.rows.into_inner().unwrap();
         let coverage = kwise_coverage(&rules, 2, rows.iter().map(Vec::as_slice)).unwrap();
         assert_eq!((rows.len(), coverage.covered, coverage.invalid.len()), (goal, coverage.valid, 0));

@@ -132,6 +132,18 @@ impl<T: Tally> Annealing<T> {
     pub(crate) fn drop_row(&mut self) -> bool {
         let place = (0..self.active.len()).min_by_key(|&place| self.tally.alone().in_all(self.active[place]));
         let Some(place) = place else { return false };
+        self.drop_at(place);
+        true
+    }
+
+    /// Removes all rows after the first `rows`. It must be called before any other row is dropped.
+    pub(crate) fn keep_first(&mut self, rows: usize) {
+        while self.len() > rows {
+            self.drop_at(self.active.len() - 1);
+        }
+    }
+
+    fn drop_at(&mut self, place: usize) {
         let index = self.active.swap_remove(place);
         let Self { families, having, rows, tally, .. } = self;
         let row = &rows[index];
@@ -140,7 +152,6 @@ impl<T: Tally> Annealing<T> {
         row.iter().enumerate().for_each(|(parameter, &level)| having.flip(index, parameter, level));
         self.fewest = self.missing();
         self.progressed = self.step;
-        true
     }
 
     /// Gives entries of a row other levels.
