@@ -132,7 +132,7 @@ impl<'a> Halves<'a> {
     }
 }
 
-/// The combinations of k - 1 levels of some columns, each of which another column has to divide.
+/// The combinations of k - 1 levels of some columns. A further column has to divide each of these combinations.
 struct Divided {
     strength: usize,
     /// The rows of each level of each column.

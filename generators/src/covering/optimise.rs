@@ -71,7 +71,7 @@ fn smaller(
     }
     let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
     let bits = rows.len() <= Bits::MOST_ROWS;
-    let most = rows.len();
+    let halves = Halves::of(task, rows.len()).filter(|_| kept == 0);
     let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
     let all_cells: usize = cells.iter().map(Cells::len).sum();
     let tables = (CELLS_AT_ONCE / all_cells).max(1);
@@ -91,9 +91,11 @@ fn smaller(
             best.search_rows::<Table>(|rows| search(&task.rules, &cells, rows, kept, seed, tenure(chain)));
         }
     };
-    let halves = Halves::of(task, most).filter(|_| kept == 0);
     let core_search = |chain: usize, halves: &Halves| {
-        best.search_core(&task.rules, halves, mix(task.seed ^ mix(chain as u64)), tenure(chain));
+        let seed = mix(task.seed ^ mix(chain as u64));
+        best.search_core(halves, CELLS_AT_ONCE / chains, |cells, rows, turn| {
+            Annealing::new(&task.rules, vec![cells], rows, 0, mix(seed ^ turn)).with_tenure(tenure(chain))
+        });
     };
     // Uses separate threads, so that the searches share the time on a single core, too.
     thread::scope(|scope| {
@@ -101,7 +103,11 @@ fn smaller(
         for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(chains.min(2)) {
             // If the rest follows from the core, all searches but the first of many are for the core.
             match &halves {
-                Some(halves) if chain > 0 || chains <= 2 => scope.spawn(move || core_search(chain, halves)),
+                Some(halves) if chain > 0 || chains <= 2 => scope.spawn(move || {
+                    core_search(chain, halves);
+                    // The core has become too large, or the search is over.
+                    rows_search(chain);
+                }),
                 _ => scope.spawn(move || rows_search(chain)),
             };
         }
@@ -168,19 +174,19 @@ impl Best<'_> {
     }
 
     /// Searches for a core with fewer rows than the best array, and adds the other columns. Where a column cannot be added to a core with one row
-    /// less, the search goes on with this column in the core.
-    fn search_core(&self, rules: &Rules, halves: &Halves, seed: u64, tenure: Tenure) {
-        let mut chances = (0..).map(|turn| mix(seed ^ turn));
+    /// less, the search goes on with this column in the core. Returns early if the core then has more than `most` cells. `start` begins the search
+    /// of a turn from rows that show which combinations are valid.
+    fn search_core(&self, halves: &Halves, most: usize, start: impl Fn(Cells, &[Vec<usize>], u64) -> Annealing) {
+        let mut turns = 0..;
+        let mut start = |known: usize, rows: &[Vec<usize>]| {
+            let cells = halves.cells(known).filter(|cells| cells.len() <= most)?;
+            Some(start(cells, rows, turns.next()?))
+        };
         while self.wanted() {
             let best = self.rows.lock().expect("no search panics").clone();
             let ended = || !self.wanted() || self.len() < best.len();
-            let start = |rows: &[Vec<usize>], known, seed| -> Option<Annealing> {
-                Some(Annealing::new(rules, vec![halves.cells(known)?], rows, 0, seed).with_tenure(tenure))
-            };
-            let Some(mut search) = start(&best, 0, chances.next().unwrap_or(seed)) else { return };
-            if !search.drop_row() {
-                return;
-            }
+            let Some(mut search) = start(0, &best).filter(|search| search.len() > 0) else { return };
+            search.drop_row();
             let mut known = 0;
             while !ended() {
                 if search.missing() > 0 {
@@ -188,24 +194,23 @@ impl Best<'_> {
                     continue;
                 }
                 let mut rows = search.rows();
-                if known == 0 {
-                    let fewer = self.fewer_rows(&mut search);
-                    if let Some(mut fewer) = fewer
-                        && halves.fill(&mut fewer, 0, &ended) == halves.free()
-                    {
-                        self.offer(fewer);
-                        break;
-                    }
+                if known == 0
+                    && let Some(mut fewer) = self.fewer_rows(&mut search)
+                    && halves.fill(&mut fewer, 0, &ended) == halves.free()
+                {
+                    self.offer(fewer);
+                    break;
                 }
                 known = halves.fill(&mut rows, known, &ended);
                 if known == halves.free() {
                     self.offer(rows);
                     break;
                 }
+                if ended() {
+                    break;
+                }
                 known += 1;
-                // The best array shows which combinations are valid.
-                let next = start(&[&rows[..], &best].concat(), known, chances.next().unwrap_or(seed));
-                let Some(next) = next else { return };
+                let Some(next) = start(known, &[&rows[..], &best].concat()) else { return };
                 search = next;
                 search.keep_first(rows.len());
             }
@@ -268,7 +273,7 @@ mod tests {
         let halves = Halves::of(&tasks[0], rows.len()).unwrap();
         let (goal, deadline) = (rows.len() - 1, Deadline::after(Duration::from_secs(60)));
         let best = Best { rows: Mutex::new(rows), goal, deadline, progress: &|_| () };
-        best.search_core(&rules, &halves, 0, Tenure::Growing);
+        best.search_core(&halves, usize::MAX, |cells, rows, turn| Annealing::new(&rules, vec![cells], rows, 0, turn));
         let rows = best.rows.into_inner().unwrap();
         let coverage = kwise_coverage(&rules, 2, rows.iter().map(Vec::as_slice)).unwrap();
         assert_eq!((rows.len(), coverage.covered, coverage.invalid.len()), (goal, coverage.valid, 0));
